@@ -11,7 +11,7 @@ import mujoco
 import numpy as np
 
 from ..geometry import Array
-from ..numerics.linear import product
+from ..numerics.jit import njit
 from ..world import BodyMotion
 from .poses import Poses
 
@@ -32,6 +32,7 @@ class LinkMotion:
         self._model, self._data, self._poses = model, data, poses
         self._jacobians = np.zeros((4, 3, model.nv))  # of place and turn, and their rates
         self._own: mujoco.MjData | None = None
+        self._of: tuple[bytes, bytes] | None = None  # places and velocities of that
 
     def of(self, index: int, link: str, point: Array) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on the link of a vehicle."""
@@ -39,19 +40,41 @@ class LinkMotion:
         place, turn, place_rate, turn_rate = self._jacobians
         mujoco.mj_jac(model, own, place, turn, point, body)
         mujoco.mj_jacDot(model, own, place_rate, turn_rate, point, body)
-        speeds = self._data.qvel
-        acceleration = product(place, self._data.qacc) + product(place_rate, speeds)
-        return BodyMotion(product(place, speeds), product(turn, speeds), acceleration)
+        found = np.empty((3, 3))
+        _multiply(self._jacobians, self._data.qvel, self._data.qacc, found)
+        return BodyMotion(*found)
 
     def _moved(self) -> mujoco.MjData:
         """Places and velocities of all links as they are now."""
         data, own = self._data, self._own
+        now = data.qpos.tobytes(), data.qvel.tobytes()
         if own is None:
             own = self._own = mujoco.MjData(self._model)
-        elif np.array_equal(own.qpos, data.qpos) and np.array_equal(own.qvel, data.qvel):
+        elif now == self._of:
             return own
+        self._of = now
         own.qpos[:], own.qvel[:] = data.qpos, data.qvel
         mujoco.mj_kinematics(self._model, own)
         mujoco.mj_comPos(self._model, own)
         mujoco.mj_comVel(self._model, own)
         return own
+
+
+@njit
+def _multiply(jacobians: Array, speeds: Array, rates: Array, found: Array) -> None:
+    """Velocity, angular velocity and acceleration of a point, into (3, 3), by rows.
+
+    Args:
+        jacobians: of place and turn, and their rates, (4, 3, n).
+        speeds: of the joints, (n,).
+        rates: of these speeds, (n,).
+        found: into which they are written.
+    """
+    for i in range(3):
+        velocity, turn, pushed, carried = 0.0, 0.0, 0.0, 0.0
+        for k in range(len(speeds)):
+            velocity += jacobians[0, i, k] * speeds[k]
+            turn += jacobians[1, i, k] * speeds[k]
+            pushed += jacobians[0, i, k] * rates[k]
+            carried += jacobians[2, i, k] * speeds[k]
+        found[0, i], found[1, i], found[2, i] = velocity, turn, pushed + carried

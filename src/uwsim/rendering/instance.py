@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ..errors import UnknownName
 from ..geometry import Array, Intrinsics, Pose
 from ..numerics.linear import determinants, inverse, product
+from . import bounds
 from .gpu_model import Batch
 from .minification import needs_no_copies
 from .program import Block
@@ -155,8 +156,8 @@ class Instances:
         ]
         self._owners = np.array([row for row, _ in self._drawn], dtype=np.intp)
         batches = [batch for _, batch in self._drawn]
-        self._own_centres = np.array([batch.centre for batch in batches]).reshape(-1, 3)
-        self._own_radii = np.array([batch.radius for batch in batches])
+        spheres = [[*batch.centre, batch.radius] for batch in batches]
+        self._own_spheres = np.array(spheres, dtype=np.float64).reshape(-1, 4)
         self._own_corners = np.array([batch.corners for batch in batches]).reshape(-1, 8, 3)
         self._own_normals = np.array([batch.normal for batch in batches]).reshape(-1, 3)
         self._is_opaque = np.array([batch.opacity >= 1.0 for batch in batches], dtype=bool)
@@ -170,31 +171,23 @@ class Instances:
         self._followed = self.version
         if not self._is_known:
             self._stand()
-        linear, origin = self.world_from_model[:, :3, :3], self.world_from_model[:, :3, 3]
-        self._normals: Array = inverse(linear).transpose(0, 2, 1)
+        linear = self.world_from_model[:, :3, :3]
+        self._normals: Array = np.ascontiguousarray(inverse(linear).transpose(0, 2, 1))
         self._is_mirrored: list[bool] = (determinants(linear) < 0.0).tolist()
-        # The largest row sum of A'A bounds the square of the largest stretch; exact without shear.
-        squares = np.abs(product(linear.transpose(0, 2, 1), linear)).sum(axis=2).max(axis=1)
-        stretch = np.sqrt(squares)[self._owners].astype(np.float64)
-        turn, shift = linear[self._owners].transpose(0, 2, 1), origin[self._owners]
-        centres = product(self._own_centres[:, None], turn)[:, 0] + shift
-        radii = self._own_radii * stretch
-        self._spheres: Array = np.column_stack([centres, radii])
-        self._corners: Array = product(self._own_corners, turn) + shift[:, None]
-        facing = self._normals[self._owners].transpose(0, 2, 1)
-        turned = product(self._own_normals[:, None], facing)[:, 0]
-        sizes = np.linalg.norm(turned, axis=1, keepdims=True)
-        self._flat_normals: Array = np.divide(turned, sizes, out=turned, where=sizes > 0.0)
-        # As above, the normals' matrix bounds how much a model shrinks, and its texels crowd.
-        crowding = (
-            np.abs(product(self._normals.transpose(0, 2, 1), self._normals)).sum(axis=2).max(axis=1)
-        )
-        self._densities: Array = self._own_densities * np.sqrt(crowding)[self._owners]
-        high = np.full((len(self.ids), 3), -np.inf)
-        low = np.full((len(self.ids), 3), np.inf)
-        np.maximum.at(high, self._owners, centres + radii[:, None])
-        np.minimum.at(low, self._owners, centres - radii[:, None])
-        self._radii: Array = (high - low).max(axis=1, initial=-np.inf) / 2.0
+        n, m = len(self.ids), len(self._owners)
+        world_from_model, owners = self.world_from_model, self._owners
+        stretch, crowding = np.empty(n), np.empty(n)
+        bounds.stretches(np.ascontiguousarray(linear), stretch)
+        # The normals' matrix bounds how much a model shrinks, and its texels crowd.
+        bounds.stretches(self._normals, crowding)
+        self._densities: Array = self._own_densities * crowding[owners]
+        self._spheres, self._corners = np.empty((m, 4)), np.empty((m, 8, 3))
+        bounds.carry(world_from_model, stretch, owners, self._own_spheres, self._spheres)
+        bounds.carry_corners(world_from_model, owners, self._own_corners, self._corners)
+        self._flat_normals = np.empty((m, 3))
+        bounds.carry_normals(self._normals, owners, self._own_normals, self._flat_normals)
+        self._radii = np.empty(n)
+        bounds.half_extents(owners, self._spheres, self._radii)
 
 
 class Slots:
@@ -255,16 +248,16 @@ def in_view(
     numbers = instances.owned(rows)
     if not len(numbers):
         return []
-    spheres = instances.spheres[numbers]
-    centres = product(spheres[:, :3] - world_from_camera.position, world_from_camera.rotation)
-    beyond = product(centres, planes[:, :3].T) + planes[:, 3] + spheres[:, 3:]  # (n, 6) [m]
-    near = np.flatnonzero(np.all(beyond > 0.0, axis=1))
-    numbers, spheres, centres = numbers[near], spheres[near], centres[near]
-    corners = instances.corners[numbers]
-    points = product(corners - world_from_camera.position, world_from_camera.rotation)
-    inside = product(points, planes[:, :3].T) + planes[:, 3] > 0.0  # (n, 8, 6)
-    visible = np.all(np.any(inside, axis=1), axis=1)
-    nearness = np.linalg.norm(centres, axis=1) + spheres[:, 3]
-    order = np.argsort(nearness, kind="stable")
-    seen: list[int] = numbers[order[visible[order]]].tolist()
+    nearness = np.empty(len(numbers))
+    bounds.look(
+        numbers,
+        instances.spheres,
+        instances.corners,
+        world_from_camera.position,
+        np.ascontiguousarray(world_from_camera.rotation),
+        np.ascontiguousarray(planes),
+        nearness,
+    )
+    order = np.argsort(nearness, kind="stable")[: np.count_nonzero(nearness < np.inf)]
+    seen: list[int] = numbers[order].tolist()
     return seen

@@ -13,11 +13,13 @@ from :math:`X = t\,(x, y, -1)` with :math:`x = (u - c_x)/f`, :math:`t = d / (n \
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
 from ..geometry import Array, Intrinsics, Pose
-from ..numerics.linear import product
+from ..numerics.jit import njit
 
 MAX_TEXELS = 2.0**0.5
 """A pixel may cover so many, along its longer side: half a level of the smaller copies."""
@@ -39,17 +41,44 @@ def needs_no_copies(
         world_from_camera: where the camera is; OpenGL axes.
         intrinsics: its pinhole.
     """
-    points = product(corners - world_from_camera.position, world_from_camera.rotation)
-    facing = product(normals, world_from_camera.rotation)  # (m, 3), camera frame
-    depths = -points[:, :, 2]
-    away = np.abs(np.einsum("mi,mki->mk", facing, points)).min(axis=1)  # from the plane [m]
-    farthest = np.sqrt(np.square(points).sum(axis=2).max(axis=1))
-    leaning = np.hypot(facing[:, 0], facing[:, 1])
     focal = min(intrinsics.fx, intrinsics.fy)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        footprint = depths.max(axis=1) / focal * (1.0 + leaning * farthest / away)  # [m]
-        is_small = densities * footprint <= MAX_TEXELS
-    is_flat = np.square(normals).sum(axis=1) > 0.0
-    is_ahead = depths.min(axis=1) > 0.0
-    chosen: npt.NDArray[np.bool_] = is_small & is_flat & is_ahead & (densities > 0.0)
+    place, turn = world_from_camera.position, np.ascontiguousarray(world_from_camera.rotation)
+    chosen = np.empty(len(densities), dtype=bool)
+    _choose(densities, normals, corners, place, turn, focal, chosen)
     return chosen
+
+
+@njit
+def _choose(
+    densities: Array,
+    normals: Array,
+    corners: Array,
+    place: Array,
+    turn: Array,
+    focal: float,
+    chosen: npt.NDArray[np.bool_],
+) -> None:
+    """Do as `needs_no_copies`, into ``chosen``; the camera is at ``place`` with axes ``turn``."""
+    facing, point = np.empty(3), np.empty(3)
+    for m in range(len(densities)):
+        for k in range(3):
+            facing[k] = 0.0
+            for j in range(3):
+                facing[k] += normals[m, j] * turn[j, k]
+        away, farthest, least, most = np.inf, 0.0, np.inf, -np.inf  # from plane, camera; depths [m]
+        for c in range(8):
+            for k in range(3):
+                point[k] = 0.0
+                for j in range(3):
+                    point[k] += (corners[m, c, j] - place[j]) * turn[j, k]
+            above = facing[0] * point[0] + facing[1] * point[1] + facing[2] * point[2]
+            away = min(away, abs(above))
+            squares = point[0] * point[0] + point[1] * point[1] + point[2] * point[2]
+            farthest = max(farthest, math.sqrt(squares))
+            least, most = min(least, -point[2]), max(most, -point[2])
+        is_flat = normals[m, 0] != 0.0 or normals[m, 1] != 0.0 or normals[m, 2] != 0.0
+        chosen[m] = False
+        if is_flat and least > 0.0 and densities[m] > 0.0 and away > 0.0:
+            leaning = math.hypot(facing[0], facing[1])
+            footprint = most / focal * (1.0 + leaning * farthest / away)  # [m]
+            chosen[m] = densities[m] * footprint <= MAX_TEXELS

@@ -68,9 +68,9 @@ class Drift:
 
     def __init__(self, spec: DriftSpec, random: np.random.Generator) -> None:
         self._spec, self._random = spec, random
-        self._constant = spec.turn_on_bias * random.standard_normal(3)
-        self._bias = spec.bias_std * random.standard_normal(3)
-        self._walk = np.zeros(3)
+        self._constant: list[float] = (spec.turn_on_bias * random.standard_normal(3)).tolist()
+        self._bias: list[float] = (spec.bias_std * random.standard_normal(3)).tolist()
+        self._walk = [0.0, 0.0, 0.0]
         self._time: float | None = None
 
     def sample(self, time: float) -> tuple[Array, float]:
@@ -78,11 +78,15 @@ class Drift:
         spec = self._spec
         lasted = 0.0 if self._time is None else time - self._time
         self._time = time
-        white, wander, walk = self._random.standard_normal((3, 3))
-        kept = math.exp(-lasted / spec.correlation_time)
-        self._bias = kept * self._bias + spec.bias_std * math.sqrt(1.0 - kept * kept) * wander
-        self._walk = self._walk + spec.random_walk * math.sqrt(lasted) * walk
+        draws = self._random.standard_normal((3, 3)).tolist()
+        bias_std, kept = spec.bias_std, math.exp(-lasted / spec.correlation_time)
+        wander, walk = bias_std * math.sqrt(1.0 - kept * kept), spec.random_walk * math.sqrt(lasted)
         variance = spec.noise_density**2 / (lasted or FIRST)
-        slow = spec.turn_on_bias**2 + spec.bias_std**2 + spec.random_walk**2 * time
-        error = math.sqrt(variance) * white + self._constant + self._bias + self._walk
+        slow = spec.turn_on_bias**2 + bias_std**2 + spec.random_walk**2 * time
+        std = math.sqrt(variance)
+        # Plain floats: three numbers at every sample are dearer as arrays.
+        self._bias = [kept * b + wander * n for b, n in zip(self._bias, draws[1], strict=True)]
+        self._walk = [w + walk * n for w, n in zip(self._walk, draws[2], strict=True)]
+        axes = zip(draws[0], self._constant, self._bias, self._walk, strict=True)
+        error = np.array([std * white + c + bias + walked for white, c, bias, walked in axes])
         return error, variance + slow

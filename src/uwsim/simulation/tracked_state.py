@@ -43,7 +43,7 @@ class TrackedState:
             if index in state.actuation:
                 signals += state.actuation[index].commands().tolist()
         signals += [float(lamp.is_on) for lamp in self._lamps]
-        return np.array([*rows.reshape(-1), *signals])
+        return np.concatenate([rows.reshape(-1), signals])
 
     def _water_at(self, place: Array, vehicle: str) -> Array:
         """Velocity of the water at a vehicle in W, (3,) [m/s]."""

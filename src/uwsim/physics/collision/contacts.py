@@ -46,8 +46,14 @@ class EngineContacts:
         owners = [owner_of(model.geom(i).name) for i in range(model.ngeom)]
         self._owners = np.array(owners)
         self._names = [name_of(scene, owner) for owner in owners]
-        self._numbers = {owner: i for i, owner in enumerate(sorted(set(owners)))}
-        self._owner_numbers = np.array([self._numbers[owner] for owner in owners], np.int64)
+        numbers = {owner: i for i, owner in enumerate(sorted(set(owners)))}
+        self._owner_numbers = np.array([numbers[owner] for owner in owners], np.int64)
+        self._numbers = {
+            (kind, index): numbers[f"{kind}/{index}"]
+            for kind, things in (("vehicle", scene.vehicles), ("object", scene.objects))
+            for index in range(len(things))
+            if f"{kind}/{index}" in numbers
+        }
         self._labels = sorted(set(self._names))
         labels = {name: i for i, name in enumerate(self._labels)}
         self._name_numbers = np.array([labels[name] for name in self._names], np.int64)
@@ -69,19 +75,23 @@ class EngineContacts:
         found: dict[str, Array] = {}
         if not self.hold or self._data.ncon == 0:
             return found
-        owner, contacts = f"{kind}/{index}", self._data.contact
-        if owner not in self._numbers:
+        owner, contacts = self._numbers.get((kind, index)), self._data.contact
+        if owner is None:
             return found
-        labels, forces = _summed_forces(
-            contacts.geom,
+        geoms = contacts.geom
+        labels, forces = np.empty(len(geoms), np.int64), np.empty((len(geoms), 3))
+        n = _sum_forces(
+            geoms,
             contacts.efc_address,
             contacts.frame,
             self._data.efc_force,
             self._owner_numbers,
             self._name_numbers,
-            self._numbers[owner],
+            owner,
+            labels,
+            forces,
         )
-        for label, force in zip(labels.tolist(), forces, strict=True):
+        for label, force in zip(labels[:n].tolist(), forces, strict=False):
             found[self._labels[label]] = force
         return found
 
@@ -108,7 +118,7 @@ class EngineContacts:
 
 
 @njit
-def _summed_forces(
+def _sum_forces(
     geoms: npt.NDArray[np.int32],
     addresses: npt.NDArray[np.int32],
     frames: Array,
@@ -116,8 +126,10 @@ def _summed_forces(
     owners: Numbers,
     names: Numbers,
     own: int,
-) -> tuple[Numbers, Array]:
-    """Numbers of the names of what touches an owner, (k,), and its forces on it in W, (k, 3) [N].
+    labels: Numbers,
+    forces: Array,
+) -> int:
+    """Add up the forces on an owner by the names of what touches it; how many names there are.
 
     Args:
         geoms: both shapes of each contact, (n, 2).
@@ -127,8 +139,9 @@ def _summed_forces(
         owners: number of the owner of each shape.
         names: number of the name of each shape's owner.
         own: number of the owner.
+        labels: into which the numbers of the names are written, (n,).
+        forces: into which their forces on it are written, in W, (n, 3) [N].
     """
-    labels, forces = np.empty(len(geoms), np.int64), np.empty((len(geoms), 3))
     n = 0
     for i in range(len(geoms)):
         is_first = owners[geoms[i, 0]] == own
@@ -149,7 +162,7 @@ def _summed_forces(
         if place == n:
             labels[n] = label
             n += 1
-    return labels[:n], forces[:n]
+    return n
 
 
 def owner_of(name: str) -> str:

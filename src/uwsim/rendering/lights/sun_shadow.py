@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...geometry import Array, Pose
+from ...numerics.jit import njit
 from ...numerics.linear import cross, length, product, solve
 from ..instance import INSTANCE, Instances, Slots
 from ..program import build
@@ -119,19 +120,81 @@ def reached(
         world_from_camera: Where the camera is.
         clip_from_camera: Its projection, (4, 4).
     """
-    frame = _along(sun)
-    boxes = instances.corners[list(seen)]  # (n, 8, 3) [m]
-    depths = product(world_from_camera.position - boxes, world_from_camera.rotation[:, 2])  # (n, 8)
-    ends = np.stack([depths.min(axis=1), depths.max(axis=1)], axis=1).clip(min=0.0)  # (n, 2)
     rays = product(_corner_rays(clip_from_camera), world_from_camera.rotation.T)  # (4, 3), 1 m deep
-    slices = world_from_camera.position + ends[:, :, None, None] * rays  # (n, 2, 4, 3)
-    low, high = _bounds(boxes, frame)
-    near, far = _bounds(slices.reshape(-1, 8, 3), frame)
-    low, high = np.maximum(low, near)[:, None], np.minimum(high, far)[:, None]  # (n, 1, 3)
-    least, most = _bounds(instances.corners[list(casters)], frame)  # (k, 3)
-    over = (least[:, :2] <= high[..., :2] + MARGIN) & (most[:, :2] >= low[..., :2] - MARGIN)
-    may: npt.NDArray[np.bool_] = np.all(over, axis=2) & (most[:, 2] >= low[..., 2] - MARGIN)
+    may = np.empty((len(seen), len(casters)), dtype=bool)
+    _reach(
+        instances.corners,
+        np.array(casters, dtype=np.intp),
+        np.array(seen, dtype=np.intp),
+        _along(sun),
+        rays,
+        world_from_camera.position,
+        np.ascontiguousarray(world_from_camera.rotation[:, 2]),
+        may,
+    )
     return may
+
+
+@njit
+def _reach(
+    corners: Array,
+    casters: npt.NDArray[np.intp],
+    seen: npt.NDArray[np.intp],
+    frame: Array,
+    rays: Array,
+    place: Array,
+    back: Array,
+    may: npt.NDArray[np.bool_],
+) -> None:
+    """Do as `reached`, into ``may``.
+
+    Args:
+        corners: of the boxes of all batches in W, (m, 8, 3) [m].
+        casters: which cast shadows, (k,).
+        seen: which are in view, (n,).
+        frame: coordinates as the sun sees them, (3, 3).
+        rays: towards the corners of the image, 1 m deep, in W, (4, 3).
+        place: of the camera in W, (3,) [m].
+        back: its z axis in W, (3,).
+        may: into which it is written, (n, k).
+    """
+    slices = np.empty((8, 3))
+    boxes, slice_box = np.empty((len(casters), 2, 3)), np.empty((2, 3))
+    for k in range(len(casters)):
+        _bound(corners[casters[k]], frame, boxes[k])
+    box = np.empty((2, 3))
+    for n in range(len(seen)):
+        points = corners[seen[n]]
+        least, most = np.inf, -np.inf
+        for c in range(8):
+            depth = 0.0
+            for j in range(3):
+                depth += (place[j] - points[c, j]) * back[j]
+            least, most = min(least, depth), max(most, depth)
+        for c in range(4):
+            for j in range(3):
+                slices[c, j] = place[j] + max(0.0, least) * rays[c, j]
+                slices[4 + c, j] = place[j] + max(0.0, most) * rays[c, j]
+        _bound(points, frame, box)
+        _bound(slices, frame, slice_box)
+        for k in range(len(casters)):
+            may[n, k] = boxes[k, 1, 2] >= max(box[0, 2], slice_box[0, 2]) - MARGIN
+            for j in range(2):
+                low, high = max(box[0, j], slice_box[0, j]), min(box[1, j], slice_box[1, j])
+                over = boxes[k, 0, j] <= high + MARGIN and boxes[k, 1, j] >= low - MARGIN
+                may[n, k] = may[n, k] and over
+
+
+@njit
+def _bound(points: Array, frame: Array, found: Array) -> None:
+    """Least and greatest coordinates of points (k, 3) in another frame, into (2, 3)."""
+    found[0], found[1] = np.inf, -np.inf
+    for i in range(len(points)):
+        for k in range(3):
+            total = 0.0
+            for j in range(3):
+                total += points[i, j] * frame[k, j]
+            found[0, k], found[1, k] = min(found[0, k], total), max(found[1, k], total)
 
 
 def _along(sun: Array) -> Array:
@@ -143,12 +206,6 @@ def _along(sun: Array) -> Array:
     if sun[2] < LOW_SUN:
         return np.stack([*_axes(sun), sun])
     return np.array([[1.0, 0.0, -sun[0] / sun[2]], [0.0, 1.0, -sun[1] / sun[2]], sun])
-
-
-def _bounds(points: Array, frame: Array) -> tuple[Array, Array]:
-    """Least and greatest coordinates of (n, k, 3) in another frame, (n, 3) each."""
-    turned = product(points, frame.T)
-    return turned.min(axis=1), turned.max(axis=1)
 
 
 def _corner_rays(clip_from_camera: Array) -> Array:

@@ -19,6 +19,8 @@ from .triggered_measure import TriggeredMeasure
 
 CORNERS = 8
 """Numbers of a quadrangle in an image."""
+BATCH = 300
+"""Rows that are quantised at once."""
 PIXEL = 0.5
 """Resolution of what is seen in images [px]."""
 
@@ -38,7 +40,9 @@ class MotionRecorder:
         self._compared: dict[str, EuclideanNorm] = {}  # camera -> the measure of this level
         self._signals = (*self._state.signals, *_corner_signals(self._seen))
         self._steps = steps_of(len(self._state.bodies), self._signals)
-        self._rows: list[Table] = []  # quantised
+        self._tables: list[Table] = []  # quantised
+        self._rows: list[Array] = []  # the newest, not yet quantised
+        self._n_rows = 0
         self._levels: list[TrackLevel] = []
         self._due = 0
         simulation.watch(self._look)
@@ -68,13 +72,23 @@ class MotionRecorder:
 
     def track(self) -> bytes:
         """Return the file of the track up to now."""
-        table = np.array(self._rows, dtype=np.int32).reshape(-1, len(self._steps))
+        self._pack()
+        table = np.concatenate(self._tables or [np.zeros((0, len(self._steps)), np.int32)])
         return track_bytes(self._state.bodies, self._signals, table, self._levels)
 
     def _look(self) -> None:
         while self._simulation.step >= self._due:
-            self._rows.append(quantised(self._row(), self._steps))
-            self._due = round(len(self._rows) / (RATE * self._simulation.timestep))
+            self._rows.append(self._row())
+            self._n_rows += 1
+            self._due = round(self._n_rows / (RATE * self._simulation.timestep))
+            if len(self._rows) == BATCH:
+                self._pack()
+
+    def _pack(self) -> None:
+        """Quantise the newest rows, many at once."""
+        if self._rows:
+            self._tables.append(quantised(np.array(self._rows), self._steps))
+            self._rows = []
 
     def _row(self) -> Array:
         corners = [self._corners(self._compared.get(camera)) for camera in self._seen]

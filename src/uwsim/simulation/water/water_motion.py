@@ -38,6 +38,9 @@ class WaterMotion:
         self._has_scene_current = bool(specs)
         self._flow: Flow = self._scene_current
         self._is_still = not specs
+        self._felt_by: Sequence[str] = ()  # the vehicle at each point of `during`
+        self._names: tuple[str, ...] = ()  # their names, each once
+        self._felt = np.zeros(0, np.int64)  # the number of its name, for each point
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
         for spec in specs:
@@ -91,14 +94,16 @@ class WaterMotion:
 
     def _everywhere(self, times: Sequence[float], vehicles: Sequence[str]) -> Array:
         """Return `during` of uniform water: a vehicle's points feel the same, asked for once."""
-        names = tuple(dict.fromkeys(vehicles))
-        flow, points = self._flow, np.zeros((len(names), 3))
+        if vehicles != self._felt_by:
+            names = tuple(dict.fromkeys(vehicles))
+            self._felt_by, self._names = tuple(vehicles), names
+            self._felt = np.array([names.index(name) for name in vehicles], dtype=np.int64)
+        flow, names, points = self._flow, self._names, np.zeros((len(self._names), 3))
         localized = np.empty((len(times), 2, len(names), 3))
         for row, time in zip(localized, times, strict=True):
             row[0] = flow.velocity(points, time, names)
             row[1] = flow.acceleration(points, time, names)
-        felt = np.array([names.index(name) for name in vehicles], dtype=np.int64)
-        return _spread(localized, felt, self._localized_from_world.rotation)
+        return _spread(localized, self._felt, self._localized_from_world.rotation)
 
     def at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
         r"""Return how the water moves, in W.
