@@ -154,6 +154,10 @@ class Flow(Protocol):
     def is_uniform(self) -> bool:
         """Whether it is the same at every point."""
 
+    @property
+    def is_still(self) -> bool:
+        """Whether it never moves at all."""
+
     def velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
     ) -> npt.NDArray[np.float64]:

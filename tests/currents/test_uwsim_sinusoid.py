@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 from scipy.special import jv
 
-from uwsim.currents import Current, LateCurrent, Place, UwsimSinusoidSpec
+from uwsim.currents import (
+    ConstantSpec,
+    Current,
+    LateCurrent,
+    Place,
+    TotalCurrent,
+    UwsimSinusoidSpec,
+)
 from uwsim.rng import stream
 
 ORIGIN = np.zeros((1, 3))
@@ -126,3 +133,15 @@ def test_a_late_current_is_still_until_it_begins() -> None:
     assert at(late, 11.998).tolist() == [0.0, 0.0, 0.0]
     assert late.acceleration(ORIGIN, 11.998).tolist() == [[0.0, 0.0, 0.0]]
     assert at(late, 12.0).tolist() == at(released().bind(place()), 2.0).tolist()
+
+
+def test_a_current_without_speed_is_still_water_and_one_that_changes_is_not() -> None:
+    none, some = (released(speed, theta=1.0).bind(place()) for speed in (0.0, 0.2))
+    late = LateCurrent(none, began=1.0, delay=2.0)
+    for still in (none, late, TotalCurrent([none, late])):
+        assert still.is_still
+    for moving in (some, TotalCurrent([none, some])):
+        assert not moving.is_still
+    assert not released(0.0, speed_variation=0.1).bind(place()).is_still
+    assert ConstantSpec(velocity=(0.0, 0.0, 0.0)).bind(place()).is_still
+    assert not ConstantSpec(velocity=(0.0, 0.0, -0.1)).bind(place()).is_still

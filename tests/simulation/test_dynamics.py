@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.currents import ConstantSpec, Place
+from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
 from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.physics.vehicle_file import read_vehicle
@@ -181,6 +181,7 @@ class Asked:
     """Still water that remembers where it was asked about."""
 
     is_uniform = False
+    is_still = False
 
     def __init__(self) -> None:
         self.points: list[list[float]] = []
@@ -207,3 +208,21 @@ def test_water_is_asked_only_where_it_acts() -> None:
     assert len(asked.points) == 8 * len(read_vehicle(vehicle_sets()["g500_physical"]).bodies)
     away = np.linalg.norm(np.array(asked.points) - vehicle.position, axis=1)
     assert away.max() < 2.0
+
+
+def test_water_that_never_moves_leaves_the_same_bytes_asked_or_not() -> None:
+    ends = []
+    for is_asked in (False, True):
+        simulation = make()
+        place = Place(stream=simulation.world.stream)
+        none = UwsimSinusoidSpec(speed=0.0, theta=1.0).bind(place)
+        simulation.world.set_current(Asked() if is_asked else none)
+        assert simulation.world.water.is_still != is_asked
+        wanted = Twist(linear=Vector3(x=0.3, y=0.1, z=0.0), angular=Vector3(x=0.0, y=0.0, z=0.2))
+        publish = simulation.bus.publisher("/dataNavigator", TwistStamped)
+        publish(TwistStamped(header=header(0.0), twist=wanted))
+        run(simulation, 0.2)
+        ends.append(np.zeros(simulation.motion.size))
+        simulation.motion.read(ends[-1])
+    assert np.array_equal(*ends)
+    assert np.linalg.norm(simulation.velocity("girona500")) > 0.01

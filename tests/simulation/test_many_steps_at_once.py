@@ -111,6 +111,7 @@ class Gyre:
     """Water that turns about the origin of L; counts at how many times it was asked."""
 
     is_uniform = False
+    is_still = False
 
     def __init__(self) -> None:
         self.times: set[float] = set()

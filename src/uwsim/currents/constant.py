@@ -42,6 +42,11 @@ class Constant(Current):
         """Whether it is the same everywhere."""
         return True
 
+    @property
+    def is_still(self) -> bool:
+        """Whether its velocity is zero."""
+        return not any(self._velocity)
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         return everywhere(points, *self._velocity)

@@ -71,6 +71,11 @@ class Current(abc.ABC):
         """Whether it is the same at every point."""
         return False
 
+    @property
+    def is_still(self) -> bool:
+        """Whether it never moves at all."""
+        return False
+
     @abc.abstractmethod
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L.

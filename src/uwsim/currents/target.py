@@ -22,6 +22,11 @@ class TargetCurrent(Current):
         """Whether the other one is."""
         return self._current.is_uniform
 
+    @property
+    def is_still(self) -> bool:
+        """Whether the other one is."""
+        return self._current.is_still
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         return self._own(self._current.velocity(points, time, vehicles), vehicles)

@@ -16,12 +16,17 @@ class TotalCurrent(Current):
     """The sum of several currents; of none, still water."""
 
     def __init__(self, currents: Sequence[Flow]) -> None:
-        self._currents = tuple(currents)
+        self._currents = tuple(current for current in currents if not current.is_still)
 
     @property
     def is_uniform(self) -> bool:
         """Whether all of them are the same everywhere."""
         return all(current.is_uniform for current in self._currents)
+
+    @property
+    def is_still(self) -> bool:
+        """Whether all of them are."""
+        return not self._currents
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""

@@ -95,6 +95,11 @@ class UwsimSinusoid(Current):
         """Whether it is the same everywhere."""
         return True
 
+    @property
+    def is_still(self) -> bool:
+        """Whether its speed is zero at all times."""
+        return self._spec.speed == self._spec.speed_variation == 0.0
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         return everywhere(points, *self._at(time)[0])
