@@ -149,8 +149,8 @@ class Pose:
     @property
     def matrix(self) -> Array:
         """Homogeneous matrix, (4, 4)."""
-        matrix = np.eye(4)
-        matrix[:3, :3], matrix[:3, 3] = self.rotation, self.position
+        matrix = np.zeros((4, 4))
+        matrix[:3, :3], matrix[:3, 3], matrix[3, 3] = self.rotation, self.position, 1.0
         return matrix
 
     def __matmul__(self, other: Pose) -> Pose:

@@ -168,6 +168,11 @@ class Flow(Protocol):
     ) -> npt.NDArray[np.float64]:
         """Return how fast that changes at a fixed point, (n, 3) [m/s2]."""
 
+    def motion(
+        self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
+    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
+        """Return both."""
+
 
 class World(Protocol):
     """The simulation as a measure or a trigger sees it."""

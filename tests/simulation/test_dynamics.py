@@ -194,6 +194,11 @@ class Asked:
 
     acceleration = velocity
 
+    def motion(
+        self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
+        return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
+
 
 def test_water_is_asked_only_where_it_acts() -> None:
     scene = read_scene(SCENE).nominal

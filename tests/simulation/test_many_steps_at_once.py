@@ -125,6 +125,11 @@ class Gyre:
     ) -> np.ndarray:
         return np.zeros_like(points)
 
+    def motion(
+        self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
+        return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
+
 
 def test_water_that_differs_from_place_to_place_is_asked_in_every_step() -> None:
     simulation, gyre = make(), Gyre()

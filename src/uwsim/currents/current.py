@@ -100,6 +100,12 @@ class Current(abc.ABC):
         change: Array = (later - earlier) / (time + DIFFERENCE - before)
         return change
 
+    def motion(
+        self, points: Array, time: float, vehicles: Sequence[str] = ()
+    ) -> tuple[Array, Array]:
+        """Return velocity and acceleration, which physics asks for at every step."""
+        return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
+
 
 def everywhere(points: Array, x: float, y: float, z: float) -> Array:
     """Return one vector for every point, (n, 3)."""

@@ -45,3 +45,12 @@ class LateCurrent(Current):
         if elapsed < self._delay:
             return np.zeros((len(points), 3))
         return self._current.acceleration(points, elapsed + self._offset, vehicles)
+
+    def motion(
+        self, points: Array, time: float, vehicles: Sequence[str] = ()
+    ) -> tuple[Array, Array]:
+        """Return velocity and acceleration."""
+        elapsed = round(time - self._began, 9)
+        if elapsed < self._delay:
+            return np.zeros((len(points), 3)), np.zeros((len(points), 3))
+        return self._current.motion(points, elapsed + self._offset, vehicles)

@@ -35,9 +35,17 @@ class TargetCurrent(Current):
         """Return the acceleration of the water, in L, (n, 3) [m/s2]."""
         return self._own(self._current.acceleration(points, time, vehicles), vehicles)
 
+    def motion(
+        self, points: Array, time: float, vehicles: Sequence[str] = ()
+    ) -> tuple[Array, Array]:
+        """Return velocity and acceleration."""
+        velocity, acceleration = self._current.motion(points, time, vehicles)
+        return self._own(velocity, vehicles), self._own(acceleration, vehicles)
+
     def _own(self, vectors: Array, vehicles: Sequence[str]) -> Array:
         """Set to 0 what is not the target's, (n, 3)."""
         if not vehicles:
             return np.zeros_like(vectors)
-        vectors[[name != self._target for name in vehicles]] = 0.0
+        if any(name != self._target for name in vehicles):
+            vectors[[name != self._target for name in vehicles]] = 0.0
         return vectors

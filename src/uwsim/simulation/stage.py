@@ -50,7 +50,7 @@ class SceneStage(SceneWorld):
     """
 
     STATE = (
-        *("_bus", "state", "scenery", "touch", "_timers", "_pending"),
+        *("_bus", "state", "scenery", "touch", "_timers", "_due", "_pending"),
         *("_vehicles", "_sensors", "devices", "interfaces", "network"),
         *("markers", "trajectories", "_faulty_topics"),
     )
@@ -69,6 +69,7 @@ class SceneStage(SceneWorld):
             self.network.trace = lambda line: publish(String(data=line))
         self._datagrams = Datagrams(udp_address)
         self._timers: list[SampleTimer] = []
+        self._due = -math.inf  # none is due before this step
         self._commands: list[tuple[Callable[[Any], None], Any]] = []
         self._faulty_topics: list[FaultyTopic] = []
         self.devices = tuple(self._bound_devices())
@@ -236,6 +237,7 @@ class SceneStage(SceneWorld):
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
         timer = SampleTimer(self.step, rate, self.timestep, call)
         self._timers.append(timer)
+        self._due = -math.inf
         return lambda: self._timers.remove(timer) if timer in self._timers else None
 
     def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
@@ -269,8 +271,12 @@ class SceneStage(SceneWorld):
     def tick(self) -> None:
         """Let packets arrive, and call what is due at the current step."""
         self.network.advance(nanoseconds(self.time))
+        step = self.step
+        if step < self._due:
+            return
         for timer in self._timers:
-            timer.tick(self.step)
+            timer.tick(step)
+        self._due = min((timer.due for timer in self._timers), default=math.inf)
 
 
 def _channels(scene: SceneSpec) -> dict[str, Channel]:

@@ -27,7 +27,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...geometry import Array, rotation_from_quaternion
-from ...numerics.linear import product, turned, turned_back
+from ...numerics.linear import cross, product, turned, turned_back
 from .kernel import corrected, distance, propagated, turn_between, turned_by
 
 POSITION, VELOCITY, ATTITUDE = slice(0, 3), slice(3, 6), slice(6, 9)
@@ -118,7 +118,7 @@ class NavigationFilter:
             rate: angular velocity, base axes, (3,) [rad/s].
             force: specific force, base axes, (3,) [m/s2]; 9.81 upwards at rest.
         """
-        if not all(np.isfinite(part).all() for part in (wxyz, rate, force)):
+        if not math.isfinite(wxyz.sum() + rate.sum() + force.sum()):
             return
         measured = rotation_from_quaternion(wxyz)
         if self._time is None:
@@ -133,7 +133,7 @@ class NavigationFilter:
     def dvl(self, velocity: Array) -> None:
         """Take a velocity over ground in the axes of the base, (3,) [m/s]; NaN if not known."""
         place = np.array(self.spec.dvl_place)
-        expected = turned_back(self.rotation, self.velocity) + np.cross(self.rate, place)
+        expected = turned_back(self.rotation, self.velocity) + cross(self.rate, place)
         jacobian = np.zeros((3, SIZE))
         jacobian[:, VELOCITY] = self.rotation.T
         jacobian[:, ATTITUDE] = product(self.rotation.T, _cross(self.velocity))
@@ -153,7 +153,7 @@ class NavigationFilter:
         spec = self.spec
         # the IMU's place moves with the base: its centripetal force is not the base's own
         if any(spec.imu_place):
-            force = force - np.cross(rate, np.cross(rate, np.array(spec.imu_place)))
+            force = force - cross(rate, cross(rate, np.array(spec.imu_place)))
         acceleration = turned(self.rotation, force) + GRAVITY
         self.covariance = propagated(
             self.covariance, self.rotation, acceleration - GRAVITY, step, self._noise

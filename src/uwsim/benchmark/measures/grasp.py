@@ -19,9 +19,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...geometry import Array, Pose
+from ...geometry import Array
 from ...inbox import Inbox
 from ...messages import String
+from ...numerics.jit import njit
 from ...numerics.linear import length
 from ...schema import element
 from ...world import Body, World
@@ -239,8 +240,9 @@ class Grasp(Measure):
 
     def _place(self, point: Array) -> Array:
         """Where a point of the object is in the jaw's frame, (3,) [m]."""
-        jaw_from_thing: Pose = self._jaw.world_from_body.inverse() @ self._thing.world_from_body
-        place: Array = jaw_from_thing.transform(point[None])[0]
+        jaw, thing = self._jaw.world_from_body, self._thing.world_from_body
+        place = np.empty(3)
+        _seen_from(jaw.rotation, jaw.position, thing.rotation, thing.position, point, place)
         return place
 
     def _moved(self, point: Array, was: Array) -> float:
@@ -347,3 +349,18 @@ class Grasp(Measure):
     def close(self) -> None:
         """Unsubscribe."""
         self._phases.close()
+
+
+@njit
+def _seen_from(
+    jaw_turn: Array, jaw: Array, thing_turn: Array, thing: Array, point: Array, place: Array
+) -> None:
+    """Where a point of one body is in the frame of another, into (3,) [m]."""
+    for i in range(3):
+        x, y, z = jaw_turn[0, i], jaw_turn[1, i], jaw_turn[2, i]
+        shift = x * thing[0] + y * thing[1] + z * thing[2] - (x * jaw[0] + y * jaw[1] + z * jaw[2])
+        found = 0.0
+        for k in range(3):
+            turn = x * thing_turn[0, k] + y * thing_turn[1, k] + z * thing_turn[2, k]
+            found += turn * point[k]
+        place[i] = found + shift

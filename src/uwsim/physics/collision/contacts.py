@@ -20,6 +20,7 @@ from ...scene.spec import SceneSpec
 from ...world import Contact
 
 Numbers = npt.NDArray[np.int64]
+Pressing = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], Array, Array]
 
 
 class EngineContacts:
@@ -59,7 +60,16 @@ class EngineContacts:
         self._name_numbers = np.array([labels[name] for name in self._names], np.int64)
         self._touchable = frozenset(owner_of(name) for name in shapes)
         self.hold = False
-        """Whether the engine's contacts are those of its state."""
+
+    @property
+    def hold(self) -> bool:
+        """Whether the engine's contacts are those of its state; to be set after every step."""
+        return self._hold
+
+    @hold.setter
+    def hold(self, hold: bool) -> None:
+        self._hold = hold
+        self._looked_up: Pressing | None = None
 
     def of(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
@@ -75,16 +85,16 @@ class EngineContacts:
         found: dict[str, Array] = {}
         if not self.hold or self._data.ncon == 0:
             return found
-        owner, contacts = self._numbers.get((kind, index)), self._data.contact
+        owner = self._numbers.get((kind, index))
         if owner is None:
             return found
-        geoms = contacts.geom
+        geoms, addresses, frames, pressures = self._pressing()
         labels, forces = np.empty(len(geoms), np.int64), np.empty((len(geoms), 3))
         n = _sum_forces(
             geoms,
-            contacts.efc_address,
-            contacts.frame,
-            self._data.efc_force,
+            addresses,
+            frames,
+            pressures,
             self._owner_numbers,
             self._name_numbers,
             owner,
@@ -94,6 +104,13 @@ class EngineContacts:
         for label, force in zip(labels[:n].tolist(), forces, strict=False):
             found[self._labels[label]] = force
         return found
+
+    def _pressing(self) -> Pressing:
+        """Shapes, addresses, frames and forces of the engine's contacts; looked up once a step."""
+        if self._looked_up is None:
+            found = self._data.contact
+            self._looked_up = found.geom, found.efc_address, found.frame, self._data.efc_force
+        return self._looked_up
 
     def wrench(self, body: int, point: Array) -> Array:
         """Force and torque of the contacts on a body, by its number, in W, (6,) [N, N m].

@@ -100,8 +100,7 @@ class WaterMotion:
         flow, names, points = self._flow, self._names, np.zeros((len(self._names), 3))
         localized = np.empty((len(times), 2, len(names), 3))
         for row, time in zip(localized, times, strict=True):
-            row[0] = flow.velocity(points, time, names)
-            row[1] = flow.acceleration(points, time, names)
+            row[0], row[1] = flow.motion(points, time, names)
         return _spread(localized, self._felt, self._localized_from_world.rotation)
 
     def at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
@@ -121,8 +120,7 @@ class WaterMotion:
         """
         localized = self._localized_from_world.transform(points)
         turn = self._localized_from_world.rotation
-        velocity = self._flow.velocity(localized, time, vehicles)
-        acceleration = self._flow.acceleration(localized, time, vehicles)
+        velocity, acceleration = self._flow.motion(localized, time, vehicles)
         if self._flow.is_uniform:
             return product(velocity, turn), product(acceleration, turn), None
         gradient = self._gradient(localized, time, vehicles)
