@@ -10,15 +10,60 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets.mesh import Model, Texture
-from .merged import Merged, merged
+from .merged import VERTEX, Merged, merged
+
+
+class Buffers:
+    """Merged meshes on the GPU, and a vertex array for each program that draws them."""
+
+    def __init__(self, context: moderngl.Context, each: Merged) -> None:
+        self._context = context
+        self._buffers = [context.buffer(each.vertices.tobytes())]
+        self._buffers.append(context.buffer(each.triangles.tobytes()))
+        self._arrays: dict[int, moderngl.VertexArray] = {}
+
+    def array(self, program: moderngl.Program) -> moderngl.VertexArray:
+        """The vertex array for a program; made when first drawn."""
+        array = self._arrays.get(program.glo)
+        if array is None:
+            present = [n for n in ("vertex", "vertex_normal", "uv", "tint") if n in program]
+            vertices, indices = self._bare() if present == ["vertex"] else self._buffers[:2]
+            layout = "3f" if present == ["vertex"] else _layout(present)
+            content = [(vertices, layout, *present)]
+            array = self._arrays[program.glo] = self._context.vertex_array(
+                program, content, indices
+            )
+        return array
+
+    def release(self) -> None:
+        """Free the memory."""
+        for array in self._arrays.values():
+            array.release()
+        for buffer in self._buffers:
+            buffer.release()
+
+    def _bare(self) -> tuple[moderngl.Buffer, moderngl.Buffer]:
+        """Places alone, each once: edges have a vertex for each normal and colour that meet there.
+
+        Of maps of shadows most of the time goes into vertices.
+        """
+        if len(self._buffers) == 2:
+            vertices, triangles = self._buffers
+            places = np.frombuffer(vertices.read(), VERTEX)["vertex"]
+            numbers = np.frombuffer(triangles.read(), np.uint32)
+            bare, of_each = np.unique(places, axis=0, return_inverse=True)
+            indices = of_each.reshape(-1)[numbers].astype(np.uint32)
+            self._buffers.append(self._context.buffer(bare.tobytes()))
+            self._buffers.append(self._context.buffer(indices.tobytes()))
+        return self._buffers[2], self._buffers[3]
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
     """Triangles of a model drawn with one call: same texture, sides and opacity, near by."""
 
-    vertices: moderngl.Buffer
-    indices: moderngl.Buffer
+    buffers: Buffers
+    """Shared by the pieces of a model."""
     first: int
     """Where its own indices begin ..."""
     size: int
@@ -38,26 +83,14 @@ class Batch:
     """Of its plane, model frame, (3,); 0 if it is bent."""
     density: float
     """Texels along a metre, where most are [1/m]; 0 without a texture."""
-    arrays: dict[int, moderngl.VertexArray]
-    """Vertex array for each program, by the program's number; made when first drawn, and shared
-    by the pieces of a model."""
 
     def draw(self, program: moderngl.Program) -> None:
         """Draw all triangles, from one side or both; else with the state as it is."""
-        array = self.arrays.get(program.glo)
-        if array is None:
-            context = program.ctx
-            present = [
-                name for name in ("vertex", "vertex_normal", "uv", "tint") if name in program
-            ]
-            array = context.vertex_array(
-                program, [(self.vertices, _layout(present), *present)], self.indices
-            )
-            self.arrays[program.glo] = array
         if self.two_sided:
             program.ctx.disable(moderngl.CULL_FACE)
         else:
             program.ctx.enable(moderngl.CULL_FACE)
+        array = self.buffers.array(program)
         array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first)
 
 
@@ -96,22 +129,15 @@ class GpuModels:
     def discard(self, model: Model) -> None:
         """Free the buffers of a model that is in no scene any more."""
         _, batches = self._models.pop(id(model), (model, ()))
-        arrays = {id(each): each for batch in batches for each in batch.arrays.values()}
-        buffers = {id(each): each for batch in batches for each in (batch.vertices, batch.indices)}
-        for array in arrays.values():
-            array.release()
-        for buffer in buffers.values():
-            buffer.release()
+        for buffers in {id(batch.buffers): batch.buffers for batch in batches}.values():
+            buffers.release()
 
     def _batches(self, each: Merged) -> list[Batch]:
         """Upload merged meshes; a batch for each piece of them."""
-        vertices = self._context.buffer(each.vertices.tobytes())
-        indices = self._context.buffer(each.triangles.tobytes())
-        arrays: dict[int, moderngl.VertexArray] = {}
+        buffers = Buffers(self._context, each)
         return [
             Batch(
-                vertices=vertices,
-                indices=indices,
+                buffers=buffers,
                 first=piece.first,
                 size=piece.size,
                 texture=each.texture,
@@ -122,7 +148,6 @@ class GpuModels:
                 corners=piece.corners,
                 normal=piece.normal,
                 density=piece.density,
-                arrays=arrays,
             )
             for piece in each.pieces
         ]
