@@ -62,8 +62,10 @@ def dot(left: Array, right: Array) -> float:
 
 def length(vector: npt.ArrayLike) -> float:
     """Euclidean length of a vector."""
-    components = np.asarray(vector, dtype=np.float64)
-    return math.sqrt(dot(components, components))
+    total = 0.0
+    for component in np.asarray(vector, dtype=np.float64).tolist():
+        total += component * component
+    return math.sqrt(total)
 
 
 def determinant(matrix: Array) -> float:
