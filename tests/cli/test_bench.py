@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.short_benchmark import fingerprint, write_benchmark
+from uwsim.assets.bundled import benchmark_file
 from uwsim.cli import main
 from uwsim.errors import BadSetting
 from uwsim.results.provenance import load_provenance
@@ -206,3 +207,17 @@ def test_what_goes_wrong_while_it_is_played_is_a_failed_run_whatever_it_is(
     call = ["bench", benchmark, "--algorithm", "p", "--level", "fog=0"]
     assert main([*call, "--out", str(tmp_path / "out")]) == 3
     assert capsys.readouterr().err == said
+
+
+def test_an_unknown_algorithm_of_a_file_is_reported_with_its_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = benchmark_file("visibility").read_text(encoding="utf-8")
+    file = tmp_path / "wrong.xml"
+    file.write_text(text.replace('u:algorithm="esm"', 'u:algorithm="emm"'), encoding="utf-8")
+    assert main(["bench", str(file), "--out", str(tmp_path / "out")]) == 2
+    line = 1 + text[: text.index("<benchmark")].count("\n")
+    said = capsys.readouterr().err
+    begins = said.split(f"{file}:")[1].split(": No algorithm")[0]
+    assert line <= int(begins) <= line + 3
+    assert "Did you mean 'esm'?" in said

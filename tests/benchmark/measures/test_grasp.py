@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from tests.fakes import FakeBody, FakeWorld
+from uwsim import check
+from uwsim.assets.bundled import benchmark_file
 from uwsim.benchmark.measures.grasp import Grasp, GraspSpec
 from uwsim.messages import String
 
@@ -205,3 +210,34 @@ def test_phases_that_cannot_be_are_errors(spec: dict[str, str | None], expected:
     given = {"name": "g", "target": "a", "vehicle": "b", "jaw": "c", "topic": "t", "phases": "a"}
     [error] = list(GraspSpec(**{**given, **spec}).errors())  # type: ignore[arg-type]
     assert expected in error
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"ground": "blackbox"}, "three different things"),
+        ({"vehicle": "terrain"}, "three different things"),
+        ({"target": "girona500"}, "three different things"),
+        ({"jaw": "blackbox"}, "<jaw> is 'blackbox'; expected a frame of 'girona500'"),
+    ],
+)
+def test_what_lifts_and_what_is_lifted_and_what_it_lies_on_differ(
+    changes: dict[str, str], said: str
+) -> None:
+    assert not SPEC.errors()
+    [error] = replace(SPEC, **changes).errors()
+    assert said in error
+
+
+def test_every_wrong_name_of_a_grasp_is_reported_with_its_line(tmp_path: Path) -> None:
+    right = benchmark_file("grasp").read_text(encoding="utf-8")
+    wrong = right.replace("<target>blackbox<", "<target>blackbx<").replace(
+        "<phases>", "<ground>terrrain</ground><phases>"
+    )
+    file = tmp_path / "wrong.xml"
+    file.write_text(wrong, encoding="utf-8")
+    said = [str(one) for one in check(file)]
+    assert len(said) == 2
+    for name, nearest in (("blackbx", "blackbox"), ("terrrain", "terrain")):
+        line = 1 + wrong[: wrong.index(f">{name}<")].count("\n")
+        assert any(f":{line}:" in one and f"'{nearest}'" in one for one in said)

@@ -48,11 +48,11 @@ class GraspSpec(MeasureSpec):
 
     target: str = element(refers_to="contacts")
     """Name of the object."""
-    vehicle: str = element(refers_to="contacts")
+    vehicle: str = element(refers_to="vehicle")
     """Name of the vehicle that is to lift it."""
     jaw: str = element(refers_to="body")
     """Route of the frame in which slip is measured: where the jaw closes."""
-    ground: str = "terrain"
+    ground: str = element(default="terrain", refers_to="contacts")
     """Name of what the object lies on."""
     lift: float = element(default=0.5, above=0.0)
     """How far it is to be lifted [m]."""
@@ -72,6 +72,10 @@ class GraspSpec(MeasureSpec):
             found.append("<phases> need a <topic> on which they are published")
         if len(set(names)) < len(names):
             found.append("<phases> has a phase twice")
+        if self.ground in (self.target, self.vehicle) or self.target == self.vehicle:
+            found.append("<target>, <vehicle> and <ground> have to be three different things")
+        if self.jaw in (self.target, self.ground):
+            found.append(f"<jaw> is {self.jaw!r}; expected a frame of {self.vehicle!r}")
         return found
 
     def bind(self, world: World) -> Grasp:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...assets.bundled import benchmark_file, scene_file
 from ...errors import AllErrors, AssetNotFound, BadSetting
+from ...schema.source_line import line_of
 from ...terminal import print_warnings
 from ...world import TIMESTEP
 from ..foreign_code import announce, refuse_code, refused
@@ -183,7 +184,12 @@ def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
         if request.no_code:
             raise refused(wanted, file)
         announce(wanted, file)
-    return algorithm_of(wanted, spec, read.tables)
+    try:
+        return algorithm_of(wanted, spec, read.tables)
+    except BadSetting as error:
+        if not wanted or request.algorithm or spec is None:
+            raise
+        raise BadSetting(f"{spec.path}:{line_of(spec)}: {error}") from error
 
 
 def say_warnings(plan: Plan) -> None:
