@@ -12,6 +12,7 @@ from tests.fakes import FakeBody, FakeWorld
 from uwsim import check
 from uwsim.assets.bundled import benchmark_file
 from uwsim.benchmark.measures.grasp import Grasp, GraspSpec
+from uwsim.bus import OBSERVER
 from uwsim.messages import String
 
 SPEC = GraspSpec(
@@ -241,3 +242,15 @@ def test_every_wrong_name_of_a_grasp_is_reported_with_its_line(tmp_path: Path) -
     for name, nearest in (("blackbx", "blackbox"), ("terrrain", "terrain")):
         line = 1 + wrong[: wrong.index(f">{name}<")].count("\n")
         assert any(f":{line}:" in one and f"'{nearest}'" in one for one in said)
+
+
+def test_who_reads_the_truth_is_marked() -> None:
+    tank = Tank()
+    measure = replace(SPEC, truth="/truth/odometry /tf").bind(tank.world)
+    measure.start()
+    tank.world.bus.subscribe("/tf", String, lambda message: None, owner=OBSERVER)  # a recorder
+    assert measure.notes == ()
+    tank.world.bus.inbox("/truth/odometry", String)
+    [note] = measure.notes
+    assert "reads the truth (/truth/odometry)" in note
+    assert tank.measure.notes == ()  # no topics are named

@@ -64,6 +64,8 @@ class GraspSpec(MeasureSpec):
     """Topic on which the algorithm says its phase (std_msgs/String)."""
     phases: str = ""
     """The phases that count, in their order, separated by blanks."""
+    truth: str = ""
+    """Topics that hold the truth, separated by blanks: who reads one is marked in the result."""
 
     def errors(self) -> Sequence[str]:
         """Phases without a topic, or one twice."""
@@ -147,11 +149,13 @@ class Grasp(Measure):
         self._n_collisions = 0
         self._touched_ground: float | None = None  # [s]
         self._end: tuple[str, str | None] | None = None
+        self._truths_read: dict[str, None] = {}
 
     def start(self) -> None:
         """Take note of where the object lies."""
         self._began = self._world.time
         self._lay = float(self._thing.world_from_body.position[2])
+        self._look_who_reads()
         self.update()
 
     def update(self) -> None:
@@ -282,6 +286,21 @@ class Grasp(Measure):
             **times,
             **self._phases.details,
         }
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """Which topics with the truth the algorithm read."""
+        self._look_who_reads()
+        if not self._truths_read:
+            return ()
+        topics = ", ".join(self._truths_read)
+        return (f"the algorithm reads the truth ({topics}): an upper bound for others",)
+
+    def _look_who_reads(self) -> None:
+        for topic in self._spec.truth.split():
+            ends = self._world.bus.ends(topic)
+            if ends is not None and ends.is_read:
+                self._truths_read[topic] = None
 
     @property
     def reasons(self) -> dict[str, str]:
