@@ -216,7 +216,9 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
             said = f"{simulator.time - 0.002:.3f}"
             until(partial(heard.__contains__, said), lambda: None)
         assert memory() - before < 200.0
-        until(lambda: not simulator.bus.has_readers("camera"), step)  # it has not been heard of
+        until(lambda: not simulator.bus.has_readers("camera"), step)
+    told = "/camera: a reader has left, or was not heard of for 10 s"
+    assert any(told in line for line in simulator.lines)
 
 
 @pytest.mark.slow

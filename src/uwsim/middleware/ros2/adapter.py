@@ -34,6 +34,8 @@ NODE = "uwsim"
 """Name of the node."""
 CLOCK_PERIOD_S = 0.01
 """Simulation time from one message of /clock to the next, at least [s]."""
+LEASE_S = 10.0
+"""How long a node may be silent before it counts as gone, as Cyclone DDS has it [s]."""
 CLOSE_S = 5.0
 """How long the last messages may take at the end [s]."""
 
@@ -234,4 +236,9 @@ class _Demand:
             self._bridge.want(self._topic)
         for _ in range(self._n - n_readers):
             self._bridge.unwant(self._topic)
+        if n_readers < self._n:
+            self._bridge.log.say(
+                f"/{self._topic}: a reader has left, or was not heard of for {LEASE_S:g} s",
+                kind=f"left {self._topic}",
+            )
         self._n = n_readers
