@@ -50,9 +50,15 @@ export class Pilot {
   }
 
   help(): { keys: string; does: string }[] {
-    const keys = Object.entries(this.mapping).map(([keys, does]) => ({ keys, does }));
-    if (!keys.length) return [{ keys: "–", does: "nobody pilots this simulation" }];
-    return [...keys, { keys: "Shift", does: "with a letter: the page's own key" }];
+    const pairs = new Map<string, string[]>(); // axis -> the keys for more and for less of it
+    for (const [key, does] of Object.entries(this.mapping)) {
+      const pair = pairs.get(does.slice(1)) ?? ["", ""];
+      pair[does.startsWith("+") ? 0 : 1] += (pair[does.startsWith("+") ? 0 : 1] && ", ") + key;
+      pairs.set(does.slice(1), pair);
+    }
+    if (!pairs.size) return [{ keys: "–", does: "nobody pilots this simulation" }];
+    const rows = [...pairs].map(([does, [more, less]]) => ({ keys: `${more || "–"}  ${less || "–"}`, does: `${does} +, −` }));
+    return [...rows, { keys: "Shift", does: "with a letter: the page's own key" }];
   }
 
   private input(): Input {
