@@ -6,7 +6,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-LEFT_OUT = ("cv2", "lark", "matplotlib", "PIL", "pandas", "rosbags", "scipy.linalg", "trimesh")
+LEFT_OUT = (
+    *("cv2", "glfw", "lark", "matplotlib", "PIL"),
+    *("pandas", "rosbags", "scipy.linalg", "trimesh"),
+)
 """Modules that a scene without cameras, images and formulas does without."""
 COMPILING = "numba.cpython.printimpl"
 """One of numba's that only compiling needs."""
