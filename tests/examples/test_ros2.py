@@ -141,7 +141,7 @@ def test_a_node_in_lock_step_scores_the_rows_of_the_same_algorithm_in_process(
         outside = bench("outside", *client)
     for part in ("rows", "columns", "missing", "facts"):
         assert inside[part] == outside[part]
-    assert outside["run"]["clients"] == [["dark_box", "lock-step, ros2"]]
+    assert outside["run"]["clients"] == [["dark_box", "lock-step, ros2, grade (a)"]]
 
 
 BUNDLED = """
@@ -198,7 +198,7 @@ def test_the_bundled_tracker_as_a_node_scores_the_rows_of_the_process(
     inside = scored(benchmark, tmp_path / "inside", "--algorithm", "esm")
     outside = scored_by_a_node(benchmark, tmp_path / "outside", "uwsim.algorithms:Esm", delay)
     assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}
-    assert outside["run"]["clients"] == [["outside", "lock-step, ros2"]]
+    assert outside["run"]["clients"] == [["outside", "lock-step, ros2, grade (a)"]]
 
 
 @of_one_version

@@ -76,7 +76,7 @@ def test_a_tracker_of_rospy_scores_the_same_rows_also_when_it_dawdles(
     program = ("uwsim.algorithms:Esm", "--delay", "20")
     outside = scored_outside(graph, benchmark, out, program=program)
     assert outside["rows"] == inside["rows"]
-    assert outside["run"]["clients"] == [["outside", "lock-step, ros1"]]
+    assert outside["run"]["clients"] == [["outside", "lock-step, ros1, grade (a)"]]
     assert (out / log).read_bytes() == (tmp_path / "inside" / log).read_bytes()
 
 

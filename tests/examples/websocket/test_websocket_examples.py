@@ -81,7 +81,7 @@ def test_a_tracker_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path: P
             benchmark, tmp_path / f"outside-{delay}", [*program, "--delay", delay]
         )
         assert outside["rows"] == inside["rows"], said
-        assert outside["run"]["clients"] == [["outside", "lock-step, web"]]
+        assert outside["run"]["clients"] == [["outside", "lock-step, web, grade (a)"]]
 
 
 @pytest.mark.slow

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -120,6 +121,36 @@ def test_several_clients_answer_in_the_order_of_their_names() -> None:
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert [tick["client"] for tick in outside.ticks] == ["a", "b"]
+
+
+@pytest.mark.parametrize("slow", ["a", "b"])
+def test_answers_of_several_clients_keep_the_order_of_their_names_whoever_is_slow(
+    slow: str,
+) -> None:
+    bus = Bus()
+    threads = []
+
+    def names_itself(outside: Outside, tick: dict[str, Any]) -> None:
+        def answer() -> None:
+            outside.put("answer", String(data=tick["client"]))
+            outside.says(ACK, client=tick["client"], tick=tick["tick"])
+
+        if tick["client"] != slow:
+            answer()
+            return
+        threads.append(threading.Thread(target=answer))
+        threads[-1].start()
+
+    outside = Outside(bus, names_itself)
+    nodes = started(bus, outside, "b", "a")
+    answers = bus.inbox("answer", String)
+    say = bus.publisher("depth", Float64)
+    for _ in range(3):
+        say(Float64(data=1.0))
+        step(bus, nodes)
+    assert [message.data for message in answers.take()] == ["a", "b"] * 3
+    for thread in threads:
+        thread.join()
 
 
 def test_what_is_published_waits_for_the_ack_and_for_all_that_it_announces() -> None:

@@ -22,4 +22,4 @@ def test_rows_of_bundled_trackers_are_the_same_outside(tmp_path: Path) -> None:
         outside = run(benchmark, tmp_path / f"{name}-out", algorithm=there)
         assert outside.rows == inside.rows, name
         assert inside.run.clients is None
-        assert outside.run.clients == ((there, "own process"),)
+        assert outside.run.clients == ((there, "own process, grade (b)"),)

@@ -25,11 +25,13 @@ FACTS = {
 SAID_ELSEWHERE = ("notes", "clients", "levels", "settings", "compatibility", "units")
 """Parts of ``run`` that are in sentences above the table."""
 CLIENTS = {
-    "own process": "in lock-step, in a process of its own, by messages only",
+    "own process, grade (b)": "in lock-step, in a process of its own, by messages only (grade b: "
+    "each call is waited for)",
     "in process": "in the process of the simulation (--in-process)",
     **{
-        f"lock-step, {transport}": f"as a program outside over {name}, in lock-step: simulation "
-        "time waits for its answers"
+        f"lock-step, {transport}, grade (a)": "as a program outside over "
+        f"{name}, in lock-step: simulation time waits for its answers "
+        "(grade a: each names its tick)"
         for transport, name in {"web": "WebSocket", "ros1": "ROS 1", "ros2": "ROS 2"}.items()
     },
 }

@@ -16,6 +16,8 @@ Program = Callable[[Simulation, Mapping[str, float | str]], Algorithm]
 """Makes the algorithm of a simulation; takes the parameters that the user set."""
 OWN_PROCESS, IN_PROCESS, LOCK_STEP = "own process", "in process", "lock-step"
 """How an algorithm that is not bundled takes part, as a result says it."""
+STAMPED, BLOCKING = "grade (a)", "grade (b)"
+"""How its answers are paired with what it is given: by the number of the tick; by each call."""
 
 
 @contextmanager
@@ -59,11 +61,12 @@ def _client(
 
 
 def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
-    """Return who takes part, and how; None where only code of uwsim does."""
+    """Return who takes part, how, and its grade; None where only code of uwsim does."""
     if plan.client is not None:
-        return ((plan.algorithm_name, f"{LOCK_STEP}, {plan.client.connection.names[0]}"),)
+        transport = plan.client.connection.names[0]
+        return ((plan.algorithm_name, f"{LOCK_STEP}, {transport}, {STAMPED}"),)
     if plan.own_process:
-        return ((plan.algorithm_name, OWN_PROCESS),)
+        return ((plan.algorithm_name, f"{OWN_PROCESS}, {BLOCKING}"),)
     if plan.algorithm.__module__.startswith("uwsim."):
         return None
     return ((plan.algorithm_name, IN_PROCESS),)
