@@ -101,6 +101,7 @@ def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
         log = Log("test", lambda line: None)
         bridge = WebBridge(simulation.bus, lambda: simulation.time, WebOptions(port=0), log)
         simulation.watch(bridge.step)
+        bridge.step()  # who comes before the first step finds the services, too
 
         def spawn(action: str, *place: str) -> tuple[int, str]:
             words = [action, "toys", "1", "buoy.stl", *place, "0", "0", "1.5"]
