@@ -84,7 +84,7 @@ class LockStep:
     def take_part(self):
         """Join, and answer ticks until the simulation leaves."""
         join, ack = self._out(JOIN, String), self._out(ACK, String)
-        self._in(TICK, String, self._on_tick)
+        ticks = self._in(TICK, String, self._on_tick)
         for topic in sorted(set(self._callbacks) - set(self._publishers)):
             self._expect(topic)
             self._in(topic, self._kinds[topic], self._receiver(topic))
@@ -98,7 +98,9 @@ class LockStep:
             self._say(join, topics=list(self._waiting), own=own, next=self._next())
             again = time.monotonic() + PATIENCE  # this may have gone to a trial that ends
             self._wait(lambda: self._ticks or time.monotonic() > again)  # noqa: B023
-        while self._wait(lambda: self._is_complete() or not join.get_num_connections()):
+        # that of the next trial may be there before rospy has dropped that of this one
+        simulator = list(ticks.impl.connections)
+        while self._wait(lambda: self._is_complete() or _has_left(ticks, simulator)):
             if not self._is_complete():
                 break
             self._answer(ack)
@@ -210,12 +212,18 @@ class LockStep:
     def _in(self, topic, kind, receive):
         subscriber = rospy.Subscriber(topic, kind, receive, queue_size=None, tcp_nodelay=True)
         self._subscribers.append(subscriber)
+        return subscriber
 
     def _out(self, topic, kind):
         return rospy.Publisher(topic, kind, queue_size=DEPTH, tcp_nodelay=True)
 
     def _say(self, out, **content):
         out.publish(String(data=json.dumps({"client": self._client, **content})))
+
+
+def _has_left(subscriber, connections):
+    """Whether none of these connections is there any more."""
+    return not any(each in connections for each in subscriber.impl.connections)
 
 
 def _due(timer):
