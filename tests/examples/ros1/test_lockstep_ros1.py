@@ -26,7 +26,8 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(
         "UWSIM_TEST_ROS1_LOCKSTEP" not in os.environ,
-        reason="one run in twenty stops, and why is not known; UWSIM_TEST_ROS1_LOCKSTEP=1 runs it",
+        reason="rospy may lose a connection between trials, one run in fifteen; "
+        "UWSIM_TEST_ROS1_LOCKSTEP=1 runs it",
     ),
 ]
 
