@@ -34,23 +34,28 @@ class LateCurrent(Current):
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        elapsed = round(time - self._began, 9)
-        if elapsed < self._delay:
+        own = self._own_time(time)
+        if own is None:
             return np.zeros((len(points), 3))
-        return self._current.velocity(points, elapsed + self._offset, vehicles)
+        return self._current.velocity(points, own, vehicles)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return its acceleration, in L, (n, 3) [m/s2]; the jump at its beginning is left out."""
-        elapsed = round(time - self._began, 9)
-        if elapsed < self._delay:
+        own = self._own_time(time)
+        if own is None:
             return np.zeros((len(points), 3))
-        return self._current.acceleration(points, elapsed + self._offset, vehicles)
+        return self._current.acceleration(points, own, vehicles)
 
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
         """Return velocity and acceleration."""
-        elapsed = round(time - self._began, 9)
-        if elapsed < self._delay:
+        own = self._own_time(time)
+        if own is None:
             return np.zeros((len(points), 3)), np.zeros((len(points), 3))
-        return self._current.motion(points, elapsed + self._offset, vehicles)
+        return self._current.motion(points, own, vehicles)
+
+    def _own_time(self, time: float) -> float | None:
+        """The time of the other one at a simulation time [s]; None before it starts."""
+        elapsed = round(time - self._began, 9)
+        return None if elapsed < self._delay else elapsed + self._offset

@@ -46,6 +46,7 @@ class TargetCurrent(Current):
         """Set to 0 what is not the target's, (n, 3)."""
         if not vehicles:
             return np.zeros_like(vectors)
-        if any(name != self._target for name in vehicles):
-            vectors[[name != self._target for name in vehicles]] = 0.0
+        is_other = [name != self._target for name in vehicles]
+        if any(is_other):
+            vectors[is_other] = 0.0
         return vectors

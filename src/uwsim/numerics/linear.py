@@ -62,10 +62,8 @@ def dot(left: Array, right: Array) -> float:
 
 def length(vector: npt.ArrayLike) -> float:
     """Euclidean length of a vector."""
-    total = 0.0
-    for component in np.asarray(vector, dtype=np.float64).tolist():
-        total += component * component
-    return math.sqrt(total)
+    components = np.asarray(vector, dtype=np.float64)
+    return math.sqrt(dot(components, components))
 
 
 def determinant(matrix: Array) -> float:

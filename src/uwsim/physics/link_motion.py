@@ -32,7 +32,7 @@ class LinkMotion:
         self._model, self._data, self._poses = model, data, poses
         self._jacobians = np.zeros((4, 3, model.nv))  # of place and turn, and their rates
         self._own: mujoco.MjData | None = None
-        self._of: tuple[bytes, bytes] | None = None  # places and velocities of that
+        self._copied: tuple[bytes, bytes] | None = None  # the places and velocities in it
 
     def of(self, index: int, link: str, point: Array) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on the link of a vehicle."""
@@ -50,9 +50,9 @@ class LinkMotion:
         now = data.qpos.tobytes(), data.qvel.tobytes()
         if own is None:
             own = self._own = mujoco.MjData(self._model)
-        elif now == self._of:
+        elif now == self._copied:
             return own
-        self._of = now
+        self._copied = now
         own.qpos[:], own.qvel[:] = data.qpos, data.qvel
         mujoco.mj_kinematics(self._model, own)
         mujoco.mj_comPos(self._model, own)

@@ -15,7 +15,6 @@ from ..geometry import Array
 from ..numerics.jit import njit
 
 Numbers = npt.NDArray[np.intp]
-Flags = npt.NDArray[np.bool_]
 
 
 @njit
@@ -52,11 +51,7 @@ def carry(
     """
     for m in range(len(owners)):
         n = owners[m]
-        for k in range(3):
-            total = 0.0
-            for j in range(3):
-                total += own[m, j] * world_from_model[n, k, j]
-            spheres[m, k] = total + world_from_model[n, k, 3]
+        _carried(own[m], world_from_model[n], spheres[m])
         spheres[m, 3] = own[m, 3] * stretch[n]
 
 
@@ -71,13 +66,18 @@ def carry_corners(world_from_model: Array, owners: Numbers, own: Array, corners:
         corners: into which they are written.
     """
     for m in range(len(owners)):
-        n = owners[m]
         for c in range(8):
-            for k in range(3):
-                total = 0.0
-                for j in range(3):
-                    total += own[m, c, j] * world_from_model[n, k, j]
-                corners[m, c, k] = total + world_from_model[n, k, 3]
+            _carried(own[m, c], world_from_model[owners[m]], corners[m, c])
+
+
+@njit
+def _carried(point: Array, world_from_model: Array, found: Array) -> None:
+    """A point of a model in W, into the first three of ``found`` [m]."""
+    for k in range(3):
+        total = 0.0
+        for j in range(3):
+            total += point[j] * world_from_model[k, j]
+        found[k] = total + world_from_model[k, 3]
 
 
 @njit
@@ -145,18 +145,18 @@ def look(
     for i in range(len(numbers)):
         m = numbers[i]
         nearness[i] = np.inf
-        _seen_from(spheres[m], position, rotation, centre)
+        seen_from(spheres[m], position, rotation, centre)
         if not _is_inside(centre, planes, spheres[m, 3]):
             continue
         for c in range(8):
-            _seen_from(corners[m, c], position, rotation, points[c])
+            seen_from(corners[m, c], position, rotation, points[c])
         if _is_cut(points, planes):
             away = centre[0] * centre[0] + centre[1] * centre[1] + centre[2] * centre[2]
             nearness[i] = math.sqrt(away) + spheres[m, 3]
 
 
 @njit
-def _seen_from(point: Array, position: Array, rotation: Array, found: Array) -> None:
+def seen_from(point: Array, position: Array, rotation: Array, found: Array) -> None:
     """A point of W in the frame of the camera."""
     x, y, z = point[0] - position[0], point[1] - position[1], point[2] - position[2]
     for k in range(3):

@@ -18,44 +18,48 @@ class Buffers:
 
     def __init__(self, context: moderngl.Context, each: Merged) -> None:
         self._context = context
-        self._buffers = [context.buffer(each.vertices.tobytes())]
-        self._buffers.append(context.buffer(each.triangles.tobytes()))
+        self._whole = (
+            context.buffer(each.vertices.tobytes()),
+            context.buffer(each.triangles.tobytes()),
+        )
+        self._bare: tuple[moderngl.Buffer, moderngl.Buffer] | None = None
         self._arrays: dict[int, moderngl.VertexArray] = {}
 
     def array(self, program: moderngl.Program) -> moderngl.VertexArray:
-        """The vertex array for a program; made when first drawn."""
-        array = self._arrays.get(program.glo)
-        if array is None:
+        """The vertex array for a program, by its number; made when first drawn."""
+        if program.glo not in self._arrays:
             present = [n for n in ("vertex", "vertex_normal", "uv", "tint") if n in program]
-            vertices, indices = self._bare() if present == ["vertex"] else self._buffers[:2]
-            layout = "3f" if present == ["vertex"] else _layout(present)
-            content = [(vertices, layout, *present)]
-            array = self._arrays[program.glo] = self._context.vertex_array(
-                program, content, indices
+            (vertices, indices), layout = self._whole, _layout(present)
+            if present == ["vertex"]:
+                (vertices, indices), layout = self._places(), "3f"
+            self._arrays[program.glo] = self._context.vertex_array(
+                program, [(vertices, layout, *present)], indices
             )
-        return array
+        return self._arrays[program.glo]
 
     def release(self) -> None:
         """Free the memory."""
         for array in self._arrays.values():
             array.release()
-        for buffer in self._buffers:
+        for buffer in (*self._whole, *(self._bare or ())):
             buffer.release()
 
-    def _bare(self) -> tuple[moderngl.Buffer, moderngl.Buffer]:
+    def _places(self) -> tuple[moderngl.Buffer, moderngl.Buffer]:
         """Places alone, each once: edges have a vertex for each normal and colour that meet there.
 
         Of maps of shadows most of the time goes into vertices.
         """
-        if len(self._buffers) == 2:
-            vertices, triangles = self._buffers
+        if self._bare is None:
+            vertices, triangles = self._whole
             places = np.frombuffer(vertices.read(), VERTEX)["vertex"]
             numbers = np.frombuffer(triangles.read(), np.uint32)
             bare, of_each = np.unique(places, axis=0, return_inverse=True)
             indices = of_each.reshape(-1)[numbers].astype(np.uint32)
-            self._buffers.append(self._context.buffer(bare.tobytes()))
-            self._buffers.append(self._context.buffer(indices.tobytes()))
-        return self._buffers[2], self._buffers[3]
+            self._bare = (
+                self._context.buffer(bare.tobytes()),
+                self._context.buffer(indices.tobytes()),
+            )
+        return self._bare
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,6 +20,8 @@ import numpy.typing as npt
 
 from ..geometry import Array, Intrinsics, Pose
 from ..numerics.jit import njit
+from ..numerics.linear import product
+from .bounds import seen_from
 
 MAX_TEXELS = 2.0**0.5
 """A pixel may cover so many, along its longer side: half a level of the smaller copies."""
@@ -44,41 +46,35 @@ def needs_no_copies(
     focal = min(intrinsics.fx, intrinsics.fy)
     place, turn = world_from_camera.position, np.ascontiguousarray(world_from_camera.rotation)
     chosen = np.empty(len(densities), dtype=bool)
-    _choose(densities, normals, corners, place, turn, focal, chosen)
+    _choose(densities, product(normals, turn), corners, place, turn, focal, chosen)
     return chosen
 
 
 @njit
 def _choose(
     densities: Array,
-    normals: Array,
+    facing: Array,
     corners: Array,
     place: Array,
     turn: Array,
     focal: float,
     chosen: npt.NDArray[np.bool_],
 ) -> None:
-    """Do as `needs_no_copies`, into ``chosen``; the camera is at ``place`` with axes ``turn``."""
-    facing, point = np.empty(3), np.empty(3)
+    """Do as `needs_no_copies`, into ``chosen``; the camera is at ``place`` with axes ``turn``.
+
+    Normals are in its frame; bent pieces, whose normals are 0, are at no distance from their plane.
+    """
+    point = np.empty(3)
     for m in range(len(densities)):
-        for k in range(3):
-            facing[k] = 0.0
-            for j in range(3):
-                facing[k] += normals[m, j] * turn[j, k]
+        x, y, z = facing[m]
         away, farthest, least, most = np.inf, 0.0, np.inf, -np.inf  # from plane, camera; depths [m]
         for c in range(8):
-            for k in range(3):
-                point[k] = 0.0
-                for j in range(3):
-                    point[k] += (corners[m, c, j] - place[j]) * turn[j, k]
-            above = facing[0] * point[0] + facing[1] * point[1] + facing[2] * point[2]
-            away = min(away, abs(above))
+            seen_from(corners[m, c], place, turn, point)
+            away = min(away, abs(x * point[0] + y * point[1] + z * point[2]))
             squares = point[0] * point[0] + point[1] * point[1] + point[2] * point[2]
             farthest = max(farthest, math.sqrt(squares))
             least, most = min(least, -point[2]), max(most, -point[2])
-        is_flat = normals[m, 0] != 0.0 or normals[m, 1] != 0.0 or normals[m, 2] != 0.0
         chosen[m] = False
-        if is_flat and least > 0.0 and densities[m] > 0.0 and away > 0.0:
-            leaning = math.hypot(facing[0], facing[1])
-            footprint = most / focal * (1.0 + leaning * farthest / away)  # [m]
+        if away > 0.0 and least > 0.0 and densities[m] > 0.0:
+            footprint = most / focal * (1.0 + math.hypot(x, y) * farthest / away)  # [m]
             chosen[m] = densities[m] * footprint <= MAX_TEXELS

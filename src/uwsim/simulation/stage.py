@@ -69,7 +69,7 @@ class SceneStage(SceneWorld):
             self.network.trace = lambda line: publish(String(data=line))
         self._datagrams = Datagrams(udp_address)
         self._timers: list[SampleTimer] = []
-        self._due = -math.inf  # none is due before this step
+        self._due = math.inf  # the step before which none of them is due
         self._commands: list[tuple[Callable[[Any], None], Any]] = []
         self._faulty_topics: list[FaultyTopic] = []
         self.devices = tuple(self._bound_devices())
@@ -237,7 +237,7 @@ class SceneStage(SceneWorld):
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
         timer = SampleTimer(self.step, rate, self.timestep, call)
         self._timers.append(timer)
-        self._due = -math.inf
+        self._due = min(self._due, timer.due)
         return lambda: self._timers.remove(timer) if timer in self._timers else None
 
     def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
@@ -266,16 +266,15 @@ class SceneStage(SceneWorld):
         """The step at which `tick` calls something; inf where nothing waits."""
         if not self.network.is_idle:
             return self.step
-        return min((timer.due for timer in self._timers), default=math.inf)
+        return self._due
 
     def tick(self) -> None:
         """Let packets arrive, and call what is due at the current step."""
         self.network.advance(nanoseconds(self.time))
-        step = self.step
-        if step < self._due:
+        if self.step < self._due:
             return
         for timer in self._timers:
-            timer.tick(step)
+            timer.tick(self.step)
         self._due = min((timer.due for timer in self._timers), default=math.inf)
 
 

@@ -118,7 +118,7 @@ class NavigationFilter:
             rate: angular velocity, base axes, (3,) [rad/s].
             force: specific force, base axes, (3,) [m/s2]; 9.81 upwards at rest.
         """
-        if not math.isfinite(wxyz.sum() + rate.sum() + force.sum()):
+        if not math.isfinite(wxyz.sum() + rate.sum() + force.sum()):  # as any part of it is not
             return
         measured = rotation_from_quaternion(wxyz)
         if self._time is None:

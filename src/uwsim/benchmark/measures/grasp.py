@@ -19,10 +19,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...geometry import Array
+from ...geometry import Array, Pose
 from ...inbox import Inbox
 from ...messages import String
-from ...numerics.jit import njit
 from ...numerics.linear import length
 from ...schema import element
 from ...world import Body, World
@@ -68,13 +67,13 @@ class GraspSpec(MeasureSpec):
     """Topics that hold the truth, separated by blanks: who reads one is marked in the result."""
 
     def errors(self) -> Sequence[str]:
-        """Phases without a topic, or one twice."""
+        """Phases without a topic, or one twice; one name for two things."""
         names, found = self.phases.split(), []
         if names and self.topic is None:
             found.append("<phases> need a <topic> on which they are published")
         if len(set(names)) < len(names):
             found.append("<phases> has a phase twice")
-        if self.ground in (self.target, self.vehicle) or self.target == self.vehicle:
+        if len({self.target, self.vehicle, self.ground}) < 3:
             found.append("<target>, <vehicle> and <ground> have to be three different things")
         if self.jaw in (self.target, self.ground):
             found.append(f"<jaw> is {self.jaw!r}; expected a frame of {self.vehicle!r}")
@@ -248,9 +247,8 @@ class Grasp(Measure):
 
     def _place(self, point: Array) -> Array:
         """Where a point of the object is in the jaw's frame, (3,) [m]."""
-        jaw, thing = self._jaw.world_from_body, self._thing.world_from_body
-        place = np.empty(3)
-        _seen_from(jaw.rotation, jaw.position, thing.rotation, thing.position, point, place)
+        jaw_from_thing: Pose = self._jaw.world_from_body.inverse() @ self._thing.world_from_body
+        place: Array = jaw_from_thing.transform(point[None])[0]
         return place
 
     def _moved(self, point: Array, was: Array) -> float:
@@ -372,18 +370,3 @@ class Grasp(Measure):
     def close(self) -> None:
         """Unsubscribe."""
         self._phases.close()
-
-
-@njit
-def _seen_from(
-    jaw_turn: Array, jaw: Array, thing_turn: Array, thing: Array, point: Array, place: Array
-) -> None:
-    """Where a point of one body is in the frame of another, into (3,) [m]."""
-    for i in range(3):
-        x, y, z = jaw_turn[0, i], jaw_turn[1, i], jaw_turn[2, i]
-        shift = x * thing[0] + y * thing[1] + z * thing[2] - (x * jaw[0] + y * jaw[1] + z * jaw[2])
-        found = 0.0
-        for k in range(3):
-            turn = x * thing_turn[0, k] + y * thing_turn[1, k] + z * thing_turn[2, k]
-            found += turn * point[k]
-        place[i] = found + shift

@@ -47,14 +47,8 @@ class EngineContacts:
         owners = [owner_of(model.geom(i).name) for i in range(model.ngeom)]
         self._owners = np.array(owners)
         self._names = [name_of(scene, owner) for owner in owners]
-        numbers = {owner: i for i, owner in enumerate(sorted(set(owners)))}
-        self._owner_numbers = np.array([numbers[owner] for owner in owners], np.int64)
-        self._numbers = {
-            (kind, index): numbers[f"{kind}/{index}"]
-            for kind, things in (("vehicle", scene.vehicles), ("object", scene.objects))
-            for index in range(len(things))
-            if f"{kind}/{index}" in numbers
-        }
+        self._numbers = {owner: i for i, owner in enumerate(sorted(set(owners)))}
+        self._owner_numbers = np.array([self._numbers[owner] for owner in owners], np.int64)
         self._labels = sorted(set(self._names))
         labels = {name: i for i, name in enumerate(self._labels)}
         self._name_numbers = np.array([labels[name] for name in self._names], np.int64)
@@ -85,7 +79,7 @@ class EngineContacts:
         found: dict[str, Array] = {}
         if not self.hold or self._data.ncon == 0:
             return found
-        owner = self._numbers.get((kind, index))
+        owner = self._numbers.get(f"{kind}/{index}")
         if owner is None:
             return found
         geoms, addresses, frames, pressures = self._pressing()

@@ -35,8 +35,7 @@ class WaterMotion:
         self._world_from_localized = scene.world_from_localized
         self._localized_from_world = scene.world_from_localized.inverse()
         self._scene_current = bind_currents(specs, place)
-        self._flow: Flow = self._scene_current
-        self._is_still = self._flow.is_still
+        self.set(None)
         self._felt_by: Sequence[str] = ()  # the vehicle at each point of `during`
         self._names: tuple[str, ...] = ()  # their names, each once
         self._felt = np.zeros(0, np.int64)  # the number of its name, for each point
@@ -47,6 +46,7 @@ class WaterMotion:
 
     def set(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
+        self._flow: Flow
         if current is None:
             self._flow = self._scene_current
         elif self._scene_current.is_still:
