@@ -4,8 +4,11 @@ Python answers Ctrl-C by raising KeyboardInterrupt wherever it happens to be, an
 are loaded that is inside them: some turn it into another error, some print it and go on. So a
 command begins with `end_at_once`, and says `raise_from_now_on` before it writes its first file.
 From then on the system's SIGTERM, and the SIGHUP of a terminal that is closed, are as Ctrl-C.
-An interrupt that a library has turned into another error, as compiled code does that returns a
-named tuple, is raised again by `raise_if_interrupted`, before a row is kept that it has spoiled.
+
+Some libraries call Python from compiled code and do not look for an error: moderngl's crashes the
+process when it makes a program's uniforms, numba's goes on with a named tuple that is not there.
+While one of them is at work an interrupt waits. One that something has swallowed all the same is
+raised again by `raise_if_interrupted`, before a row is kept that it has spoiled.
 """
 
 from __future__ import annotations
@@ -14,12 +17,18 @@ import os
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
-from threading import Event
+from threading import Event, Timer, current_thread, main_thread
 from types import FrameType
 
 STATUS = 130
 """Exit status of what was interrupted: that of shells."""
+UNSAFE = ("moderngl", "_moderngl", "glcontext", "numba", "llvmlite")
+"""Packages that an exception from nowhere may break; and the named tuples that numba makes."""
+LATER = 0.02
+"""How long an interrupt waits before it tries again [s]."""
 _arrived = Event()
+_waits = Event()
+_is_ignored = Event()
 
 
 def end_at_once() -> None:
@@ -30,7 +39,7 @@ def end_at_once() -> None:
 
 def raise_from_now_on() -> None:
     """From now on the signals that ended the process at once raise KeyboardInterrupt."""
-    _arrived.clear()
+    _arrived.clear()  # one that waits goes on waiting
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, _raise)
     for number in (signal.SIGTERM, signal.SIGHUP):
@@ -39,9 +48,17 @@ def raise_from_now_on() -> None:
 
 
 def raise_if_interrupted() -> None:
-    """Raise KeyboardInterrupt if one was raised in this process and something has caught it."""
-    if _arrived.is_set():
+    """Raise KeyboardInterrupt if one waits, or was raised here and something has caught it."""
+    if _arrived.is_set() or _waits.is_set():
         _arrived.clear()
+        _waits.clear()
+        raise KeyboardInterrupt
+
+
+def raise_if_one_waits() -> None:
+    """Raise KeyboardInterrupt if one waits until a library may be interrupted: now it may be."""
+    if _waits.is_set() and current_thread() is main_thread():
+        _waits.clear()
         raise KeyboardInterrupt
 
 
@@ -68,20 +85,57 @@ def is_of_user(error: BaseException) -> bool:
 def ignoring_interrupts() -> Iterator[None]:
     """Start processes in this block that ignore Ctrl-C for as long as they run.
 
-    For this process it waits until the block is left.
+    For this process it waits until the block is left. The system may hand it to another thread,
+    which does not block it, and Python would raise it in the main one: that is told to wait, too.
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    is_outermost = current_thread() is main_thread() and not _is_ignored.is_set()
+    if is_outermost:
+        _is_ignored.set()
     try:
         yield
     finally:
+        if is_outermost:
+            _is_ignored.clear()
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _raise(number: int, frame: FrameType | None) -> None:
+    if _is_ignored.is_set() or _is_unsafe(frame):
+        _try_again(number)
+        return
+    _waits.clear()
     _arrived.set()
     raise KeyboardInterrupt
 
 
 def _end(number: int, frame: FrameType | None) -> None:
+    if _is_ignored.is_set():
+        _try_again(number)
+        return
     os.write(2, b"uwsim: interrupted.\n")
     os._exit(STATUS)
+
+
+def _is_unsafe(frame: FrameType | None) -> bool:
+    """Whether one of the packages that may break is at work."""
+    while frame is not None:
+        package = str(frame.f_globals.get("__name__")).partition(".")[0]
+        if package in UNSAFE or package.startswith("namedtuple_"):
+            return True
+        frame = frame.f_back
+    return False
+
+
+def _try_again(number: int) -> None:
+    """Send the main thread this signal in a moment, unless it was raised until then."""
+    _waits.set()
+    timer = Timer(LATER, _send, (number,))
+    timer.daemon = True
+    timer.start()
+
+
+def _send(number: int) -> None:
+    thread = main_thread().ident
+    if _waits.is_set() and thread is not None:
+        signal.pthread_kill(thread, number)

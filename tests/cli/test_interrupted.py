@@ -16,13 +16,16 @@ from typing import Any
 import pytest
 
 from tests.short_benchmark import run, write_benchmark
+from tests.waiting import LIMIT
 from uwsim import interrupts
+from uwsim.numerics.compiling import one_is_compiled
 from uwsim.runs.executors import executor
 
 
 @pytest.fixture(autouse=True)
 def _no_interrupt_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(interrupts, "_arrived", threading.Event())
+    for name in ("_arrived", "_waits", "_is_ignored"):
+        monkeypatch.setattr(interrupts, name, threading.Event())
 
 
 def pressed(arguments: list[str], when: float) -> tuple[int, str]:
@@ -110,6 +113,109 @@ def test_from_a_point_on_ctrl_c_is_an_error_that_can_be_handled() -> None:
             os.kill(os.getpid(), signal.SIGINT)
     finally:
         signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture
+def raising() -> Iterator[None]:
+    """Ctrl-C raises KeyboardInterrupt, as in a run."""
+    before = signal.getsignal(signal.SIGINT)
+    try:
+        interrupts.end_at_once()
+        interrupts.raise_from_now_on()
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
+def press() -> None:
+    os.kill(os.getpid(), signal.SIGINT)
+
+
+IN_MODERNGL = """
+import os, signal, time
+import _moderngl
+from uwsim import interrupts
+from uwsim.numerics.compiling import one_is_compiled
+from uwsim.rendering.context import create_context
+
+class Pressing(dict):
+    def get(self, *key):
+        os.kill(os.getpid(), signal.SIGINT)
+        return super().get(*key)
+
+context = create_context()
+_moderngl.UNIFORM_LOOKUP_TABLE = Pressing(_moderngl.UNIFORM_LOOKUP_TABLE)
+interrupts.end_at_once()
+interrupts.raise_from_now_on()
+try:
+    program = context.program(
+        vertex_shader='#version 330\\nuniform vec4 at;\\nvoid main() { gl_Position = at; }'
+    )
+    assert program['at'].dimension == 4
+    time.sleep(100)
+except KeyboardInterrupt:
+    print('raised when the program was there')
+"""
+
+
+def test_an_interrupt_waits_until_moderngl_has_made_a_program() -> None:
+    """Its compiled code calls Python and takes the answer for granted: a segmentation fault."""
+    ended = subprocess.run(
+        [sys.executable, "-c", IN_MODERNGL], capture_output=True, text=True, timeout=200
+    )
+    assert (ended.returncode, ended.stdout) == (0, "raised when the program was there\n")
+
+
+@pytest.mark.usefixtures("raising")
+@pytest.mark.parametrize("module", ["numba.core.dispatcher", "llvmlite.binding", "namedtuple_Hit"])
+def test_an_interrupt_waits_while_compiled_code_is_made_or_answers(module: str) -> None:
+    its: dict[str, Any] = {"__name__": module, "press": press, "done": []}
+    exec("def work():\n    press()\n    done.append(1)\n", its)
+
+    def work() -> None:
+        its["work"]()
+        time.sleep(LIMIT)
+
+    with pytest.raises(KeyboardInterrupt):
+        work()
+    assert its["done"] == [1]
+
+
+@pytest.mark.usefixtures("raising")
+def test_an_interrupt_that_waits_comes_in_before_the_next_function_is_compiled(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(interrupts, "LATER", LIMIT)
+    its: dict[str, Any] = {
+        "__name__": "numba.core.compiler",
+        "press": press,
+        "then": one_is_compiled,
+    }
+    exec("def work():\n    press()\n    then()\n", its)
+    with pytest.raises(KeyboardInterrupt):
+        its["work"]()
+
+
+@pytest.mark.usefixtures("raising")
+def test_an_interrupt_that_another_thread_takes_waits_while_a_process_is_started() -> None:
+    done, leave = [], threading.Event()
+    other = threading.Thread(target=leave.wait)
+    other.start()
+
+    def start() -> None:
+        with interrupts.ignoring_interrupts():
+            press()  # to the other thread: this one blocks it
+            time.sleep(0.1)
+            done.append(1)
+        time.sleep(LIMIT)
+
+    try:
+        with pytest.raises(KeyboardInterrupt):
+            start()
+    finally:
+        leave.set()
+        other.join()
+    assert done == [1]
 
 
 def test_a_run_whose_algorithm_swallows_the_interrupt_ends_and_keeps_no_spoiled_row(

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..interrupts import raise_if_one_waits
+
 MANY = 3
 """So many functions make a start a slow one; a single one takes less than a second or two."""
 _listeners: list[Callable[[], None]] = []
@@ -16,7 +18,11 @@ def when_many_are_compiled(tell: Callable[[], None]) -> None:
 
 
 def one_is_compiled() -> None:
-    """Count a function that is not on the disk: what follows compiles it."""
+    """Count a function that is not on the disk: what follows compiles it.
+
+    Between two functions is where an interrupt can come in: numba works for seconds at each.
+    """
+    raise_if_one_waits()
     global _n_compiled
     _n_compiled += 1
     if _n_compiled >= MANY and _listeners:
