@@ -30,7 +30,7 @@ SIMULATOR = "/uwsim"
 """Name of the node."""
 DEPTH = 1000
 PATIENCE = 2.0
-"""How often it joins until it is ticked [s]."""
+"""How often it subscribes again to what stays unconnected, and joins until it is ticked [s]."""
 GLANCE = 0.05
 """How often connections are looked at; they come and go without a notice [s]."""
 
@@ -50,8 +50,8 @@ class LockStep:
         self._callbacks, self._kinds, self._publishers = {}, {}, {}
         self._waiting, self._own = {}, []  # messages by topic; its own that only it reads
         self._arrived, self._handled, self._published = {}, {}, {}
-        self._timers, self._ticks, self._subscribers, self._services = [], [], [], []
-        self._node = None
+        self._timers, self._ticks, self._services = [], [], []
+        self._readers, self._node, self._sent = {}, None, set()
 
     def subscribe(self, topic, kind, callback):
         """Have a callback called with each message of a topic."""
@@ -84,27 +84,27 @@ class LockStep:
     def take_part(self):
         """Join, and answer ticks until the simulation leaves."""
         join, ack = self._out(JOIN, String), self._out(ACK, String)
-        ticks = self._in(TICK, String, self._on_tick)
+        self._in(TICK, String, self._on_tick)
         for topic in sorted(set(self._callbacks) - set(self._publishers)):
             self._expect(topic)
             self._in(topic, self._kinds[topic], self._receiver(topic))
         outs = {**self._publishers, JOIN: join, ACK: ack}
         while not self._ticks:
-            if not self._wait(lambda: self._is_connected(outs)):
+            if not self._connect(outs):
                 return
             own = sorted(set(self._callbacks) & set(self._published))
             for topic in set(own) - set(self._waiting):
                 self._expect(topic)
             self._say(join, topics=list(self._waiting), own=own, next=self._next())
-            again = time.monotonic() + PATIENCE  # this may have gone to a trial that ends
-            self._wait(lambda: self._ticks or time.monotonic() > again)  # noqa: B023
+            # this may have gone to a trial that ends
+            self._wait(lambda: self._ticks, PATIENCE)
         # that of the next trial may be there before rospy has dropped that of this one
-        simulator = list(ticks.impl.connections)
-        while self._wait(lambda: self._is_complete() or _has_left(ticks, simulator)):
+        simulator = list(self._readers[TICK].impl.connections)
+        while self._wait(lambda: self._is_complete() or self._has_left(simulator)):
             if not self._is_complete():
                 break
             self._answer(ack)
-        for end in (*outs.values(), *self._subscribers):
+        for end in (*outs.values(), *self._readers.values()):
             end.unregister()
         for service in self._services:
             service.shutdown()
@@ -150,6 +150,22 @@ class LockStep:
             self._published[topic] += 1
         self._publishers[topic].publish(message)
 
+    def _connect(self, outs):
+        """Wait until all is connected; False at the end of the program.
+
+        rospy may apply an answer of the master after news that are younger than it, and then waits
+        for ever for a publisher that it has forgotten.
+        """
+        while not self._wait(lambda: self._is_connected(outs), PATIENCE):
+            if rospy.is_shutdown():
+                return False
+            for topic in self._unconnected():
+                reader = self._readers[topic]
+                kind, receive = reader.data_class, reader.callback
+                reader.unregister()
+                self._in(topic, kind, receive)
+        return True
+
     def _is_connected(self, outs):
         """Whether each topic that it shares with the simulation has a connection."""
         try:
@@ -161,10 +177,19 @@ class LockStep:
             return False
         if TICK not in sends:
             return False
+        self._sent = sends
         self._published = {topic: 0 for topic in self._publishers if topic in reads}
-        return all(
-            end.get_num_connections() for end in self._subscribers if end.resolved_name in sends
-        ) and all(end.get_num_connections() for topic, end in outs.items() if topic in reads)
+        return not self._unconnected() and all(
+            end.get_num_connections() for topic, end in outs.items() if topic in reads
+        )
+
+    def _unconnected(self):
+        """What it subscribes to and the simulation sends, without a connection."""
+        return [
+            topic
+            for topic, reader in self._readers.items()
+            if reader.resolved_name in self._sent and not reader.get_num_connections()
+        ]
 
     def _has_arrived(self):
         """Whether the simulation has all that was published."""
@@ -181,11 +206,12 @@ class LockStep:
         sent = _slashed(self._ticks[0]["sent"]) if self._ticks else {}
         return bool(self._ticks) and all(self._arrived[topic] >= n for topic, n in sent.items())
 
-    def _wait(self, condition):
-        """Wait until a condition holds; False at the end of the program."""
+    def _wait(self, condition, patience=float("inf")):
+        """Wait until a condition holds; False at the end of the program, or of patience [s]."""
+        end = time.monotonic() + patience
         with self._news:
             while not condition():
-                if rospy.is_shutdown():
+                if rospy.is_shutdown() or time.monotonic() > end:
                     return False
                 self._news.wait(GLANCE)
         return True
@@ -206,24 +232,22 @@ class LockStep:
 
         return receive
 
+    def _has_left(self, simulator):
+        """Whether none of these connections is there any more."""
+        return not any(each in simulator for each in self._readers[TICK].impl.connections)
+
     def _next(self):
         return min((_due(timer) for timer in self._timers), default=None)
 
     def _in(self, topic, kind, receive):
-        subscriber = rospy.Subscriber(topic, kind, receive, queue_size=None, tcp_nodelay=True)
-        self._subscribers.append(subscriber)
-        return subscriber
+        reader = rospy.Subscriber(topic, kind, receive, queue_size=None, tcp_nodelay=True)
+        self._readers[topic] = reader
 
     def _out(self, topic, kind):
         return rospy.Publisher(topic, kind, queue_size=DEPTH, tcp_nodelay=True)
 
     def _say(self, out, **content):
         out.publish(String(data=json.dumps({"client": self._client, **content})))
-
-
-def _has_left(subscriber, connections):
-    """Whether none of these connections is there any more."""
-    return not any(each in connections for each in subscriber.impl.connections)
 
 
 def _due(timer):

@@ -17,19 +17,29 @@ from tests.ros1_peers import EXAMPLES, Peers, needs_ros1, peers
 from tests.short_benchmark import write_benchmark
 from tests.waiting import LIMIT
 
+FORGETFUL = f"""
+import sys
+sys.path.insert(0, {str(EXAMPLES)!r})
+import run_algorithm, lockstep  # the first finds rospy
+
+class Forgetful(lockstep.LockStep):
+    has_forgotten = False
+
+    def _is_connected(self, outs):
+        if super()._is_connected(outs) and not Forgetful.has_forgotten:
+            Forgetful.has_forgotten = True  # as after an answer of the master that came late
+            for connection in self._readers[lockstep.TICK].impl.connections:
+                connection.close()
+        return super()._is_connected(outs)
+
+lockstep.LockStep = Forgetful
+run_algorithm.main()
+"""
 TOTAL = LIMIT
 """Nothing takes longer unless it hangs [s]."""
 
 
-pytestmark = [
-    needs_ros1,
-    pytest.mark.slow,
-    pytest.mark.skipif(
-        "UWSIM_TEST_ROS1_LOCKSTEP" not in os.environ,
-        reason="rospy may lose a connection between trials, one run in fifteen; "
-        "UWSIM_TEST_ROS1_LOCKSTEP=1 runs it",
-    ),
-]
+pytestmark = [needs_ros1, pytest.mark.slow]
 
 
 @pytest.fixture
@@ -49,13 +59,18 @@ def scored(out: Path, *words: str, environment: dict[str, str] | None = None) ->
 
 
 def scored_outside(
-    graph: Peers, benchmark: Path, out: Path, *options: str, program: tuple[str, ...]
+    graph: Peers,
+    benchmark: Path,
+    out: Path,
+    *options: str,
+    program: tuple[str, ...],
+    file: Path = EXAMPLES / "run_algorithm.py",
 ) -> dict[str, Any]:
     """Run a benchmark with a program of rospy as its algorithm."""
     own = {name: graph.environment[name] for name in ("ROS_MASTER_URI", "ROS_IP", "ROS_LOG_DIR")}
     environment = {**os.environ, **own}
     client = subprocess.Popen(
-        [sys.executable, str(EXAMPLES / "run_algorithm.py"), *program, "--name", "outside"],
+        [sys.executable, str(file), *program, "--name", "outside"],
         env=environment,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -98,4 +113,20 @@ def test_several_trials_are_run_by_one_program(graph: Peers, tmp_path: Path) -> 
     inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "esm", *options)
     program = ("uwsim.algorithms:Esm", "--trials", "2")
     outside = scored_outside(graph, benchmark, tmp_path / "outside", *options, program=program)
+    assert outside["rows"] == inside["rows"]
+
+
+def test_a_program_whose_connection_rospy_has_forgotten_subscribes_again(
+    graph: Peers, tmp_path: Path
+) -> None:
+    benchmark = write_benchmark(tmp_path, "0.2")
+    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "esm")
+    (tmp_path / "forgetful.py").write_text(FORGETFUL)
+    outside = scored_outside(
+        graph,
+        benchmark,
+        tmp_path / "outside",
+        program=("uwsim.algorithms:Esm",),
+        file=tmp_path / "forgetful.py",
+    )
     assert outside["rows"] == inside["rows"]
