@@ -17,7 +17,7 @@ import os
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
-from threading import Event, Timer, current_thread, main_thread
+from threading import Event, Timer, current_thread, get_ident, main_thread
 from types import FrameType
 
 STATUS = 130
@@ -28,7 +28,7 @@ LATER = 0.02
 """How long an interrupt waits before it tries again [s]."""
 _arrived = Event()
 _waits = Event()
-_is_ignored = Event()
+_is_blocked = Event()
 
 
 def end_at_once() -> None:
@@ -49,17 +49,16 @@ def raise_from_now_on() -> None:
 
 def raise_if_interrupted() -> None:
     """Raise KeyboardInterrupt if one waits, or was raised here and something has caught it."""
-    if _arrived.is_set() or _waits.is_set():
+    raise_if_one_waits()
+    if _arrived.is_set():
         _arrived.clear()
-        _waits.clear()
         raise KeyboardInterrupt
 
 
 def raise_if_one_waits() -> None:
     """Raise KeyboardInterrupt if one waits until a library may be interrupted: now it may be."""
     if _waits.is_set() and current_thread() is main_thread():
-        _waits.clear()
-        raise KeyboardInterrupt
+        _interrupt()
 
 
 def ignore_from_now_on() -> None:
@@ -89,32 +88,36 @@ def ignoring_interrupts() -> Iterator[None]:
     which does not block it, and Python would raise it in the main one: that is told to wait, too.
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    is_outermost = current_thread() is main_thread() and not _is_ignored.is_set()
+    is_outermost = current_thread() is main_thread() and not _is_blocked.is_set()
     if is_outermost:
-        _is_ignored.set()
+        _is_blocked.set()
     try:
         yield
     finally:
         if is_outermost:
-            _is_ignored.clear()
+            _is_blocked.clear()
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def _raise(number: int, frame: FrameType | None) -> None:
-    if _is_ignored.is_set() or _is_unsafe(frame):
+    if _is_blocked.is_set() or _is_unsafe(frame):
         _try_again(number)
-        return
-    _waits.clear()
-    _arrived.set()
-    raise KeyboardInterrupt
+    else:
+        _interrupt()
 
 
 def _end(number: int, frame: FrameType | None) -> None:
-    if _is_ignored.is_set():
+    if _is_blocked.is_set():
         _try_again(number)
-        return
-    os.write(2, b"uwsim: interrupted.\n")
-    os._exit(STATUS)
+    else:
+        os.write(2, b"uwsim: interrupted.\n")
+        os._exit(STATUS)
+
+
+def _interrupt() -> None:
+    _waits.clear()
+    _arrived.set()
+    raise KeyboardInterrupt
 
 
 def _is_unsafe(frame: FrameType | None) -> bool:
@@ -128,14 +131,13 @@ def _is_unsafe(frame: FrameType | None) -> bool:
 
 
 def _try_again(number: int) -> None:
-    """Send the main thread this signal in a moment, unless it was raised until then."""
+    """Send this thread, the main one, the signal in a moment, unless it was raised until then."""
     _waits.set()
-    timer = Timer(LATER, _send, (number,))
+    timer = Timer(LATER, _send, (get_ident(), number))
     timer.daemon = True
     timer.start()
 
 
-def _send(number: int) -> None:
-    thread = main_thread().ident
-    if _waits.is_set() and thread is not None:
+def _send(thread: int, number: int) -> None:
+    if _waits.is_set():
         signal.pthread_kill(thread, number)

@@ -23,9 +23,14 @@ from uwsim.runs.executors import executor
 
 
 @pytest.fixture(autouse=True)
-def _no_interrupt_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("_arrived", "_waits", "_is_ignored"):
+def _no_interrupt_is_left(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    for name in ("_arrived", "_waits", "_is_blocked"):
         monkeypatch.setattr(interrupts, name, threading.Event())
+    numbers = signal.SIGINT, signal.SIGTERM, signal.SIGHUP
+    before = [signal.getsignal(number) for number in numbers]
+    yield
+    for number, handler in zip(numbers, before, strict=True):
+        signal.signal(number, handler)
 
 
 def pressed(arguments: list[str], when: float) -> tuple[int, str]:
@@ -92,39 +97,28 @@ sys.exit(__main__.run())
 
 
 def test_who_ignores_ctrl_c_goes_on_ignoring_it() -> None:
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        interrupts.end_at_once()
-        interrupts.raise_from_now_on()
-        assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
-    finally:
-        signal.signal(signal.SIGINT, before)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    interrupts.end_at_once()
+    interrupts.raise_from_now_on()
+    assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
 
 
 def test_from_a_point_on_ctrl_c_is_an_error_that_can_be_handled() -> None:
     before = signal.getsignal(signal.SIGINT)
-    try:
-        interrupts.raise_from_now_on()
-        assert signal.getsignal(signal.SIGINT) is before  # nobody asked for the other
-        interrupts.end_at_once()
-        assert signal.getsignal(signal.SIGINT) is not before
-        interrupts.raise_from_now_on()
-        with pytest.raises(KeyboardInterrupt):
-            os.kill(os.getpid(), signal.SIGINT)
-    finally:
-        signal.signal(signal.SIGINT, before)
+    interrupts.raise_from_now_on()
+    assert signal.getsignal(signal.SIGINT) is before  # nobody asked for the other
+    interrupts.end_at_once()
+    assert signal.getsignal(signal.SIGINT) is not before
+    interrupts.raise_from_now_on()
+    with pytest.raises(KeyboardInterrupt):
+        press()
 
 
 @pytest.fixture
-def raising() -> Iterator[None]:
+def raising() -> None:
     """Ctrl-C raises KeyboardInterrupt, as in a run."""
-    before = signal.getsignal(signal.SIGINT)
-    try:
-        interrupts.end_at_once()
-        interrupts.raise_from_now_on()
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
+    interrupts.end_at_once()
+    interrupts.raise_from_now_on()
 
 
 def press() -> None:
@@ -135,7 +129,6 @@ IN_MODERNGL = """
 import os, signal, time
 import _moderngl
 from uwsim import interrupts
-from uwsim.numerics.compiling import one_is_compiled
 from uwsim.rendering.context import create_context
 
 class Pressing(dict):
@@ -227,27 +220,19 @@ def test_a_run_whose_algorithm_swallows_the_interrupt_ends_and_keeps_no_spoiled_
         yield from original(*arguments)
 
     original = executor.run_trial
-    before = signal.getsignal(signal.SIGTERM)
     monkeypatch.setattr(executor, "run_trial", run_trial)
-    try:
-        interrupts.raise_from_now_on()
-        with pytest.raises(KeyboardInterrupt):
-            run(write_benchmark(tmp_path, "0.2"), tmp_path / "out")
-    finally:
-        signal.signal(signal.SIGTERM, before)
+    interrupts.raise_from_now_on()
+    with pytest.raises(KeyboardInterrupt):
+        run(write_benchmark(tmp_path, "0.2"), tmp_path / "out")
     assert [path.read_text().count("\n") for path in (tmp_path / "out/units").iterdir()] == [1]
 
 
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_what_else_ends_a_run_is_as_ctrl_c_unless_it_is_ignored(number: int) -> None:
-    before = signal.getsignal(number)
-    try:
-        signal.signal(number, signal.SIG_IGN)  # nohup
-        interrupts.raise_from_now_on()
-        assert signal.getsignal(number) is signal.SIG_IGN
-        signal.signal(number, signal.SIG_DFL)
-        interrupts.raise_from_now_on()
-        with pytest.raises(KeyboardInterrupt):
-            os.kill(os.getpid(), number)
-    finally:
-        signal.signal(number, before)
+    signal.signal(number, signal.SIG_IGN)  # nohup
+    interrupts.raise_from_now_on()
+    assert signal.getsignal(number) is signal.SIG_IGN
+    signal.signal(number, signal.SIG_DFL)
+    interrupts.raise_from_now_on()
+    with pytest.raises(KeyboardInterrupt):
+        os.kill(os.getpid(), number)
