@@ -57,6 +57,12 @@ def track_path(directory: Path, index: int) -> Path:
     return path_of(directory, index).with_suffix(TRACK)
 
 
+def recorded_trials(directory: Path) -> tuple[int, ...]:
+    """Return the numbers of the trials whose motion is in a result directory."""
+    tracks = (directory / FOLDER).glob(f"*{TRACK}")
+    return tuple(sorted(int(path.stem) for path in tracks if path.stem.isdecimal()))
+
+
 def read(directory: Path, index: int, head: Record) -> Stored:
     """Read a journal; a missing file has no rows.
 

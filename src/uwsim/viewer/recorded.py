@@ -128,12 +128,6 @@ class RecordedTrial:
         )
 
 
-def trials_of(directory: Path) -> tuple[int, ...]:
-    """Return the numbers of the trials whose motion is in a result directory."""
-    tracks = (directory / journal.FOLDER).glob(f"*{journal.TRACK}")
-    return tuple(sorted(int(path.stem) for path in tracks if path.stem.isdecimal()))
-
-
 def trials_of_first_seed(directory: Path) -> tuple[int, ...]:
     """Return the numbers of the trials whose motion is there and whose seed is that of the first.
 
@@ -142,7 +136,7 @@ def trials_of_first_seed(directory: Path) -> tuple[int, ...]:
     Raises:
         ResultError: there is no motion.
     """
-    there = trials_of(directory)
+    there = journal.recorded_trials(directory)
     if not there:
         _finished(directory, 0)
     seeds = [journal.head_of(journal.path_of(directory, i)).get("seed") for i in there]
@@ -168,7 +162,7 @@ def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> Scene
 
 def _finished(directory: Path, index: int) -> Path:
     """Return the journal of a trial whose motion is there; raises ResultError."""
-    there = trials_of(directory)
+    there = journal.recorded_trials(directory)
     if not there:
         raise ResultError(
             f"{directory}: holds no motion (units/*{journal.TRACK}): it was made by an earlier "

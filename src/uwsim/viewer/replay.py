@@ -12,12 +12,13 @@ import numpy as np
 from ..errors import ResultError
 from ..results import journal
 from ..results.atomic_file import write_text
+from ..results.journal import recorded_trials
 from ..simulation import Simulation
 from ..verify.recorded_plan import FileOverrides
 from .document import document
 from .head import body_poses, scene_head
 from .pack import Blob, packed
-from .recorded import RecordedLevel, RecordedTrial, trials_of
+from .recorded import RecordedLevel, RecordedTrial
 
 Json = dict[str, Any]
 SUFFIXES = (".html", ".htm")
@@ -54,7 +55,7 @@ class Replay:
     ) -> None:
         self.directory = directory = Path(directory)
         """Of the result."""
-        numbers = (trials_of(directory) or (0,)) if trials is None else tuple(trials)
+        numbers = (recorded_trials(directory) or (0,)) if trials is None else tuple(trials)
         self._trials = [RecordedTrial.open(directory, number, overrides) for number in numbers]
         if not self._trials:
             raise ResultError(f"{directory}: no trial was chosen.")

@@ -16,11 +16,11 @@ from PIL import Image
 
 from tests.short_benchmark import run, write_benchmark
 from uwsim.cli import main
-from uwsim.results.journal import track_path
+from uwsim.results.journal import recorded_trials, track_path
 from uwsim.viewer.film.curves import chosen
 from uwsim.viewer.film.film import Film, FilmSpec, record
 from uwsim.viewer.film.puppets import Puppets
-from uwsim.viewer.recorded import Curve, RecordedLevel, RecordedTrial, _level, trials_of
+from uwsim.viewer.recorded import Curve, RecordedLevel, RecordedTrial, _level
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +45,7 @@ def small(trial: RecordedTrial) -> Iterator[Film]:
 def test_a_recorded_trial_has_its_levels_and_the_samples_of_its_measures(
     result: Path, trial: RecordedTrial
 ) -> None:
-    assert trials_of(result) == (0,)
+    assert recorded_trials(result) == (0,)
     assert trial.title == "short, esm, seed 3"
     assert [level.label for level in trial.levels] == ["fog 0", "fog 0.4", "fog 0.8"]
     curve = trial.levels[1].curves[0]

@@ -17,6 +17,7 @@ from pathlib import Path
 from ...errors import ResultError
 from ...results.atomic_file import write_text
 from ...results.directory import CONTROL, REPLAY, REPORT
+from ...results.journal import recorded_trials
 from ...results.journal_check import check_rows
 from ...results.log import logs_of
 from ...results.per_level import LevelInterval, per_level, rows_by_level
@@ -121,6 +122,7 @@ def render(
         repeats=n_repeats,
         full=all_cells(result),
         replay=REPLAY if (directory / REPLAY).is_file() else None,
+        has_motion=bool(recorded_trials(directory)),
         n_rows=len(result.rows),
         plots=[
             (caption(result, column), data_url(plot.read_bytes(), "png"))
