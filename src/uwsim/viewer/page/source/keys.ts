@@ -65,6 +65,7 @@ export class Keyboard {
     const isField = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
     if (isField && !/^[a-z?]$/.test(event.key)) return;
     if (event.key === " " && target instanceof HTMLButtonElement) return;
+    if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // they scroll it
     if (page.link?.takes(event)) return;
     // while somebody pilots, the page's own letters are typed with Shift
     const key = page.link?.pilot.isOn && event.shiftKey ? event.key.toLowerCase() : event.key;

@@ -131,8 +131,10 @@ export type Keys = { keys: string; does: string }[];
 export function fillHelp(groups: Record<string, Keys>): void {
   const dialog = element<HTMLDialogElement>("help");
   dialog.replaceChildren();
-  const columns = make("div", "", "columns");
-  dialog.append(columns);
+  const [rows, columns] = [make("div", "", "rows"), make("div", "", "columns")];
+  rows.tabIndex = 0; // arrow keys scroll it
+  rows.append(columns);
+  dialog.append(rows);
   for (const [title, keys] of Object.entries(groups)) {
     const list = make("dl");
     for (const each of keys) list.append(make("dt", each.keys), make("dd", each.does));

@@ -1,0 +1,75 @@
+"""A pilot in a browser: what the page sends, and what its help says."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+import uwsim
+from uwsim.viewer.document import document
+from uwsim.viewer.live.mapping import KEYS, PilotMapping
+from uwsim.viewer.live.server import LiveServer
+from uwsim.viewer.live.view import LiveView
+
+pytestmark = pytest.mark.slow
+LIMIT = 120_000
+"""How long a page may take before it counts as hanging [ms]."""
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[LiveServer]:
+    made = LiveServer(lambda: document("scene", None))
+    yield made
+    made.close()
+
+
+def opened(browser: Any, server: LiveServer, mapping: PilotMapping, height: int) -> Any:
+    """Open the page of a scene that stands still, in a window of some height."""
+    view = LiveView(server, mapping=mapping)
+    with uwsim.load("currents-scene") as simulation:
+        view.open(simulation, "scene")
+        view.close()
+    window = {"width": 1024, "height": height}
+    page = browser.new_context(viewport=window, bypass_csp=True).new_page()
+    page.set_default_timeout(LIMIT)
+    page.goto(server.url)
+    page.wait_for_function("window.uwsim !== undefined && uwsim.page.link.pilot.isOn")
+    return page
+
+
+@pytest.mark.parametrize("height", [300, 420, 768])
+def test_no_row_of_the_help_is_behind_its_button_in_a_low_window(
+    browser: Any, server: LiveServer, height: int
+) -> None:
+    page = opened(browser, server, PilotMapping(keys=KEYS), height)
+    page.keyboard.press("?")
+    button = page.get_by_role("button", name="Close").bounding_box()
+    assert button["y"] + button["height"] <= height
+    for way in ("Home", "PageDown", "End"):
+        page.keyboard.press(way)
+        page.wait_for_timeout(500)  # it scrolls smoothly
+        assert page.evaluate(SEEN) <= button["y"] + 0.5, way
+    last = page.get_by_text("with a letter").bounding_box()
+    assert last["y"] + last["height"] <= button["y"] + 0.5
+    page.keyboard.press("Escape")
+    assert not page.get_by_role("dialog").is_visible()
+    page.context.close()
+
+
+SEEN = """() => {
+    const seen = (row) => {
+        let { top, bottom } = row.getBoundingClientRect()
+        for (let box = row.parentElement; box.id !== "help"; box = box.parentElement) {
+            if (getComputedStyle(box).overflowY !== "auto") continue
+            const cut = box.getBoundingClientRect()
+            bottom = Math.min(bottom, cut.bottom)
+            if (top >= cut.bottom) return 0
+        }
+        return bottom
+    }
+    const lowest = document.getElementById("help").getBoundingClientRect().bottom
+    return Math.max(...[...document.querySelectorAll("#help dd")].map(seen).filter(y => y < lowest))
+}"""
+"""How far down rows of the help are seen [px]."""
