@@ -14,6 +14,7 @@ from ..messages import (
     Empty,
     Float64MultiArray,
     JointState,
+    MultiArrayLayout,
     Odometry,
     TwistStamped,
     header,
@@ -22,25 +23,33 @@ from .scripted import odometry, twist_of
 from .tracker_node import chosen
 
 TOPIC = "pilotInputs"
-"""Topic on which a pilot's inputs come, one number an axis, -1..1."""
+"""Topic on which a pilot's inputs come, one number an axis, -1..1; axes without one are at 0."""
 N_JOINTS = 6
 """Joints that have an axis, beside the jaw."""
+N_THRUSTERS = 12
+"""Thrusters that have an axis."""
+TWIST_AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
+"""Of the vehicle: ahead, to starboard, up; starboard down, bow up, to starboard."""
+THRUSTER_AXES = tuple(f"thruster{k}" for k in range(1, N_THRUSTERS + 1))
+"""Of single thrusters, in the order of the vehicle's hydrodynamics file: their commands."""
 AXES = (
-    *("surge", "sway", "heave", "roll", "pitch", "yaw"),
+    *TWIST_AXES,
     "jaw",
     *(f"joint{k}" for k in range(1, N_JOINTS + 1)),
+    *THRUSTER_AXES,
 )
-"""What the numbers are: ahead, to starboard, up; starboard down, bow up, to starboard; open; on."""
+"""What the numbers are, new ones last: twist; jaw open; joints on; thrusters."""
 PERIOD = 0.05
 """Between two commands [s]."""
 
 
 class Pilot:
-    """A human pilot: inputs of the live view become twists of the vehicle and speeds of its joints.
+    """A human pilot: inputs of the live view become commands of a vehicle and its joints.
 
     An input within the dead zone counts as none; what is commanded follows the input at a limited
-    rate. Before the first input nothing is commanded. Services and topics are named with blanks
-    between them; those of the scene are found without being given.
+    rate. Before the first input nothing is commanded. A vehicle that takes twists and commands of
+    single thrusters gets those whose axes were moved last; at first twists. Services and topics
+    are named with blanks between them; those of the scene are found without being given.
     """
 
     IS_PILOTED: ClassVar[bool] = True
@@ -52,9 +61,12 @@ class Pilot:
         "joints_topic": "",
         "joints": "",
         "jaw": "",
+        "thrusters_topic": "",
+        "n_thrusters": 0.0,
         "z_is_down": 1.0,
         "speed": 0.4,
         "turn": 0.3,
+        "thrust": 1.0,
         "joint_speed": 0.3,
         "rate": 2.0,
         "dead_zone": 0.05,
@@ -72,6 +84,9 @@ class Pilot:
         self._say_twist = node.publisher(twist, TwistStamped) if twist else None
         self._say_odom = None if twist or not odom else node.publisher(odom, Odometry)
         self._say_joints = node.publisher(joints, JointState) if joints else None
+        thrusters = str(self.parameters["thrusters_topic"])
+        self._say_thrusters = node.publisher(thrusters, Float64MultiArray) if thrusters else None
+        self._by_thrusters = bool(thrusters) and not twist and not odom
         names = str(self.parameters["joints"]).split()[:N_JOINTS]
         jaw = str(self.parameters["jaw"]).split()
         self._joints = [(f"joint{k}", name) for k, name in enumerate(names, start=1)]
@@ -81,11 +96,12 @@ class Pilot:
 
     def _on_input(self, message: Float64MultiArray) -> None:
         values = np.asarray(message.data, dtype=np.float64)
-        if values.shape != (len(AXES),) or not np.isfinite(values).all():
+        if values.ndim != 1 or len(values) > len(AXES) or not np.isfinite(values).all():
             return
         dead = float(self.parameters["dead_zone"])
         values = np.clip(values, -1.0, 1.0)
-        self._wanted = np.where(np.abs(values) <= dead, 0.0, values)
+        self._wanted = np.zeros(len(AXES))
+        self._wanted[: len(values)] = np.where(np.abs(values) <= dead, 0.0, values)
         self._has_begun = True
 
     def _command(self) -> None:
@@ -97,8 +113,29 @@ class Pilot:
         step = float(self.parameters["rate"]) * PERIOD
         self._given += np.clip(self._wanted - self._given, -step, step)
         given = dict(zip(AXES, self._given.tolist(), strict=True))
-        self._drive(given)
+        if self._takes_thrusters(given):
+            self._thrust(given)
+        else:
+            self._drive(given)
         self._move_joints(given)
+
+    def _takes_thrusters(self, given: Mapping[str, float]) -> bool:
+        """Whether single thrusters are commanded now, and no twist."""
+        if self._say_thrusters is None or (self._say_twist is None and self._say_odom is None):
+            return self._by_thrusters
+        thrusts = any(given[axis] for axis in THRUSTER_AXES)
+        if thrusts != any(given[axis] for axis in TWIST_AXES):  # both at once: as before
+            self._by_thrusters = thrusts
+        return self._by_thrusters
+
+    def _thrust(self, given: Mapping[str, float]) -> None:
+        """Command all thrusters; those without an axis stand still."""
+        assert self._say_thrusters is not None
+        commands = np.zeros(int(float(self.parameters["n_thrusters"])))
+        axes = THRUSTER_AXES[: len(commands)]
+        commands[: len(axes)] = [float(self.parameters["thrust"]) * given[axis] for axis in axes]
+        layout = MultiArrayLayout(dim=[], data_offset=0)
+        self._say_thrusters(Float64MultiArray(layout=layout, data=commands))
 
     def _drive(self, given: Mapping[str, float]) -> None:
         speed, turn = float(self.parameters["speed"]), float(self.parameters["turn"])

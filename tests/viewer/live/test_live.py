@@ -208,8 +208,15 @@ def test_a_mapping_file_changes_what_it_names_and_errors_name_the_nearest(tmp_pa
     mapping = read_mapping(path)
     assert mapping.values({"keys": ["z", "w"], "axes": [0.5]})[:1] == (0.5,)
     assert mapping.sticks == PilotMapping().sticks
+    path.write_text('buttons = ["thruster2"]\n[keys]\nw = "+thruster1 -thruster3"\n')
+    values = dict(
+        zip(AXES, read_mapping(path).values({"keys": ["w"], "buttons": [0.7]}), strict=True)
+    )
+    moved = {axis: value for axis, value in values.items() if value}
+    assert moved == {"thruster1": 1.0, "thruster2": 0.7, "thruster3": -1.0}
     for text, said in [
         ('axes = ["surg"]', "Did you mean 'surge'"),
+        ('axes = ["surge thruster13"]', "no axis is called 'thruster13'"),
         ("dead_zone = 2", "expected 0 to 1"),
         ("key = 1", "Did you mean 'keys'"),
         ('keys = ["w"]', "keys is"),

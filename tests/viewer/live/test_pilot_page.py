@@ -16,6 +16,9 @@ from uwsim.viewer.live.view import LiveView
 pytestmark = pytest.mark.slow
 LIMIT = 120_000
 """How long a page may take before it counts as hanging [ms]."""
+MAPPING = PilotMapping(
+    keys={"w": "+thruster1 +thruster2", "s": "-thruster1 -thruster2", "e": "thruster3", "z": ""}
+)
 
 
 @pytest.fixture(scope="module")
@@ -73,3 +76,10 @@ SEEN = """() => {
     return Math.max(...[...document.querySelectorAll("#help dd")].map(seen).filter(y => y < lowest))
 }"""
 """How far down rows of the help are seen [px]."""
+
+
+def test_the_help_names_all_axes_of_a_key(browser: Any, server: LiveServer) -> None:
+    page = opened(browser, server, MAPPING, 768)
+    rows = page.evaluate("uwsim.page.link.help().Pilot.map(({ keys, does }) => keys + ': ' + does)")
+    assert rows[:-1] == ["w  s: thruster1 thruster2 +, −", "e  –: thruster3 +, −"]
+    page.context.close()

@@ -7,12 +7,14 @@
 
 They lie beside the journal of the trial. An input is published at the end of its step and
 delivered at the end of the next, so a run with stored inputs is the one in which they were made.
+Inputs of an earlier version may lack axes that came later; they stay without them.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,8 +28,16 @@ from .onlooker import Onlooker
 VERSION = 1
 RATE = 30.0
 """Most inputs a second of simulation time [Hz]."""
-Input = tuple[int, tuple[float, ...]]
-"""Step, and a value of each axis."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoredInputs:
+    """Inputs of an earlier run."""
+
+    axes: tuple[str, ...]
+    """The first of `AXES`; all of them but in runs of earlier versions."""
+    by_step: Mapping[int, tuple[float, ...]]
+    """Step -> a value of each axis, -1..1."""
 
 
 class PilotInputs:
@@ -43,18 +53,18 @@ class PilotInputs:
         self,
         simulation: Simulation,
         live: Callable[[], Sequence[float] | None],
-        stored: Sequence[Input] | None = None,
+        stored: StoredInputs | None = None,
     ) -> None:
-        self._simulation, self._live = simulation, live
-        self._stored = None if stored is None else dict(stored)
+        self._simulation, self._live, self._stored = simulation, live, stored
+        self._axes = AXES if stored is None else stored.axes
         self._every = max(1, round(1.0 / (RATE * simulation.timestep)))
         self._publish = simulation.bus.publisher(TOPIC, Float64MultiArray)
-        self._kept: list[Input] = []
+        self._kept: list[tuple[int, tuple[float, ...]]] = []
         simulation.watch(self._look)
 
     def data(self) -> bytes:
         """Return the file of the inputs so far."""
-        head = {"uwsim_inputs": VERSION, "axes": AXES}
+        head = {"uwsim_inputs": VERSION, "axes": self._axes}
         lines = [{"step": step, "values": values} for step, values in self._kept]
         return "".join(json.dumps(line) + "\n" for line in (head, *lines)).encode()
 
@@ -69,7 +79,7 @@ class PilotInputs:
 
     def _now(self, step: int) -> tuple[float, ...] | None:
         if self._stored is not None:
-            return self._stored.get(step)
+            return self._stored.by_step.get(step)
         if step % self._every:
             return None
         values = self._live()
@@ -79,18 +89,19 @@ class PilotInputs:
         return not self._kept or self._kept[-1][1] != values
 
 
-def read_inputs(data: bytes) -> tuple[Input, ...]:
+def read_inputs(data: bytes) -> StoredInputs:
     """Read a file of inputs; raises ResultError where it is none."""
     try:
         head, *lines = [json.loads(line) for line in data.splitlines()]
-        if head["uwsim_inputs"] != VERSION or tuple(head["axes"]) != AXES:
+        axes = tuple(map(str, head["axes"]))
+        if head["uwsim_inputs"] != VERSION or axes != AXES[: len(axes)]:
             raise ValueError("made by another version")
-        found = [(int(each["step"]), tuple(map(float, each["values"]))) for each in lines]
-        if any(len(v) != len(AXES) or not np.isfinite(v).all() for _, v in found):
+        found = {int(each["step"]): tuple(map(float, each["values"])) for each in lines}
+        if any(len(v) != len(axes) or not np.isfinite(v).all() for v in found.values()):
             raise ValueError("a line has not a number for each axis")
     except (ValueError, KeyError, TypeError) as error:
         raise ResultError(f"is no file of a pilot's inputs: {error}") from None
-    return tuple(found)
+    return StoredInputs(axes=axes, by_step=found)
 
 
 def pilot_inputs(

@@ -6,6 +6,7 @@ from ...simulation import Simulation
 from ...topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from ...topics.ros_odom_to_pat import ROSOdomToPATSpec
 from ...topics.ros_twist_to_pat import ROSTwistToPATSpec
+from ...topics.thruster_commands import ROSThrustersToPATSpec
 
 JAW = ("jaw", "grip", "hand", "finger")
 """What the name of a joint says that opens a hand."""
@@ -30,6 +31,9 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
             found.setdefault("odom_topic", spec.topic)
         elif isinstance(spec, ROSJointStateToArmSpec):
             found.setdefault("joints_topic", spec.topic)
+        elif isinstance(spec, ROSThrustersToPATSpec) and world.vehicle(name).thrusters:
+            found.setdefault("thrusters_topic", spec.topic)
+            found["n_thrusters"] = float(len(world.vehicle(name).thrusters))
     joints = list(world.vehicle(name).joint_names)
     jaw = ""
     if joints and any(word in joints[-1].lower() for word in JAW):

@@ -10,6 +10,7 @@
     [keys]
     w = "+surge"
     s = "-surge"
+    z = "+thruster1 -thruster2"                     # several axes at once
 """
 
 from __future__ import annotations
@@ -35,10 +36,10 @@ KEYS = {
 
 @dataclass(frozen=True, kw_only=True)
 class PilotMapping:
-    """Which axis everything moves."""
+    """Which axis everything moves, or which axes, with blanks between them."""
 
     keys: Mapping[str, str] = field(default_factory=lambda: KEYS)
-    """Key, as the browser names it in lower case -> axis with its sign."""
+    """Key, as the browser names it in lower case -> axes with their signs."""
     axes: tuple[str, ...] = ("yaw", "-heave", "sway", "-surge")
     """Of the axes of the gamepad."""
     buttons: tuple[str, ...] = ("", "", "", "", "", "", "-jaw", "+jaw")
@@ -92,17 +93,18 @@ def _check(path: Path, name: str, value: object) -> None:
     targets = list(value.values()) if isinstance(value, dict) else value
     if isinstance(value, dict) != (name == "keys") or not isinstance(targets, list):
         raise BadSetting(f"--pilot-mapping {path}: {name} is {value!r}; see docs/piloting.md.")
-    for target in targets:
-        axis = str(target).lstrip("+-")
-        if target and axis not in AXES:
+    for target in " ".join(map(str, targets)).split():
+        axis = target.removeprefix("-").removeprefix("+")
+        if axis not in AXES:
             raise BadSetting(
                 f"--pilot-mapping {path}: {name}: no axis is called {target!r}."
                 f"{did_you_mean(axis, AXES)} Axes: {', '.join(AXES)}."
             )
 
 
-def _add(total: dict[str, float], target: str, value: float) -> None:
-    total[target.lstrip("+-")] += -value if target.startswith("-") else value
+def _add(total: dict[str, float], targets: str, value: float) -> None:
+    for target in targets.split():
+        total[target.lstrip("+-")] += -value if target.startswith("-") else value
 
 
 def _number(value: object) -> float:

@@ -50,11 +50,13 @@ export class Pilot {
   }
 
   help(): { keys: string; does: string }[] {
-    const pairs = new Map<string, string[]>(); // axis -> the keys for more and for less of it
+    const pairs = new Map<string, string[]>(); // axes -> the keys for more and for less of them
     for (const [key, does] of Object.entries(this.mapping)) {
-      const pair = pairs.get(does.slice(1)) ?? ["", ""];
-      pair[does.startsWith("+") ? 0 : 1] += (pair[does.startsWith("+") ? 0 : 1] && ", ") + key;
-      pairs.set(does.slice(1), pair);
+      if (!does.trim()) continue;
+      const [axes, way] = unsigned(does);
+      const pair = pairs.get(axes) ?? ["", ""];
+      pair[way] += (pair[way] && ", ") + key;
+      pairs.set(axes, pair);
     }
     if (!pairs.size) return [{ keys: "–", does: "nobody pilots this simulation" }];
     const rows = [...pairs].map(([does, [more, less]]) => ({ keys: `${more || "–"}  ${less || "–"}`, does: `${does} +, −` }));
@@ -108,6 +110,14 @@ export class Pilot {
     for (const name of ["pointerup", "pointercancel"]) pad.addEventListener(name, () => set(0, 0));
     return pad;
   }
+}
+
+/** What a key moves, for more of the first axis; and 0 if it does that, 1 if the opposite. */
+function unsigned(does: string): [string, 0 | 1] {
+  const targets = does.trim().split(/\s+/);
+  const flips = targets[0].startsWith("-");
+  const axes = targets.map((each) => (each.startsWith("-") !== flips ? "-" : "") + each.replace(/^[+-]+/, ""));
+  return [axes.join(" "), flips ? 1 : 0];
 }
 
 function rounded(value: number): number {

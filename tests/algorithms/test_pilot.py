@@ -1,0 +1,103 @@
+"""A pilot's inputs become twists, commands of thrusters and speeds of joints."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from tests.algorithms.fake_node import FakeNode
+from uwsim.algorithms.pilot import AXES, N_THRUSTERS, PERIOD, TOPIC, Pilot
+from uwsim.messages import Float64MultiArray, MultiArrayLayout
+
+LAYOUT = MultiArrayLayout(dim=[], data_offset=0)
+
+
+class TimedNode(FakeNode):
+    """A node whose one timer is called by hand."""
+
+    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+        assert period_s == PERIOD
+        self.tick = callback
+
+
+def flown(**parameters: float | str) -> TimedNode:
+    """A node whose pilot is as fast as its inputs."""
+    node = TimedNode(parameters={"start": "", "rate": 1000.0, **parameters})
+    Pilot().start(node)
+    return node
+
+
+def move(node: TimedNode, **axes: float) -> list[tuple[str, object]]:
+    """Hand over an input and return what is commanded from it."""
+    values = np.array([axes.get(axis, 0.0) for axis in AXES])
+    node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=values))
+    node.published.clear()
+    node.tick()
+    return list(node.published)
+
+
+def commands(published: list[tuple[str, object]]) -> list[float]:
+    """Return what thrusters are told, where nothing else is told."""
+    ((topic, message),) = published
+    assert topic == "/t"
+    assert isinstance(message, Float64MultiArray)
+    values: list[float] = message.data.tolist()
+    return values
+
+
+def test_single_thrusters_get_their_axes_in_the_order_of_the_vehicle() -> None:
+    node = flown(thrusters_topic="/t", n_thrusters=3.0)
+    assert commands(move(node, thruster1=1.0, thruster3=-0.5)) == [1.0, 0.0, -0.5]
+    assert commands(move(node)) == [0.0, 0.0, 0.0]
+
+
+def test_thrust_scales_commands_and_their_rate_is_limited() -> None:
+    node = flown(thrusters_topic="/t", n_thrusters=1.0, thrust=0.5, rate=2.0)
+    assert commands(move(node, thruster1=1.0)) == pytest.approx([0.05])
+    assert commands(move(node, thruster1=1.0)) == pytest.approx([0.1])
+
+
+def test_thrusters_beyond_the_last_axis_stand_still() -> None:
+    node = flown(thrusters_topic="/t", n_thrusters=N_THRUSTERS + 2.0)
+    full = {f"thruster{k}": 1.0 for k in range(1, N_THRUSTERS + 1)}
+    assert commands(move(node, **full)) == [1.0] * N_THRUSTERS + [0.0] * 2
+
+
+@pytest.mark.parametrize("other", ["twist_topic", "odom_topic"])
+def test_a_vehicle_that_takes_both_gets_what_was_moved_last(other: str) -> None:
+    node = flown(thrusters_topic="/t", n_thrusters=1.0, **{other: "/v"})
+    topics = [
+        [topic for topic, _ in move(node, **axes)]
+        for axes in (
+            {},
+            {"surge": 1.0},
+            {"surge": 1.0, "thruster1": 1.0},
+            {"thruster1": 1.0},
+            {},
+            {"yaw": -1.0, "thruster1": 1.0},
+            {"yaw": -1.0},
+            {},
+        )
+    ]
+    assert topics == [["/v"], ["/v"], ["/v"], ["/t"], ["/t"], ["/t"], ["/v"], ["/v"]]
+
+
+def test_inputs_without_axes_that_came_later_leave_those_at_rest() -> None:
+    node = flown(twist_topic="/v", thrusters_topic="/t", n_thrusters=1.0)
+    move(node, thruster1=1.0)
+    older = np.zeros(AXES.index("thruster1"))
+    older[AXES.index("surge")] = 1.0
+    node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=older))
+    node.published.clear()
+    node.tick()
+    assert [topic for topic, _ in node.published] == ["/v"]
+
+
+def test_inputs_of_more_numbers_than_axes_are_passed_over() -> None:
+    node = flown(twist_topic="/v")
+    too_many = np.ones(len(AXES) + 1)
+    node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=too_many))
+    node.tick()
+    assert node.published == []
