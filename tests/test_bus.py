@@ -94,10 +94,10 @@ def test_two_callbacks_that_answer_each_other_for_ever_are_stopped() -> None:
 
 def test_an_unknown_service_names_the_nearest_one() -> None:
     bus = Bus()
-    bus.serve("startBench", Empty, lambda request: EmptyResponse())
+    bus.services.serve("startBench", Empty, lambda request: EmptyResponse())
     with pytest.raises(UnknownName, match="Did you mean 'startBench'"):
-        bus.call("startBensh", Empty())
-    assert bus.call("/startBench", Empty()) == EmptyResponse()
+        bus.services.call("startBensh", Empty())
+    assert bus.services.call("/startBench", Empty()) == EmptyResponse()
 
 
 def test_a_closed_inbox_costs_the_publisher_nothing() -> None:
@@ -206,8 +206,8 @@ def test_a_reader_may_refuse_what_it_can_do_nothing_with() -> None:
 @pytest.mark.parametrize("data", [None, "?"])
 def test_a_request_that_holds_something_else_is_the_callers_error(data: object) -> None:
     bus = Bus()
-    bus.serve("s", Float32MultiArray, lambda request: request)
+    bus.services.serve("s", Float32MultiArray, lambda request: request)
     request = floats(np.zeros(1))
     request.data = data
     with pytest.raises(BadMessage, match=r"Service 's' takes .*: data is"):
-        bus.call("s", request)
+        bus.services.call("s", request)

@@ -100,7 +100,7 @@ def test_on_the_real_bus_an_estimate_comes_in_the_step_of_its_image() -> None:
     status = bus.inbox("algorithmStatus", String)
     show = bus.publisher("/uwsim/camera1", Image)
     started = []
-    bus.serve("startBench", Empty, lambda _: started.append(bus.step) or EmptyResponse())
+    bus.services.serve("startBench", Empty, lambda _: started.append(bus.step) or EmptyResponse())
     random = np.random.Generator(np.random.Philox(0))
     node = InProcessNode(bus, name="esm", timestep=0.002, random=random, parameters={})
     node.run(Esm())
@@ -110,7 +110,7 @@ def test_on_the_real_bus_an_estimate_comes_in_the_step_of_its_image() -> None:
         show(image(pixels, time=step * 0.002))
         bus.deliver()
         if step == 0:
-            bus.call("autoInit", GTpublish(QUAD.astype(np.float32).reshape(8)))
+            bus.services.call("autoInit", GTpublish(QUAD.astype(np.float32).reshape(8)))
             bus.deliver()
     assert node.error is None
     assert started == [0]

@@ -140,7 +140,7 @@ def test_a_service_is_answered_at_the_step(bus: Bus, bridge: Seen) -> None:
         calls.append(threading.get_ident())
         return EmptyResponse()
 
-    bus.serve("dynamics/reset", Empty, answer)
+    bus.services.serve("dynamics/reset", Empty, answer)
     bridge.step()
     assert bridge.services == {"dynamics/reset": EMPTY}
     future = bridge.request("/dynamics/reset", Empty())
@@ -175,13 +175,15 @@ def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
 
 
 def test_a_service_elsewhere_is_called_when_it_is_not_here(bus: Bus) -> None:
-    stop = bus.serve_elsewhere(lambda name: name == "vision/init", lambda name, request: name)
-    assert bus.serves("/vision/init")
-    assert bus.call("/vision/init", Empty()) == "vision/init"
+    stop = bus.services.serve_elsewhere(
+        lambda name: name == "vision/init", lambda name, request: name
+    )
+    assert bus.services.serves("/vision/init")
+    assert bus.services.call("/vision/init", Empty()) == "vision/init"
     stop()
-    assert not bus.serves("/vision/init")
+    assert not bus.services.serves("/vision/init")
     with pytest.raises(UnknownName):
-        bus.call("vision/init", Empty())
+        bus.services.call("vision/init", Empty())
 
 
 def test_a_queue_keeps_the_newest_within_its_bytes() -> None:

@@ -257,7 +257,7 @@ class Bridge(ABC):
             stop()
         self._stops.clear()
         for name in sorted(self._from_outside):
-            self.bus.withdraw(name)
+            self.bus.services.withdraw(name)
         self._from_outside.clear()
 
     def _send_latched(self, topic: str) -> None:
@@ -286,8 +286,8 @@ class Bridge(ABC):
                 if name in _published(topics) and name not in _published(before):
                     self._send_latched(name)
         services: dict[str, Service] = {}
-        for name in self.bus.services:
-            request_type = self.bus.request_type(name)
+        for name in self.bus.services.names:
+            request_type = self.bus.services.request_type(name)
             service = service_of(request_type) if request_type is not None else None
             if service is not None:
                 services[name] = service
@@ -326,12 +326,12 @@ class Bridge(ABC):
         if service is None:
             if name in self._from_outside:
                 self._from_outside.discard(name)
-                self.bus.withdraw(name)
-        elif self.bus.serves(name):
+                self.bus.services.withdraw(name)
+        elif self.bus.services.serves(name):
             self.log.say(f"service /{name} is offered already; that of the outside is not taken")
         else:
             self._from_outside.add(name)
-            self.bus.serve(name, service.request, lambda request: self._ask(name, request))
+            self.bus.services.serve(name, service.request, lambda request: self._ask(name, request))
 
     def _ask(self, name: str, request: object) -> object:
         """Call a service of the outside and wait for its response.
@@ -366,7 +366,7 @@ class Bridge(ABC):
         if not future.set_running_or_notify_cancel():
             return
         try:
-            future.set_result(self.bus.call(name, request))
+            future.set_result(self.bus.services.call(name, request))
         except UwsimError as error:
             future.set_exception(error)
 

@@ -198,7 +198,7 @@ class Simulation:
             UnknownName: it is not offered; the message has the nearest name.
             BadMessage: the request is of another type.
         """
-        return self.bus.call(service, request)
+        return self.bus.services.call(service, request)
 
     def pose(self, name: str, of: str = "L") -> Pose:
         """Return where a body is: a vehicle, a link ``vehicle/link``, or an object.

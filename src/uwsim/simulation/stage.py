@@ -76,7 +76,7 @@ class SceneStage(SceneWorld):
         """What acts in the step, in the file's order."""
         self.markers = Markers(lambda: self.time)
         """What programs have spawned."""
-        self.bus.serve(SERVICE, SpawnMarker, self.markers.answer)
+        self.bus.services.serve(SERVICE, SpawnMarker, self.markers.answer)
         self.trajectories = tuple(self._bound_trajectories())
         """What ``showTrajectory`` asks for."""
         self.interfaces = tuple(self._bound_interfaces())

@@ -193,7 +193,7 @@ def test_in_the_original_an_estimate_counts_that_came_while_the_measure_was_off(
             world.advance()
             gated.tick()
             if estimate == 4.0:
-                world.bus.call("stop", Empty())
+                world.bus.services.call("stop", Empty())
                 world.advance()
                 gated.tick()
         gated.end()
@@ -237,7 +237,7 @@ def test_at_the_start_the_truth_is_handed_to_the_algorithm() -> None:
         told.append(request)
         return GTpublishResponse()
 
-    world.bus.serve("autoInit", GTpublish, listen)
+    world.bus.services.serve("autoInit", GTpublish, listen)
     norm = corners_spec("autoInit").bind(world)
     assert told == []
     norm.start()
@@ -275,7 +275,7 @@ def test_a_target_behind_the_camera_has_no_truth_and_that_is_reported() -> None:
     world, body = seen_box()
     norm = corners_spec("autoInit").bind(world)
     body.move(0.0, 0.0, 3.0)
-    world.bus.serve("autoInit", GTpublish, lambda request: GTpublishResponse())
+    world.bus.services.serve("autoInit", GTpublish, lambda request: GTpublishResponse())
     norm.start()
     say(world, norm, *range(8))
     assert (norm.value, norm.why) == (None, "no truth: the target is behind the camera")

@@ -136,7 +136,7 @@ def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> No
             gated.tick()
 
     let_pass(10)
-    world.bus.call("begin", Empty())
+    world.bus.services.call("begin", Empty())
     let_pass(200)
     for is_off in (True, False):
         end(Bool(data=is_off))

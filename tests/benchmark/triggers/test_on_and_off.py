@@ -37,7 +37,7 @@ def test_a_service_trigger_goes_on_with_the_call_and_stays_on() -> None:
     trigger = ServiceSpec(target="startBench").bind(world)
     world.advance()
     assert not trigger.is_on()
-    assert world.bus.call("/startBench", Empty()) == EmptyResponse()
+    assert world.bus.services.call("/startBench", Empty()) == EmptyResponse()
     assert trigger.is_on()
     world.advance(100)
     assert trigger.is_on()
@@ -46,9 +46,9 @@ def test_a_service_trigger_goes_on_with_the_call_and_stays_on() -> None:
 def test_a_closed_service_trigger_withdraws_its_service() -> None:
     world = FakeWorld()
     trigger = ServiceSpec(target="startBench").bind(world)
-    assert world.bus.serves("startBench")
+    assert world.bus.services.serves("startBench")
     trigger.close()
-    assert not world.bus.serves("startBench")
+    assert not world.bus.services.serves("startBench")
     trigger.close()
 
 
@@ -58,14 +58,14 @@ def test_one_call_reaches_every_trigger_of_that_service() -> None:
     second = ServiceSpec(target="stopTask").bind(world)
     first.close()
     third = ServiceSpec(target="stopTask").bind(world)
-    world.bus.call("stopTask", Empty())
+    world.bus.services.call("stopTask", Empty())
     assert (first.is_on(), second.is_on(), third.is_on()) == (False, True, True)
 
 
 def test_a_service_trigger_of_the_next_level_has_not_been_called() -> None:
     world = FakeWorld()
     before = ServiceSpec(target="stopTask").bind(world)
-    world.bus.call("stopTask", Empty())
+    world.bus.services.call("stopTask", Empty())
     before.close()
     assert not ServiceSpec(target="stopTask").bind(world).is_on()
 

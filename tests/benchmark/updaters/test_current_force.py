@@ -68,7 +68,7 @@ def test_its_levels_are_those_the_original_plays() -> None:
 def test_the_first_level_of_a_sequence_is_no_step_and_has_no_still_water() -> None:
     world = ship()
     updater = tracking().bind(world)
-    world.bus.serve("dynamics/reset", Empty, lambda request: pytest.fail("it was reset"))
+    world.bus.services.serve("dynamics/reset", Empty, lambda request: pytest.fail("it was reset"))
     updater.ramp(0.2)
     assert (world.current, len(world.put_backs)) == (None, 1)  # held before it begins
     updater.begin(0.2)
@@ -122,7 +122,7 @@ def test_the_reset_service_is_called_if_somebody_offers_it() -> None:
 
     updater = tracking().bind(world)
     updater.apply(0.0)
-    world.bus.serve("dynamics/reset", Empty, reset)
+    world.bus.services.serve("dynamics/reset", Empty, reset)
     updater.apply(0.1)
     assert asked == [Empty()]
 

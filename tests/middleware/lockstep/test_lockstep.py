@@ -202,7 +202,7 @@ def test_a_client_offers_a_service_by_the_topics_of_lock_step() -> None:
     nodes = started(bus, outside, "a", services={"/autoInit": kind})
     answers = bus.inbox("answer", Float64)
     truth = np.array([1.5, 0.25], np.float32)
-    assert bus.call("autoInit", GTpublish(groundTruth=truth)) == GTpublishResponse()
+    assert bus.services.call("autoInit", GTpublish(groundTruth=truth)) == GTpublishResponse()
     outside.step()
     step(bus, nodes)
     assert [message.data for message in answers.take()] == [7.0]
@@ -214,13 +214,13 @@ def test_a_service_that_is_not_answered_ends_the_run_and_a_wrong_answer_is_an_er
     request = GTpublish(groundTruth=np.zeros(8, np.float32))
     started(bus, Outside(bus, is_silent), "a", limit=0.01, services={"/autoInit": kind})
     with pytest.raises(ClientLost, match=r"'a' did not answer the call of /autoInit within 0.01 s"):
-        bus.call("autoInit", request)
+        bus.services.call("autoInit", request)
 
     def wrong(outside: Outside, tick: dict[str, Any]) -> None:
         outside.says(ACK, client="b", call=tick["call"], values={"nonsense": 1})
 
     (node,) = started(bus, Outside(bus, wrong), "b", services={"/other": kind})
-    assert bus.call("other", request) is None
+    assert bus.services.call("other", request) is None
     assert "Client 'b': service /other: " in str(node.error)
 
 

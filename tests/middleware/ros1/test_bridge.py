@@ -109,15 +109,15 @@ def test_a_service_is_called_from_outside(graph: Graph) -> None:
         asked.append(request)
         return GTpublishResponse()
 
-    sim.bus.serve("vision/init", GTpublish, answer)
+    sim.bus.services.serve("vision/init", GTpublish, answer)
     graph.ready()
-    assert other.bus.serves("/vision/init")
+    assert other.bus.services.serves("/vision/init")
     import threading
 
     results: list[object] = []
     request = GTpublish(np.arange(8, dtype=np.float32))
     caller = threading.Thread(
-        target=lambda: results.append(other.bus.call("vision/init", request)), daemon=True
+        target=lambda: results.append(other.bus.services.call("vision/init", request)), daemon=True
     )
     caller.start()
     until(lambda: results, sim.step)
@@ -131,7 +131,7 @@ def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
     def answer(request: Empty) -> EmptyResponse:
         raise UwsimError("the arm is stuck")
 
-    sim.bus.serve("reset", Empty, answer)
+    sim.bus.services.serve("reset", Empty, answer)
     graph.ready()
     import threading
 
@@ -139,7 +139,7 @@ def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
 
     def ask() -> None:
         try:
-            other.bus.call("reset", Empty())
+            other.bus.services.call("reset", Empty())
         except UwsimError as error:
             errors.append(str(error))
 
@@ -150,16 +150,16 @@ def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
 
 def test_a_service_of_another_type_is_refused(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
-    sim.bus.serve("reset", Empty, lambda request: EmptyResponse())
+    sim.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
     graph.ready()
     with pytest.raises(UwsimError, match="service is std_srvs/Empty"):
-        other.bus.call("reset", GTpublish(np.zeros(8, np.float32)))
+        other.bus.services.call("reset", GTpublish(np.zeros(8, np.float32)))
 
 
 def test_a_service_that_nobody_has_is_not_served(graph: Graph) -> None:
     sim = graph.node()
     graph.ready()
-    assert not sim.bus.serves("nothing")
+    assert not sim.bus.services.serves("nothing")
 
 
 def test_a_topic_of_another_type_is_refused_on_both_sides(graph: Graph) -> None:

@@ -236,7 +236,7 @@ def test_a_client_of_a_service_that_sends_garbage_gets_an_error(graph: Graph) ->
     from uwsim.messages import GTpublish, GTpublishResponse
 
     sim = graph.node()
-    sim.bus.serve("init", GTpublish, lambda request: GTpublishResponse())
+    sim.bus.services.serve("init", GTpublish, lambda request: GTpublishResponse())
     graph.ready()
     with connect(port_of(sim)) as peer:
         peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"}))
@@ -257,7 +257,7 @@ def test_a_client_of_a_service_killed_in_the_middle_of_its_request_is_forgotten(
         asked.append(request)
         return GTpublishResponse()
 
-    sim.bus.serve("init", GTpublish, answer)
+    sim.bus.services.serve("init", GTpublish, answer)
     graph.ready()
     fields = encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"})
     request = framed(to_ros1(GTpublish(groundTruth=np.ones(8, np.float32))))

@@ -161,7 +161,7 @@ def test_a_rospy_node_calls_a_service(sea: Sea, tmp_path: Path) -> None:
         calls.append(request)
         return EmptyResponse()
 
-    sea.simulation.bus.serve("dynamics/reset", Empty, answer)
+    sea.simulation.bus.services.serve("dynamics/reset", Empty, answer)
     sea.advance()
     assert sea.bridge.wait(LIMIT)
     sea.output(sea.peers.start("rosservice", "call", "/dynamics/reset"))
@@ -178,5 +178,5 @@ def test_a_service_of_a_rospy_node_is_called_from_the_bus(sea: Sea, tmp_path: Pa
         "rospy.Service('/vision/reset', Empty, lambda r: EmptyResponse())\nrospy.spin()\n"
     )
     sea.peers.start("/usr/bin/python3", str(tmp_path / "server.py"))
-    until(lambda: sea.simulation.bus.serves("vision/reset"), sea.advance)
+    until(lambda: sea.simulation.bus.services.serves("vision/reset"), sea.advance)
     assert sea.simulation.call("vision/reset", Empty()) == EmptyResponse()

@@ -134,7 +134,7 @@ def test_a_client_publishes(setting: Setting) -> None:
 
 def test_a_client_calls_services_and_asks_what_there_is(setting: Setting) -> None:
     setting.bus.publisher("twist", TwistStamped)
-    setting.bus.serve("reset", Empty, lambda request: EmptyResponse())
+    setting.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
     setting.bridge.step()
     client = setting.client()
     found = setting.ask(client, service="/rosapi/topics")
@@ -153,7 +153,7 @@ def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
     client = setting.client()
     kind = "underwater_sensor_msgs/GTpublish"
     send(client, op="advertise_service", service="/autoInit", type=kind)
-    setting.step_until(lambda: setting.bus.serves("autoInit"))
+    setting.step_until(lambda: setting.bus.services.serves("autoInit"))
     asked: list[Any] = []
 
     def answer() -> None:
@@ -163,7 +163,9 @@ def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
 
     outside = threading.Thread(target=answer)
     outside.start()
-    response = setting.bus.call("autoInit", GTpublish(groundTruth=np.array([1, 2], np.float32)))
+    response = setting.bus.services.call(
+        "autoInit", GTpublish(groundTruth=np.array([1, 2], np.float32))
+    )
     outside.join()
     assert isinstance(response, GTpublishResponse)
     assert (asked[0]["op"], asked[0]["args"]) == ("call_service", {"groundTruth": [1.0, 2.0]})
@@ -173,11 +175,11 @@ def test_a_service_whose_client_leaves_fails_and_is_withdrawn(setting: Setting) 
     client = setting.client()
     kind = "underwater_sensor_msgs/srv/GTpublish"
     send(client, op="advertise_service", service="/autoInit", type=kind)
-    setting.step_until(lambda: setting.bus.serves("autoInit"))
+    setting.step_until(lambda: setting.bus.services.serves("autoInit"))
     client.close()
     with pytest.raises((RunFailed, UwsimError), match="left"):
-        setting.bus.call("autoInit", GTpublish(groundTruth=np.zeros(8, np.float32)))
-    setting.step_until(lambda: not setting.bus.serves("autoInit"))
+        setting.bus.services.call("autoInit", GTpublish(groundTruth=np.zeros(8, np.float32)))
+    setting.step_until(lambda: not setting.bus.services.serves("autoInit"))
 
 
 def test_images_come_as_json_as_png_and_as_cbor(setting: Setting) -> None:

@@ -69,7 +69,7 @@ class Controlled:
     def set_state(self, state: int) -> int:
         """Ask for a state; the code of the answer."""
         request = SetSimulationState(state=SimulationState(state))
-        answer = self.bus.call("set_simulation_state", request)
+        answer = self.bus.services.call("set_simulation_state", request)
         assert isinstance(answer, SetSimulationStateResponse)
         return answer.result.result
 
@@ -84,7 +84,7 @@ def controlled(tmp_path: Path) -> Iterator[Controlled]:
 
 
 def test_it_says_what_it_can_do(controlled: Controlled) -> None:
-    answer = controlled.bus.call("get_simulator_features", GetSimulatorFeatures())
+    answer = controlled.bus.services.call("get_simulator_features", GetSimulatorFeatures())
     assert SimulatorFeatures.STEP_SIMULATION_MULTIPLE in answer.features.features
     assert "marker" in answer.features.custom_info
 
@@ -95,7 +95,9 @@ def test_a_paused_simulation_takes_the_steps_asked_for_and_no_more(controlled: C
 
     def step() -> None:
         before = controlled.simulation.step
-        answers.append(controlled.bus.call("step_simulation", StepSimulation(steps=5)).result)
+        answers.append(
+            controlled.bus.services.call("step_simulation", StepSimulation(steps=5)).result
+        )
         steps.append(controlled.simulation.step - before)
 
     controlled.later.extend([step, step, lambda: steps.append(controlled.set_state(1))])
@@ -107,7 +109,7 @@ def test_a_paused_simulation_takes_the_steps_asked_for_and_no_more(controlled: C
 
 
 def test_steps_are_refused_while_it_plays(controlled: Controlled) -> None:
-    answer = controlled.bus.call("step_simulation", StepSimulation(steps=1))
+    answer = controlled.bus.services.call("step_simulation", StepSimulation(steps=1))
     assert answer.result.result == Result.INCORRECT_STATE
     assert controlled.simulation.step == 0
 
@@ -116,18 +118,18 @@ def test_a_reset_goes_back_to_the_beginning(controlled: Controlled) -> None:
     controlled.simulation.advance(0.1)
     pose = messages.Pose(position=messages.Point(x=1.0))
     request = SetEntityState(entity="rov", state=EntityState(pose=pose), set_pose=True)
-    controlled.bus.call("set_entity_state", request)
+    controlled.bus.services.call("set_entity_state", request)
     assert controlled.simulation.pose("rov").position[0] == 1.0
-    answer = controlled.bus.call("reset_simulation", ResetSimulation())
+    answer = controlled.bus.services.call("reset_simulation", ResetSimulation())
     assert answer.result.result == Result.OK
     assert controlled.simulation.time == 0.0
     assert controlled.simulation.pose("rov").position[0] == 0.0
-    answer = controlled.bus.call("reset_simulation", ResetSimulation(scope=1))
+    answer = controlled.bus.services.call("reset_simulation", ResetSimulation(scope=1))
     assert answer.result.result == Result.FEATURE_UNSUPPORTED
 
 
 def test_states_are_reported_and_a_repeated_wish_is_told(controlled: Controlled) -> None:
-    answer = controlled.bus.call("get_simulation_state", GetSimulationState())
+    answer = controlled.bus.services.call("get_simulation_state", GetSimulationState())
     assert answer.state.state == SimulationState.PLAYING
     assert controlled.set_state(1) == SetSimulationStateResponse.ALREADY_IN_TARGET_STATE
     assert controlled.set_state(7) == Result.OPERATION_FAILED
@@ -145,23 +147,26 @@ def test_quitting_ends_the_loop(controlled: Controlled) -> None:
 def test_entities_are_listed_placed_and_spawned(controlled: Controlled) -> None:
     def names(filter: str = "") -> list[str]:
         request = GetEntities(filters=EntityFilters(filter=filter))
-        found: list[str] = controlled.bus.call("get_entities", request).entities
+        found: list[str] = controlled.bus.services.call("get_entities", request).entities
         return found
 
     assert names() == ["rov"]
     pose = messages.Pose(position=messages.Point(1.0, 2.0, 3.0))
     request = SetEntityState(entity="rov", state=EntityState(pose=pose), set_pose=True)
-    assert controlled.bus.call("set_entity_state", request).result.result == Result.OK
-    state = controlled.bus.call("get_entity_state", GetEntityState(entity="rov")).state
+    assert controlled.bus.services.call("set_entity_state", request).result.result == Result.OK
+    state = controlled.bus.services.call("get_entity_state", GetEntityState(entity="rov")).state
     assert state.pose.position == messages.Point(1.0, 2.0, 3.0)
 
     spawn = SpawnEntity(name="buoy", entity_resource=Resource(uri="buoy.obj"))
-    assert controlled.bus.call("spawn_entity", spawn).entity_name == "buoy"
-    again = controlled.bus.call("spawn_entity", spawn)
+    assert controlled.bus.services.call("spawn_entity", spawn).entity_name == "buoy"
+    again = controlled.bus.services.call("spawn_entity", spawn)
     assert again.result.result == SpawnEntityResponse.NAME_NOT_UNIQUE
     assert names() == ["rov", "buoy"]
     assert names("^b") == ["buoy"]
-    assert controlled.bus.call("delete_entity", DeleteEntity(entity="buoy")).result.result == 1
+    assert (
+        controlled.bus.services.call("delete_entity", DeleteEntity(entity="buoy")).result.result
+        == 1
+    )
     assert names() == ["rov"]
 
 
@@ -186,6 +191,6 @@ def test_entities_are_listed_placed_and_spawned(controlled: Controlled) -> None:
 def test_what_cannot_be_done_has_a_code(
     controlled: Controlled, service: str, request_: object, code: int
 ) -> None:
-    answer = controlled.bus.call(service, request_)
+    answer = controlled.bus.services.call(service, request_)
     assert answer.result.result == code
     assert answer.result.error_message

@@ -83,10 +83,10 @@ def test_services_of_a_closed_node_are_gone() -> None:
     bus = Bus()
     node = make_node(bus)
     node.serve("autoInit", Empty, lambda request: EmptyResponse())
-    assert bus.serves("/autoInit")
+    assert bus.services.serves("/autoInit")
     node.close()
     with pytest.raises(UnknownName):
-        bus.call("autoInit", Empty())
+        bus.services.call("autoInit", Empty())
 
 
 @pytest.mark.parametrize("latency", [-1.0, "soon"])

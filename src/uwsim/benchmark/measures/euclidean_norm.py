@@ -308,12 +308,12 @@ class EuclideanNorm(Measure):
 
     def _publish(self, service: str) -> None:
         truth = self._truth.read()
-        if not self._world.bus.serves(service):
+        if not self._world.bus.services.serves(service):
             self._notes.append(f"{service!r} was not called: it is not offered")
         elif truth is None:
             self._notes.append(f"{service!r} was not called: {self._truth.missing}")
         else:
-            self._world.bus.call(service, GTpublish(truth.astype(np.float32)))
+            self._world.bus.services.call(service, GTpublish(truth.astype(np.float32)))
             self._has_initialised = True
 
 

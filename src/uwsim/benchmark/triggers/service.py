@@ -34,7 +34,7 @@ class Service(Trigger):
 
     def __init__(self, world: World, name: str) -> None:
         self._was_called = False
-        self._leave = world.bus.offer(name, Empty, self._call)
+        self._leave = world.bus.services.offer(name, Empty, self._call)
 
     def is_on(self) -> bool:
         """Whether the service has been called."""

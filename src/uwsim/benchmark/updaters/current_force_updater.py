@@ -152,8 +152,8 @@ class CurrentForceUpdater(SceneUpdater):
         """Put the vehicle back and let a current of ``value`` [m/s] flow in 2 s."""
         self._stage.put_back(self._spec.target)
         self._flow(value, delay=STILL_WATER)
-        if self._stage.bus.serves(RESET):
-            self._stage.bus.call(RESET, Empty())
+        if self._stage.bus.services.serves(RESET):
+            self._stage.bus.services.call(RESET, Empty())
 
     def begin(self, value: float) -> None:
         """Let a current of ``value`` [m/s] flow."""

@@ -51,7 +51,7 @@ def inventory(
         ],
         "objects": [_object(scene, thing) for thing in scene.objects],
         "topics": _topics(scene, simulation),
-        "services": list(simulation.bus.services),
+        "services": list(simulation.bus.services.names),
         "varies": [
             {"path": each.path, "unit": each.unit, "drawn_from": each.drawn_from}
             for each in draw(scene, 0)

@@ -41,7 +41,7 @@ def print_json(
         "steps": simulation.step,
         "recording": None if recording is None else str(recording),
         "topics": [asdict(each) for each in rates],
-        "services": list(simulation.bus.services),
+        "services": list(simulation.bus.services.names),
     }
     print(json.dumps(document, indent=1))
 

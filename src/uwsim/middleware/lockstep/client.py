@@ -170,7 +170,7 @@ class LockStepClient:
     def _call(self, answer: dict[str, Any]) -> None:
         """Call the services of std_srvs/Empty that an answer names."""
         for name in _texts(answer.get("calls")):
-            if self._bridge.bus.serves(name):
+            if self._bridge.bus.services.serves(name):
                 self._node.call(name, Empty())
             else:
                 self._bridge.log.say(f"client {self._name!r} calls {name}: nobody offers it")

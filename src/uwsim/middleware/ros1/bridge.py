@@ -94,7 +94,7 @@ class Ros1Bridge(Bridge):
         self._registrar = Registrar(
             master, node, self.uri, self.log, self._update, parameters=parameters, poll=poll
         )
-        self._stop_elsewhere = bus.serve_elsewhere(self._is_offered_outside, self._ask)
+        self._stop_elsewhere = bus.services.serve_elsewhere(self._is_offered_outside, self._ask)
         self._register()
 
     def wait(self, timeout: float) -> bool:

@@ -137,7 +137,9 @@ class _Execution:
         self._fingerprinter = Fingerprinter(simulation)
         self._motion = MotionRecorder(simulation, benchmark.measures)
         self._updaters = bind_updaters(self._updater, simulation.world)
-        simulation.bus.withdraw(SPAWN_MARKER)  # not offered in a benchmark, as in the original
+        simulation.bus.services.withdraw(
+            SPAWN_MARKER
+        )  # not offered in a benchmark, as in the original
         simulation.bus.keeps_unread = False  # all who read subscribe
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level

@@ -74,11 +74,11 @@ class SimulationControl:
         self._start: bytes | None = None
         self._entities = Entities(simulation)
         bus = simulation.bus
-        bus.serve("get_simulator_features", GetSimulatorFeatures, self._features)
-        bus.serve("get_simulation_state", GetSimulationState, self._get_state)
-        bus.serve("set_simulation_state", SetSimulationState, self._set_state)
-        bus.serve("step_simulation", StepSimulation, self._step)
-        bus.serve("reset_simulation", ResetSimulation, self._reset)
+        bus.services.serve("get_simulator_features", GetSimulatorFeatures, self._features)
+        bus.services.serve("get_simulation_state", GetSimulationState, self._get_state)
+        bus.services.serve("set_simulation_state", SetSimulationState, self._set_state)
+        bus.services.serve("step_simulation", StepSimulation, self._step)
+        bus.services.serve("reset_simulation", ResetSimulation, self._reset)
         self._entities.serve(bus)
 
     def begin(self) -> None:

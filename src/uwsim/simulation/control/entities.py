@@ -54,11 +54,11 @@ class Entities:
 
     def serve(self, bus: Bus) -> None:
         """Offer the services."""
-        bus.serve("get_entities", GetEntities, self.get_entities)
-        bus.serve("get_entity_state", GetEntityState, self.get_state)
-        bus.serve("set_entity_state", SetEntityState, self.set_state)
-        bus.serve("spawn_entity", SpawnEntity, self.spawn)
-        bus.serve("delete_entity", DeleteEntity, self.delete)
+        bus.services.serve("get_entities", GetEntities, self.get_entities)
+        bus.services.serve("get_entity_state", GetEntityState, self.get_state)
+        bus.services.serve("set_entity_state", SetEntityState, self.set_state)
+        bus.services.serve("spawn_entity", SpawnEntity, self.spawn)
+        bus.services.serve("delete_entity", DeleteEntity, self.delete)
 
     @property
     def names(self) -> list[str]:

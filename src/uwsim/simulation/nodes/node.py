@@ -174,13 +174,13 @@ class InProcessNode:
         def answer(request: M) -> object:
             return self._guard(handler, request)
 
-        self._bus.serve(name, type, answer)
-        self._close.append(lambda: self._bus.withdraw(name))
+        self._bus.services.serve(name, type, answer)
+        self._close.append(lambda: self._bus.services.withdraw(name))
 
     def call(self, name: str, request: object) -> object:
         """Call a service; UnknownName if it is not offered."""
         self._check()
-        return self._bus.call(name, request)
+        return self._bus.services.call(name, request)
 
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""

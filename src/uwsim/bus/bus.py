@@ -1,4 +1,4 @@
-"""Topics and services inside the process, and the interface through which an algorithm uses them.
+"""Topics inside the process, with their services.
 
 A published message is given away: its arrays become read-only and it is delivered, in the order
 of publishing, when the simulation reaches the end of its step (`Bus.deliver`). What a callback
@@ -8,92 +8,20 @@ publishes in turn is delivered in the same step: computing takes no simulation t
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections import deque
-from collections.abc import Callable, Mapping
-from typing import Any, Protocol, TypeVar, runtime_checkable
+from collections.abc import Callable
+from typing import TypeVar
 
-import numpy as np
-
-from .errors import BadMessage, BadSetting, UnknownName, UwsimError, did_you_mean
-from .inbox import Inbox
-from .message_fields import freeze, unfit
+from ..errors import BadMessage, BadSetting, UwsimError, did_you_mean
+from ..inbox import Inbox
+from ..message_fields import freeze, unfit
+from .names import is_exactly, type_name, without_slash
+from .services import Services
+from .topic import Topic, TopicEnds
 
 M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
-
-
-@runtime_checkable
-class Node(Protocol):
-    """The interface of an algorithm under test: topics, services, timers, parameters."""
-
-    @property
-    def now(self) -> float:
-        """Simulation time [s]."""
-
-    @property
-    def parameters(self) -> Mapping[str, float | str]:
-        """The values of ``--set algorithm.name=value``; the algorithm has its own defaults."""
-
-    @property
-    def random(self) -> np.random.Generator:
-        """The algorithm's own random stream, repeatable under the run's seed."""
-
-    def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
-
-    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
-        """Return ``publish(message)`` for ``topic``."""
-
-    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
-        """Offer a service; ``type`` is the class of its request."""
-
-    def call(self, name: str, request: object) -> object:
-        """Call a service and return its response; UnknownName if it is not offered."""
-
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
-
-
-class Algorithm(Protocol):
-    """A program under test: it is started once; from then on its callbacks are called."""
-
-    def start(self, node: Node) -> None:
-        """Subscribe, serve, call ``startBench``; from then on only callbacks."""
-
-
-OBSERVER = object()
-"""Owner of those who only listen to what others publish, as a recorder: at no end of a topic."""
-
-
-@dataclasses.dataclass
-class _Topic:
-    type: type | None = None
-    readers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
-    owners: list[object] = dataclasses.field(default_factory=list)
-    """Who reads, of each reader; None for anyone."""
-    hearers: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
-    """Who hears what there is, and counts as no reader."""
-    checks: list[Callable[[Any], None]] = dataclasses.field(default_factory=list)
-    writers: list[object] = dataclasses.field(default_factory=list)
-    """Who publishes, each once; None for anyone."""
-    kept: deque[Any] | None = None
-    """The newest message, kept from the first request on."""
-    unread: Any = None
-    """The newest message that was published while the topic had no subscriber."""
-
-
-@dataclasses.dataclass(frozen=True)
-class TopicEnds:
-    """What a topic carries, and who is at its ends."""
-
-    type: type
-    """Class of its messages."""
-    is_published: bool
-    """Whether anyone publishes on it."""
-    is_read: bool
-    """Whether anyone subscribes to it."""
 
 
 class Bus:
@@ -107,19 +35,17 @@ class Bus:
     """Attributes of its state, for snapshots."""
 
     def __init__(self) -> None:
-        self._topics: dict[str, _Topic] = {}
-        self._services: dict[str, tuple[type, Callable[[Any], object]]] = {}
-        self._offers: dict[str, list[Callable[[Any], object]]] = {}
+        self._topics: dict[str, Topic] = {}
         self._due_now: deque[tuple[str, object]] = deque()
         self._due_later: list[tuple[int, int, str, object]] = []
         self._posted = 0
         self._withheld: set[str] = set()
         self._observers: list[Callable[[str, type], None]] = []
-        self._elsewhere: list[tuple[Callable[[str], bool], Callable[[str, Any], object]]] = []
+        self._revision = 0
         self.step = 0
         """The current step; set by the owner of the clock."""
-        self.revision = 0
-        """Grows when a topic, a publisher, a subscriber or a service comes or goes."""
+        self.services = Services()
+        """Those offered; they answer at once."""
         self.keeps_unread = True
         """Whether somebody may ask for `unread`; else nobody needs what has no subscriber."""
 
@@ -151,7 +77,7 @@ class Bus:
             return lambda: entry.hearers.remove(callback)
         entry.readers.append(callback)
         entry.owners.append(owner)
-        self.revision += 1
+        self._revision += 1
         if check is not None:
             entry.checks.append(check)
 
@@ -159,7 +85,7 @@ class Bus:
             if callback in entry.readers:
                 del entry.owners[entry.readers.index(callback)]
                 entry.readers.remove(callback)
-                self.revision += 1
+                self._revision += 1
                 if check is not None:
                     entry.checks.remove(check)
 
@@ -202,17 +128,8 @@ class Bus:
 
     def ends(self, topic: str, *, besides: object = None) -> TopicEnds | None:
         """Who is at the ends of a topic, one owner and observers left out; None without a type."""
-        entry = self._topics.get(_without_slash(topic))
-        if entry is None or entry.type is None:
-            return None
-        return TopicEnds(
-            entry.type,
-            is_published=any(each is None or each is not besides for each in entry.writers),
-            is_read=any(
-                each is None or (each is not besides and each is not OBSERVER)
-                for each in entry.owners
-            ),
-        )
+        entry = self._topics.get(without_slash(topic))
+        return None if entry is None else entry.ends(besides)
 
     def publisher(
         self, topic: str, type: type[M], *, delay_steps: int = 0, owner: object = None
@@ -223,16 +140,16 @@ class Bus:
         """
         if type is object:
             raise BadSetting(f"Topic {topic!r} is published without a message type.")
-        name = _without_slash(topic)
+        name = without_slash(topic)
         entry = self._typed(topic, type)
         if not any(each is owner for each in entry.writers):
             entry.writers.append(owner)
-            self.revision += 1
+            self._revision += 1
 
         def publish(message: M) -> None:
-            if not _is_exactly(message, type):
+            if not is_exactly(message, type):
                 wrong_class = _but_not(type, message.__class__)
-                raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}, {wrong_class}.")
+                raise BadMessage(f"Topic {topic!r} carries {type_name(type)}, {wrong_class}.")
             if not entry.readers:
                 entry.unread = message
                 if entry.hearers and not unfit(message):
@@ -240,7 +157,7 @@ class Bus:
                         hear(message)
                 return
             if wrong := unfit(message):
-                raise BadMessage(f"Topic {topic!r} carries {_type_name(type)}: {wrong}.")
+                raise BadMessage(f"Topic {topic!r} carries {type_name(type)}: {wrong}.")
             freeze(message)
             for check in entry.checks:
                 check(message)
@@ -254,25 +171,25 @@ class Bus:
 
     def withhold(self, topic: str) -> None:
         """Hide a topic from algorithms under test; observers of the run may read it."""
-        self._withheld.add(_without_slash(topic))
+        self._withheld.add(without_slash(topic))
 
     def is_withheld(self, topic: str) -> bool:
         """Whether a topic is hidden from algorithms under test."""
-        return _without_slash(topic) in self._withheld
+        return without_slash(topic) in self._withheld
 
     def unread(self, topic: str) -> object | None:
         """Return the newest message that was published while the topic had no subscriber."""
-        entry = self._topics.get(_without_slash(topic))
+        entry = self._topics.get(without_slash(topic))
         return None if entry is None or entry.unread is None else freeze(entry.unread)
 
     def message_type(self, topic: str) -> type | None:
         """The message type of ``topic``; None before the first reader or writer."""
-        entry = self._topics.get(_without_slash(topic))
+        entry = self._topics.get(without_slash(topic))
         return entry.type if entry else None
 
     def has_readers(self, topic: str) -> bool:
         """Whether ``topic`` has a subscriber."""
-        entry = self._topics.get(_without_slash(topic))
+        entry = self._topics.get(without_slash(topic))
         return bool(entry and entry.readers)
 
     def without_subscriber(self, topic: str) -> str | None:
@@ -280,103 +197,21 @@ class Bus:
         read = [name for name, entry in self._topics.items() if entry.readers]
         return (
             None
-            if _without_slash(topic) in read
+            if without_slash(topic) in read
             else f"it has no subscriber.{did_you_mean(topic, read)}"
         )
 
     def without_publisher(self, topic: str) -> str | None:
         """Report that a topic has no publisher, with the nearest that has; None if it has one."""
         published = [name for name, entry in self._topics.items() if entry.writers]
-        if _without_slash(topic) in published:
+        if without_slash(topic) in published:
             return None
         near = did_you_mean(topic, published)
-        read = self._topics.get(_without_slash(topic))
+        read = self._topics.get(without_slash(topic))
         alike = [name for name in published if read and self._topics[name].type is read.type]
         if not near and alike:
             near = f" Of its type there is {' and '.join(map(repr, alike[:3]))}."
         return f"it has no publisher.{near}"
-
-    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
-        """Offer a service whose request class is ``type``; a later offer takes its place."""
-        self._services[_without_slash(name)] = (type, handler)
-        self.revision += 1
-
-    def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
-        """Offer a service together with others: a call reaches all, the newest answers.
-
-        Returns the way to take part no more; the last to leave withdraws the service.
-        """
-        handlers = self._offers.setdefault(_without_slash(name), [])
-        handlers.append(handler)
-        self.serve(name, type, lambda request: [answer(request) for answer in list(handlers)][-1])
-
-        def leave() -> None:
-            if handler in handlers:
-                handlers.remove(handler)
-                if not handlers:
-                    self.withdraw(name)
-
-        return leave
-
-    def withdraw(self, name: str) -> None:
-        """Stop offering a service, if it is offered."""
-        self._services.pop(_without_slash(name), None)
-        self.revision += 1
-
-    def serve_elsewhere(
-        self, offers: Callable[[str], bool], call: Callable[[str, Any], object]
-    ) -> Callable[[], None]:
-        """Have services that are not offered here looked for outside the process.
-
-        Args:
-            offers: whether a service of that name, without a leading slash, is offered there.
-            call: calls it with a request, and returns its response.
-
-        Returns:
-            The way to stop it.
-        """
-        entry = (offers, call)
-        self._elsewhere.append(entry)
-
-        def stop() -> None:
-            if entry in self._elsewhere:
-                self._elsewhere.remove(entry)
-
-        return stop
-
-    def request_type(self, name: str) -> type | None:
-        """The class of a service's requests; None if it is not offered in the process."""
-        found = self._services.get(_without_slash(name))
-        return found[0] if found else None
-
-    def serves(self, name: str) -> bool:
-        """Whether the service is offered, here or outside the process."""
-        key = _without_slash(name)
-        return key in self._services or any(offers(key) for offers, _ in self._elsewhere)
-
-    def call(self, name: str, request: object) -> object:
-        """Call a service now.
-
-        Raises:
-            UnknownName: it is not offered.
-            BadMessage: the request is of another type, or its fields are.
-        """
-        if _without_slash(name) not in self._services:
-            return self._call_elsewhere(name, request)
-        type, handler = self._services[_without_slash(name)]
-        if not _is_exactly(request, type):
-            raise BadMessage(
-                f"Service {name!r} takes {_type_name(type)}, not {_type_name(request.__class__)}."
-            )
-        if wrong := unfit(request):
-            raise BadMessage(f"Service {name!r} takes {_type_name(type)}: {wrong}.")
-        return handler(freeze(request))
-
-    def _call_elsewhere(self, name: str, request: object) -> object:
-        for offers, call in self._elsewhere:
-            if offers(_without_slash(name)):
-                return call(_without_slash(name), request)
-        raise UnknownName("service", name, self._services)
 
     def deliver(self) -> None:
         """Deliver every message that is due at the current step, in the order of publishing."""
@@ -399,6 +234,11 @@ class Bus:
         )
 
     @property
+    def revision(self) -> int:
+        """Grows when a topic, a publisher, a subscriber or a service comes or goes."""
+        return self._revision + self.services.revision
+
+    @property
     def next_delivery(self) -> float:
         """The step at which `deliver` has something to hand out; inf where nothing waits."""
         if self._due_now:
@@ -408,44 +248,26 @@ class Bus:
     @property
     def topics(self) -> dict[str, str]:
         """Topic name -> message type, sorted by name."""
-        return {name: _type_name(self._topics[name].type) for name in sorted(self._topics)}
+        return {name: type_name(self._topics[name].type) for name in sorted(self._topics)}
 
-    @property
-    def services(self) -> tuple[str, ...]:
-        """The names of the services offered, sorted."""
-        return tuple(sorted(self._services))
-
-    def _typed(self, topic: str, type: type[M]) -> _Topic:
-        entry = self._topics.setdefault(_without_slash(topic), _Topic())
+    def _typed(self, topic: str, type: type[M]) -> Topic:
+        entry = self._topics.setdefault(without_slash(topic), Topic())
         if type is object:
             return entry
         if entry.type is None:
             entry.type = type
             for appeared in list(self._observers):
-                appeared(_without_slash(topic), type)
+                appeared(without_slash(topic), type)
         elif entry.type is not type:
             raise BadSetting(
-                f"Topic {topic!r} carries {_type_name(entry.type)}, {_but_not(entry.type, type)}.",
+                f"Topic {topic!r} carries {type_name(entry.type)}, {_but_not(entry.type, type)}.",
                 name=topic,
             )
         return entry
 
 
-def _is_exactly(message: object, expected: type) -> bool:
-    """Whether the class of a message is exactly this one, not a derived one."""
-    return type(message) is expected
-
-
-def _without_slash(name: str) -> str:
-    return name.strip().lstrip("/")
-
-
 def _but_not(expected: type, found: type) -> str:
     """``not std_msgs/msg/Bool``, or that it is another class of the same name."""
-    if _type_name(expected) == _type_name(found):
+    if type_name(expected) == type_name(found):
         return f"the class of {expected.__module__}, not that of {found.__module__}"
-    return f"not {_type_name(found)}"
-
-
-def _type_name(type: type | None) -> str:
-    return str(getattr(type, "__msgtype__", getattr(type, "__name__", "nothing yet")))
+    return f"not {type_name(found)}"

@@ -1,0 +1,49 @@
+"""The interface through which an algorithm under test uses topics and services."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Protocol, TypeVar, runtime_checkable
+
+import numpy as np
+
+M = TypeVar("M")
+
+
+@runtime_checkable
+class Node(Protocol):
+    """The interface of an algorithm under test: topics, services, timers, parameters."""
+
+    @property
+    def now(self) -> float:
+        """Simulation time [s]."""
+
+    @property
+    def parameters(self) -> Mapping[str, float | str]:
+        """The values of ``--set algorithm.name=value``; the algorithm has its own defaults."""
+
+    @property
+    def random(self) -> np.random.Generator:
+        """The algorithm's own random stream, repeatable under the run's seed."""
+
+    def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
+        """Have ``callback`` called with every message on ``topic``."""
+
+    def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
+        """Return ``publish(message)`` for ``topic``."""
+
+    def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
+        """Offer a service; ``type`` is the class of its request."""
+
+    def call(self, name: str, request: object) -> object:
+        """Call a service and return its response; UnknownName if it is not offered."""
+
+    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+
+
+class Algorithm(Protocol):
+    """A program under test: it is started once; from then on its callbacks are called."""
+
+    def start(self, node: Node) -> None:
+        """Subscribe, serve, call ``startBench``; from then on only callbacks."""
