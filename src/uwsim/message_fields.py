@@ -24,6 +24,8 @@ _FITTING: dict[str, tuple[type, ...]] = {
     "bool": (bool, int, np.bool_),
     "str": (str,),
 }
+_NUMBERS = frozenset((bool, int, float))
+_PLAIN = _NUMBERS | {str}
 _WORDS = {
     "float": "a number",
     "int": "a whole number",
@@ -37,11 +39,11 @@ _ARRAY = re.compile(r"np\.ndarray\[.*np\.dtype\[np\.(\w+)\]\]")
 _LIST = re.compile(r"list\[(.*)\]")
 
 
-def unfit(message: object, of: str = "") -> str | None:
+def unfit(message: object, of: str = "", *, converts: bool = True) -> str | None:
     """Report the first field of a message that does not fit its definition, or None.
 
-    Lists and tuples given for arrays become arrays. ``of`` is the path to a message in
-    another, with a dot behind it.
+    Lists and tuples given for arrays become arrays, or do not fit (``converts``). ``of`` is the
+    path to a message in another, with a dot behind it.
     """
     if _is_plainly_fit(message):
         return None
@@ -49,7 +51,7 @@ def unfit(message: object, of: str = "") -> str | None:
         value = getattr(message, name)
         wrong: str | None = None
         if kind == "array" and not isinstance(value, np.ndarray):
-            value = _array(value, inner)
+            value = _array(value, inner) if converts else None
             if value is not None:
                 object.__setattr__(message, name, value)  # of a frozen one, too
         if kind == "array":
@@ -59,12 +61,11 @@ def unfit(message: object, of: str = "") -> str | None:
             for i, item in enumerate(value if is_fit else ()):
                 if inner == "str":
                     is_fit = is_fit and isinstance(item, str)
-                elif wrong is None:
-                    wrong = unfit(item, f"{of}{name}[{i}].") if _is_message(item, inner) else None
-                    is_fit = is_fit and _is_message(item, inner)
+                elif wrong is None and (is_fit := is_fit and _is_message(item, inner)):
+                    wrong = unfit(item, f"{of}{name}[{i}].", converts=converts)
         elif kind == "message":
             is_fit = _is_message(value, inner)
-            wrong = unfit(value, f"{of}{name}.") if is_fit else None
+            wrong = unfit(value, f"{of}{name}.", converts=converts) if is_fit else None
         else:
             is_fit = isinstance(value, _FITTING[kind])
         if not is_fit:
@@ -107,9 +108,15 @@ def _freeze_value(value: object) -> None:
 
 def copied(message: M) -> M:
     """Return the same message with arrays, lists and messages of its own."""
-    own = copy.copy(message)
+    if hasattr(message, "__dict__"):
+        own: M = object.__new__(message.__class__)
+        vars(own).update(vars(message))
+    else:
+        own = copy.copy(message)
     for name in _names(cast(Hashable, message.__class__)):
-        object.__setattr__(own, name, _copied_value(getattr(message, name)))  # of a frozen one, too
+        value = getattr(message, name)
+        if value.__class__ not in _PLAIN:
+            object.__setattr__(own, name, _copied_value(value))  # of a frozen one, too
     return own
 
 
@@ -128,11 +135,16 @@ def size_of(value: object) -> int:
         return value.nbytes
     if isinstance(value, str):
         return len(value)
+    if value.__class__ in _PLAIN:
+        return sys.getsizeof(value)
     if isinstance(value, list | tuple):
         return sum(map(size_of, value))
     if dataclasses.is_dataclass(value):
-        names = _names(cast(Hashable, value.__class__))
-        return sum(size_of(getattr(value, name)) for name in names)
+        size = 0
+        for name in _names(cast(Hashable, value.__class__)):
+            part = getattr(value, name)
+            size += sys.getsizeof(part) if part.__class__ in _NUMBERS else size_of(part)
+        return size
     return sys.getsizeof(value)
 
 

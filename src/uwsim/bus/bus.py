@@ -192,6 +192,11 @@ class Bus:
         entry = self._topics.get(without_slash(topic))
         return bool(entry and entry.readers)
 
+    def may_refuse(self, topic: str) -> bool:
+        """Whether a subscriber of ``topic`` refuses some messages of its type while published."""
+        entry = self._topics.get(without_slash(topic))
+        return bool(entry and entry.checks)
+
     def without_subscriber(self, topic: str) -> str | None:
         """Report that a topic has no subscriber, with the nearest that has; None if it has one."""
         read = [name for name, entry in self._topics.items() if entry.readers]

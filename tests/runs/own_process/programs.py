@@ -16,7 +16,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from uwsim.bus import Node
-from uwsim.errors import BadSetting, UnknownName
+from uwsim.errors import BadMessage, BadSetting, UnknownName
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, String, floats
 
 TOPIC = "estimate"
@@ -95,6 +95,23 @@ class Mistypes(Does):
 class CallsNobody(Does):
     def act(self) -> None:
         self.node.call("nobody", Empty())
+
+
+class Talks(Does):
+    """Publishes one message again and again, each time with another number, then gives up."""
+
+    def act(self) -> None:
+        note = self.node.publisher("notes", Note)
+        say = self.node.publisher(TOPIC, Float32MultiArray)
+        message = floats([0.0])
+        for k in range(250):
+            message.data[0] = self.n + k / 1000
+            say(message)
+        note(Note("the end"))
+        with suppress(BadMessage):
+            say(Float32MultiArray(data="no numbers"))  # type: ignore[arg-type]
+        say(Float32MultiArray(data=[7.0, 8.0]))  # type: ignore[arg-type]
+        raise ValueError("enough")
 
 
 class Recovers(Does):

@@ -13,8 +13,11 @@ import pytest
 from tests.runs.own_process import programs
 from tests.short_trial import TIME, make_plan, rows_of
 from tests.waiting import until
-from uwsim.errors import BadSetting, NeverStarted, RunFailed
+from uwsim.bus import Bus
+from uwsim.errors import BadMessage, BadSetting, NeverStarted, RunFailed
+from uwsim.messages import Float32MultiArray
 from uwsim.results.inputs import Inputs
+from uwsim.rng import stream
 from uwsim.runs.executors.executor import SerialExecutor, run_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm
@@ -22,7 +25,7 @@ from uwsim.runs.planning.plan import Plan
 from uwsim.runs.run import Run
 from uwsim.runs.trial.level_row import LevelRow, TrialEnd
 from uwsim.runs.trial.trial import execute
-from uwsim.simulation import Stopped
+from uwsim.simulation import InProcessNode, Stopped
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
 <step>0.2</step> <interval>0.7</interval> </sceneFogUpdater>"""
@@ -39,6 +42,7 @@ SAME = (
     programs.Mistypes,
     programs.CallsNobody,
     programs.Recovers,
+    programs.Talks,
     programs.Nests,
 )
 
@@ -59,6 +63,56 @@ def test_rows_are_those_of_the_simulations_process(tmp_path: Path, algorithm: ty
     own = rows(tmp_path, algorithm)
     assert own == rows(tmp_path, algorithm, own=False)
     assert len(own) == 2
+
+
+class Narrow:
+    """A reader that refuses what is above a limit."""
+
+    def __init__(self, bus: Bus, limit: float) -> None:
+        self.limit, self.heard = limit, bus.inbox(programs.TOPIC, Float32MultiArray)
+        bus.subscribe(programs.TOPIC, Float32MultiArray, lambda message: None, check=self.check)
+
+    def check(self, message: Float32MultiArray) -> None:
+        if message.data[0] > self.limit:
+            raise BadMessage("it is above the limit")
+
+
+def node_of(bus: Bus) -> InProcessNode:
+    return InProcessNode(bus, name="a", timestep=0.1, random=stream(0, "a"), parameters={})
+
+
+@pytest.mark.parametrize("own", [True, False])
+def test_all_that_is_published_before_something_is_raised_arrives_in_its_order(own: bool) -> None:
+    bus = Bus()
+    heard, node = bus.inbox(programs.TOPIC, Float32MultiArray), node_of(bus)
+    with OwnProcess() as process:
+        node.run(
+            ProcessAlgorithm(process, programs.Talks, may_refuse=bus.may_refuse)
+            if own
+            else programs.Talks()
+        )
+        for bus.step in range(5):
+            node.tick()
+            bus.deliver()
+    said = [message.data.tolist() for message in heard.take()]
+    assert said[5:-1] == [[pytest.approx(5 + k / 1000)] for k in range(250)]
+    assert said[-1] == [7.0, 8.0]
+    assert "enough" in str(node.error)
+
+
+@pytest.mark.parametrize("comes_late", [True, False])
+def test_a_message_that_a_reader_refuses_ends_the_algorithm(comes_late: bool) -> None:
+    bus = Bus()
+    node = node_of(bus)
+    reader = None if comes_late else Narrow(bus, 5.04)
+    with OwnProcess() as process:
+        node.run(ProcessAlgorithm(process, programs.Talks, may_refuse=bus.may_refuse))
+        reader = reader or Narrow(bus, 5.04)
+        for bus.step in range(5):
+            node.tick()
+            bus.deliver()
+    assert len(reader.heard.take()) == 5 + 41
+    assert "BadMessage: it is above the limit" in str(node.error)
 
 
 def test_what_is_reported_as_parameters_is_the_same(tmp_path: Path) -> None:

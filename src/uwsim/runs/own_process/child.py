@@ -5,14 +5,16 @@ It gets frames through one socket, answers each, and has nothing else of the sim
 .. code-block:: text
 
     from the simulation                 answer, when the algorithm has come back
-      make  path, plugins, class          done  value, rule broken
-      start now, parameters, random       raised  kind, message, text
+      make  path, plugins, class          done  published, value, rule broken
+      start now, parameters, random       raised  published, kind, message, text
       call  callback, now, message
       parameters  given
       given / refused                   (what the algorithm asked for)
 
 Within a call the algorithm asks for what a node offers (`ask`): the frames nest, as the calls of
-one process do.
+one process do. A message that the simulation is certain to take needs no answer: it goes with the
+next frame, whichever that is, as the first thing that it asks for (``published``: a frame for each,
+of a publisher's number and a message).
 """
 
 from __future__ import annotations
@@ -34,12 +36,17 @@ from ... import errors
 from ...bus import Bus
 from ...errors import BadSetting, NotAllowed, UwsimError
 from ...files.source_module import source_module
+from ...message_fields import unfit
 from ...raised import what_was_raised
 from .codec import MAX_FRAME, Unknown, decode, encode, message_class
 
 M = TypeVar("M")
 GLANCE = 0.5
 """How often this process looks whether its parent is still there [s]."""
+MAX_PUBLISHED = 100
+"""So many messages, and no more, wait for the next frame."""
+MAX_PUBLISHED_BYTES = 2**20
+"""So many of their bytes, and hardly more, wait for it."""
 
 
 class ChildNode:
@@ -47,6 +54,8 @@ class ChildNode:
 
     def __init__(self, ask: Callable[..., Any]) -> None:
         self._ask = ask
+        self._published: list[bytes] = []
+        self._n_bytes = 0
         self._types = Bus()  # checks the classes of messages, where they still are what they are
         self._thread = threading.get_ident()
         self.callbacks: list[Callable[..., object]] = []
@@ -66,12 +75,18 @@ class ChildNode:
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``."""
-        number = self._asked("publisher", topic, _sendable(type))
+        number, may_refuse = self._asked("publisher", topic, _sendable(type))
         check = self._types.publisher(topic, type)
 
         def publish(message: M) -> None:
             check(message)
-            self._asked("publish", number, message)
+            self._check_thread()
+            frame = encode([number, message])
+            self._published.append(frame)
+            self._n_bytes += len(frame)
+            is_full = len(self._published) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
+            if is_full or may_refuse or unfit(message, converts=False):
+                self._asked("take")
 
         return publish
 
@@ -87,15 +102,23 @@ class ChildNode:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
         self._asked("every", period_s, self._number(callback))
 
+    def published(self) -> list[bytes]:
+        """Return what was published since this was asked last, as frames."""
+        published, self._published, self._n_bytes = self._published, [], 0
+        return published
+
     def _number(self, callback: Callable[..., object]) -> int:
         self.callbacks.append(callback)
         return len(self.callbacks) - 1
 
     def _asked(self, method: str, *arguments: object) -> Any:
+        self._check_thread()
+        return self._ask(method, *arguments)
+
+    def _check_thread(self) -> None:
         if threading.get_ident() != self._thread:
             self.broken = self.broken or "it uses its node from a thread of its own"
             raise NotAllowed(self.broken)
-        return self._ask(method, *arguments)
 
 
 class Child:
@@ -125,9 +148,9 @@ class Child:
             trace = error.__traceback__
             error.__traceback__ = trace and trace.tb_next  # the first is that of this function
             text = what_was_raised(error, self._class)
-            self._send(["raised", type(error).__name__, message, text])
+            self._send(["raised", self._node.published(), type(error).__name__, message, text])
         else:
-            self._send(["done", value, self._node.broken])
+            self._send(["done", self._node.published(), value, self._node.broken])
 
     def _make(self, path: list[str], sources: list[list[Any]], module: str, name: str) -> None:
         """Import the class as the simulation did, and make the algorithm."""
@@ -158,7 +181,7 @@ class Child:
 
     def _ask(self, method: str, *arguments: object) -> Any:
         """Ask the simulation for something; calls that come in between are answered."""
-        self._send(["ask", method, *arguments])
+        self._send(["ask", self._node.published(), method, *arguments])
         while True:
             kind, *rest = self._receive()
             if kind == "given":

@@ -10,17 +10,23 @@ from __future__ import annotations
 import dataclasses
 import functools
 import json
+import math
 import struct
 import sys
+from collections.abc import Hashable
 from typing import Any, cast
 
 import numpy as np
 
 MAX_FRAME = 2**30
 """Longest frame [bytes]."""
+_TEXT = json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
+_VALUE = json.JSONDecoder().decode
 _LENGTH = struct.Struct("<I")
+_ARRAYS = (np.ndarray, np.generic)
 _BASES: tuple[Any, ...] = (bool, int, float, str, list, tuple, dict)
-_PLAIN = (type(None), bool, int, float, str)
+_PLAIN = frozenset((type(None), bool, int, float, str))
+_MOST_NAMES = 10_000
 
 
 class FrameError(Exception):
@@ -43,7 +49,7 @@ def encode(value: object) -> bytes:
     Anything else becomes `Unknown` over there.
     """
     arrays: list[bytes] = []
-    head = json.dumps(_tagged(value, arrays), separators=(",", ":")).encode()
+    head = _TEXT(_tagged(value, arrays)).encode()
     return b"".join((_LENGTH.pack(len(head)), head, *arrays))
 
 
@@ -56,7 +62,7 @@ def decode(frame: bytes) -> Any:
     try:
         (n,) = _LENGTH.unpack_from(frame)
         start = _LENGTH.size + n
-        value, end = _Reader(frame, start).value(json.loads(frame[_LENGTH.size : start]))
+        value, end = _Reader(frame, start).value(_VALUE(frame[_LENGTH.size : start].decode()))
     except (ValueError, TypeError, KeyError, IndexError, RecursionError, struct.error) as error:
         raise FrameError(f"{type(error).__name__}: {error}") from error
     if end != len(frame):
@@ -75,7 +81,10 @@ def _tagged(value: Any, arrays: list[bytes]) -> object:
         return {"t": [_tagged(item, arrays) for item in value]}
     if cls is dict:
         return {"d": [[_tagged(k, arrays), _tagged(v, arrays)] for k, v in value.items()]}
-    if isinstance(value, np.ndarray | np.generic) and value.dtype.kind in "biufSU":
+    if cls is not np.ndarray and message_class(name := _name(cls)) is cls:
+        fields = [getattr(value, field) for field in _names(cls)]
+        return {"m": [name, *(v if v.__class__ in _PLAIN else _tagged(v, arrays) for v in fields)]}
+    if isinstance(value, _ARRAYS) and value.dtype.kind in "biufSU":
         arrays.append(value.tobytes())
         key = "a" if isinstance(value, np.ndarray) else "s"
         return {key: [value.dtype.str, *value.shape]}
@@ -84,10 +93,6 @@ def _tagged(value: Any, arrays: list[bytes]) -> object:
         return {"b": len(value)}
     if isinstance(value, type):
         return {"c": _name(value)}
-    known = message_class(_name(cls))
-    if known is not None and known is value.__class__:
-        fields = [_tagged(getattr(value, name), arrays) for name in _fields(known)]
-        return {"m": [_name(known), *fields]}
     derived = next((plain for plain in _BASES if isinstance(value, plain)), None)
     if derived is not None:
         return _tagged(derived(value), arrays)
@@ -104,10 +109,10 @@ class _Reader:
         return self._read(tagged), self._at
 
     def _read(self, tagged: Any) -> Any:
-        if isinstance(tagged, list):
-            return [self._read(item) for item in tagged]
-        if not isinstance(tagged, dict):
+        if tagged.__class__ in _PLAIN:
             return tagged
+        if tagged.__class__ is list:
+            return [self._read(item) for item in tagged]
         ((tag, rest),) = tagged.items()
         if tag == "m":
             return self._message(*rest)
@@ -128,15 +133,16 @@ class _Reader:
     def _message(self, name: str, *values: object) -> object:
         cls = _known(name)
         message: object = object.__new__(cls)
-        for field, value in zip(_fields(cls), values, strict=True):
-            object.__setattr__(message, field, self._read(value))  # of a frozen one, too
+        for field, value in zip(_names(cls), values, strict=True):
+            read = value if value.__class__ in _PLAIN else self._read(value)
+            object.__setattr__(message, field, read)  # of a frozen one, too
         return message
 
     def _array(self, tag: str, dtype: str, *shape: int) -> Any:
         kind = np.dtype(dtype)
         if kind.kind not in "biufSU":
             raise ValueError(f"no array of {dtype!r} is sent")
-        n = int(np.prod(shape, dtype=np.int64))
+        n = math.prod(shape)
         array = np.frombuffer(self._bytes(n * kind.itemsize), dtype=kind).reshape(shape)
         return array[()] if tag == "s" else array
 
@@ -147,7 +153,9 @@ class _Reader:
         return self._frame[self._at - n : self._at]
 
 
-def _name(cls: type) -> str:
+@functools.lru_cache(_MOST_NAMES)
+def _name(cls: Hashable) -> str:
+    assert isinstance(cls, type)
     return f"{cls.__module__}:{cls.__qualname__}"
 
 
@@ -166,21 +174,28 @@ def message_class(name: str) -> type | None:
     """
     if name == "builtins:object":
         return object
-    module, _, path = name.partition(":")
+    module, path = _path(name)
     found: Any = sys.modules.get(module)
-    for part in path.split("."):
+    for part in path:
         found = getattr(found, part, None)
-    if not isinstance(found, type) or not dataclasses.is_dataclass(found):
-        return None
+    return found if isinstance(found, type) and _is_message(cast(Hashable, found), module) else None
+
+
+@functools.lru_cache(_MOST_NAMES)
+def _path(name: str) -> tuple[str, tuple[str, ...]]:
+    """Return the module of ``module:Class``, and the names that lead from there to the class."""
+    module, _, path = name.partition(":")
+    return module, tuple(path.split("."))
+
+
+@functools.lru_cache(_MOST_NAMES)
+def _is_message(cls: Hashable, module: str) -> bool:
+    """Whether a class that was found in a module is one of messages."""
     is_own = module.partition(".")[0] == "uwsim"
-    return found if hasattr(found, "__msgtype__") or not is_own else None
+    return dataclasses.is_dataclass(cls) and (hasattr(cls, "__msgtype__") or not is_own)
 
 
-def _fields(cls: type) -> tuple[str, ...]:
-    return _names(cast(Any, cls))
-
-
-@functools.cache
+@functools.lru_cache(_MOST_NAMES)
 def _names(cls: Any) -> tuple[str, ...]:
     names = [field.name for field in dataclasses.fields(cls)]
     return tuple(name for name in names if name != "__msgtype__")  # rosbags has it as a field

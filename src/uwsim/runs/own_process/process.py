@@ -83,7 +83,8 @@ class OwnProcess:
 
         Args:
             frame: what is asked of the process.
-            answer: does what the algorithm asks for meanwhile, and returns the result.
+            answer: does what the algorithm asks for meanwhile, and returns the result; publishes
+                first what has come with the frame that asks.
 
         Raises:
             RaisedElsewhere: the algorithm raised, or broke a rule.
@@ -94,18 +95,20 @@ class OwnProcess:
         waited = 0.0
         while True:
             waited = self._wait(waited)
-            kind, *rest = self._receive()
+            kind, published, *rest = self._receive()
             if kind == "ask":
-                self._send(_answered(answer, rest))
-            elif kind == "done" and len(rest) == 2:
+                self._send(_answered(answer, published, rest))
+                continue
+            if refused := _refused(answer, published):
+                raise RaisedElsewhere(f"{refused[1]}: {refused[2]}")
+            if kind == "done" and len(rest) == 2:
                 value, broken = rest
                 if broken is not None:
                     raise RaisedElsewhere(f"NotAllowed: {broken}")
                 return value
-            elif kind == "raised" and len(rest) == 3:
+            if kind == "raised" and len(rest) == 3:
                 raise _raised(str(frame[0]), *map(str, rest))
-            else:
-                raise Stopped("its process sent a frame that nobody understands")
+            raise Stopped("its process sent a frame that nobody understands")
 
     def _wait(self, waited: float) -> float:
         """Wait for a frame, which comes ``waited`` after the request; returns when it came [s].
@@ -133,14 +136,15 @@ class OwnProcess:
 
     def _receive(self) -> list[Any]:
         try:
-            frame = decode(self._pipe.recv_bytes(MAX_FRAME))
+            frame: object = decode(self._pipe.recv_bytes(MAX_FRAME))
         except FrameError as error:
             raise Stopped(f"its process sent bytes that are no frame: {error}") from None
         except (EOFError, OSError):
             raise self._ended() from None
-        if not (isinstance(frame, list) and frame and isinstance(frame[0], str)):
-            raise Stopped("its process sent a frame that nobody understands")
-        return frame
+        match frame:
+            case [str(), list(), *_] if isinstance(frame, list):
+                return frame
+        raise Stopped("its process sent a frame that nobody understands")
 
     def _ended(self) -> Stopped:
         try:
@@ -159,6 +163,8 @@ class ProcessAlgorithm:
         algorithm: the class; its module can be imported there, too, or is that of a plugin.
         plugins: what was read with ``--plugin``.
         given: the parameters set by the user.
+        may_refuse: whether a reader of a topic refuses some of its messages; the algorithm then
+            waits at each.
 
     Raises:
         RaisedElsewhere: the algorithm cannot be made.
@@ -170,8 +176,9 @@ class ProcessAlgorithm:
         algorithm: type,
         plugins: Sequence[Plugin] = (),
         given: Mapping[str, float | str] | None = None,
+        may_refuse: Callable[[str], bool] = lambda topic: True,
     ) -> None:
-        self._process, self._given = process, dict(given or {})
+        self._process, self._given, self._may_refuse = process, dict(given or {}), may_refuse
         self._node: Node | None = None
         self._publish: list[Callable[[Any], None]] = []
         sources = [[plugin.module_name, plugin.path, plugin.source] for plugin in plugins]
@@ -216,9 +223,11 @@ class ProcessAlgorithm:
                 node.subscribe(topic, cls, self._calling(number))
             case ["publisher", str(topic), type() as cls]:
                 self._publish.append(node.publisher(topic, cls))
-                return len(self._publish) - 1
-            case ["publish", int(number), message] if 0 <= number < len(self._publish):
-                self._publish[number](message)
+                return len(self._publish) - 1, self._may_refuse(topic)
+            case ["publish", bytes() as frame]:
+                self._take(decode(frame))
+            case ["take"]:
+                pass  # what was published has been taken
             case ["serve", str(name), type() as cls, int(number)]:
                 node.serve(name, cls, self._calling(number))
             case ["call", str(name), request]:
@@ -229,16 +238,43 @@ class ProcessAlgorithm:
                 raise TypeError(f"{asked[0] if asked else ''}: wrong arguments")
         return None
 
+    def _take(self, published: Any) -> None:
+        match published:
+            case [int(number), message] if 0 <= number < len(self._publish):
+                self._publish[number](message)
+            case _:
+                raise TypeError("publish: wrong arguments")
 
-def _answered(answer: Callable[[list[Any]], object], asked: list[Any]) -> list[object]:
+
+def _answered(
+    answer: Callable[[list[Any]], object], published: list[Any], asked: list[Any]
+) -> list[object]:
     """Return the frame with the result of what the algorithm asked for, or with its error."""
+    if refusal := _refused(answer, published):
+        return refusal
     try:
         return ["given", answer(asked)]
+    except Stopped:
+        raise
     except Exception as error:
-        if isinstance(error, Stopped):
-            raise
-        about = vars(error) if isinstance(error, UwsimError) else {}
-        return ["refused", type(error).__name__, str(error), dict(about)]
+        return _refusal(error)
+
+
+def _refused(answer: Callable[[list[Any]], object], published: list[Any]) -> list[object]:
+    """Publish; return the frame of a refusal, or an empty one if all was taken."""
+    try:
+        for frame in published:
+            answer(["publish", frame])
+    except Stopped:
+        raise
+    except Exception as error:
+        return _refusal(error)
+    return []
+
+
+def _refusal(error: Exception) -> list[object]:
+    about = vars(error) if isinstance(error, UwsimError) else {}
+    return ["refused", type(error).__name__, str(error), dict(about)]
 
 
 def _raised(request: str, kind: str, message: str, text: str) -> Exception:

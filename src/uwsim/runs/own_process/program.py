@@ -40,7 +40,8 @@ def program_of(plan: Plan, limit: float | None = None) -> Iterator[Program]:
 def _in_own_process(
     plan: Plan, process: OwnProcess, simulation: Simulation, parameters: Mapping[str, float | str]
 ) -> Algorithm:
-    return ProcessAlgorithm(process, plan.algorithm, plan.plugins, parameters)
+    may_refuse = simulation.bus.may_refuse
+    return ProcessAlgorithm(process, plan.algorithm, plan.plugins, parameters, may_refuse)
 
 
 def _client(
