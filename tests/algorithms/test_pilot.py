@@ -101,3 +101,18 @@ def test_inputs_of_more_numbers_than_axes_are_passed_over() -> None:
     node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=too_many))
     node.tick()
     assert node.published == []
+
+
+def test_lamps_are_dimmed_from_full_brightness_while_their_axis_is_held() -> None:
+    node = flown(lamp_topics="left/brightness right/brightness", dim_rate=8.0)
+    assert move(node) == []
+    said = [move(node, lamps=-1.0) for _ in range(4)]
+    assert [[message.data for _, message in each] for each in said] == [  # type: ignore[attr-defined]
+        pytest.approx([0.6, 0.6]),
+        pytest.approx([0.2, 0.2]),
+        [0.0, 0.0],
+        [],
+    ]
+    assert {topic for topic, _ in said[0]} == {"left/brightness", "right/brightness"}
+    assert [message.data for _, message in move(node, lamps=0.25)] == pytest.approx([0.1, 0.1])  # type: ignore[attr-defined]
+    assert move(node) == []

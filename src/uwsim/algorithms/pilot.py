@@ -12,6 +12,7 @@ from ..bus import Node
 from ..errors import UnknownName
 from ..messages import (
     Empty,
+    Float64,
     Float64MultiArray,
     JointState,
     MultiArrayLayout,
@@ -37,8 +38,9 @@ AXES = (
     "jaw",
     *(f"joint{k}" for k in range(1, N_JOINTS + 1)),
     *THRUSTER_AXES,
+    "lamps",
 )
-"""What the numbers are, new ones last: twist; jaw open; joints on; thrusters."""
+"""What the numbers are, new ones last: twist; jaw open; joints on; thrusters; brighter lamps."""
 PERIOD = 0.05
 """Between two commands [s]."""
 
@@ -48,8 +50,9 @@ class Pilot:
 
     An input within the dead zone counts as none; what is commanded follows the input at a limited
     rate. Before the first input nothing is commanded. A vehicle that takes twists and commands of
-    single thrusters gets those whose axes were moved last; at first twists. Services and topics
-    are named with blanks between them; those of the scene are found without being given.
+    single thrusters gets those whose axes were moved last; at first twists. All lamps are dimmed
+    together, from full brightness on. Services and topics are named with blanks between them;
+    those of the scene are found without being given.
     """
 
     IS_PILOTED: ClassVar[bool] = True
@@ -63,11 +66,13 @@ class Pilot:
         "jaw": "",
         "thrusters_topic": "",
         "n_thrusters": 0.0,
+        "lamp_topics": "",
         "z_is_down": 1.0,
         "speed": 0.4,
         "turn": 0.3,
         "thrust": 1.0,
         "joint_speed": 0.3,
+        "dim_rate": 0.5,
         "rate": 2.0,
         "dead_zone": 0.05,
     }
@@ -86,6 +91,9 @@ class Pilot:
         self._say_joints = node.publisher(joints, JointState) if joints else None
         thrusters = str(self.parameters["thrusters_topic"])
         self._say_thrusters = node.publisher(thrusters, Float64MultiArray) if thrusters else None
+        lamps = str(self.parameters["lamp_topics"]).split()
+        self._say_lamps = [node.publisher(topic, Float64) for topic in lamps]
+        self._brightness = 1.0
         self._by_thrusters = bool(thrusters) and not twist and not odom
         names = str(self.parameters["joints"]).split()[:N_JOINTS]
         jaw = str(self.parameters["jaw"]).split()
@@ -118,6 +126,7 @@ class Pilot:
         else:
             self._drive(given)
         self._move_joints(given)
+        self._dim(given["lamps"])
 
     def _takes_thrusters(self, given: Mapping[str, float]) -> bool:
         """Whether single thrusters are commanded now, and no twist."""
@@ -171,3 +180,12 @@ class Pilot:
                 effort=np.zeros(0),
             )
         )
+
+    def _dim(self, moved: float) -> None:
+        """Command the brightness of all lamps when it changes."""
+        change = float(self.parameters["dim_rate"]) * PERIOD * moved
+        brightness = min(1.0, max(0.0, self._brightness + change))
+        if brightness != self._brightness:
+            self._brightness = brightness
+            for say in self._say_lamps:
+                say(Float64(data=brightness))

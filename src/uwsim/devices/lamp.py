@@ -1,4 +1,4 @@
-"""A lamp that lights what its vehicle's cameras see; an extension of the dialect.
+"""A dimmable lamp that lights what its vehicle's cameras see; an extension of the dialect.
 
 .. code-block:: xml
 
@@ -12,13 +12,15 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 from ..geometry import Pose
+from ..messages import Float64
 from ..schema import element
 from ..sensors.sensor import LookAt
 from ..world import Body, Stage
-from .device import Device, DeviceSpec, DeviceVehicle
+from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 
 MAX_LAMPS = 4
 """Number of lamps that a scene may have."""
@@ -28,11 +30,13 @@ MAX_LAMPS = 4
 class LampSpec(DeviceSpec):
     """A ``<u:lamp>``: a round cone of light along -z, as cameras look; at most four in a scene.
 
-    The light rate of the scene does not dim it. The lamp of a ghost (``vr``) does not shine.
+    It shines fully until a std_msgs/Float64 on the topic ``<name>/brightness`` dims it: 0 is off,
+    1 its whole ``intensity``. Lamps of one name have one topic. The light rate of the scene does
+    not dim it. The lamp of a ghost (``vr``) does not shine.
     """
 
     name: str = element(namespaced=True)
-    """Its name."""
+    """Its name, which begins its topic."""
     relative_to: str = element(namespaced=True)
     """The link it rides on; its place counts from the link's kinematic frame."""
     position: tuple[float, float, float] = element(namespaced=True, default=(0.0, 0.0, 0.0))
@@ -57,17 +61,33 @@ class LampSpec(DeviceSpec):
     shadow: bool = element(namespaced=True, default=True)
     """Whether bodies in its light cast a shadow."""
 
+    @property
+    def brightness_topic(self) -> str:
+        """Name of the topic on which its brightness is commanded."""
+        return f"{self.name}/brightness"
+
+    @property
+    def topics(self) -> tuple[DeviceTopic, ...]:
+        """The topic of its brightness."""
+        return (DeviceTopic(name=self.brightness_topic, is_heard=True),)
+
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MountedLamp:
         """Mount the lamp on its link; raises UnknownName if the vehicle has no such link."""
-        return MountedLamp(self, vehicle.mount(self))
+        lamp = MountedLamp(self, vehicle.mount(self))
+        stage.bus.subscribe(self.brightness_topic, Float64, lamp.command)
+        return lamp
 
 
 class MountedLamp(Device):
     """A lamp on a link."""
 
+    STATE = ("brightness",)
+
     def __init__(self, spec: LampSpec, mount: Body) -> None:
         self.spec = spec
         """How it shines."""
+        self.brightness = 1.0
+        """Share of its intensity that it gives now [0..1]."""
         self._mount = mount
 
     @property
@@ -83,4 +103,14 @@ class MountedLamp(Device):
     @property
     def is_on(self) -> bool:
         """Whether it shines now."""
-        return True
+        return self.brightness > 0.0
+
+    @property
+    def intensity(self) -> float:
+        """What it gives to a white surface facing it at 1 m now [1: full scale]."""
+        return self.brightness * self.spec.intensity
+
+    def command(self, message: Float64) -> None:
+        """Shine as brightly as told, from 0 to 1; what is no number is passed over."""
+        if not math.isnan(message.data):
+            self.brightness = min(1.0, max(0.0, float(message.data)))

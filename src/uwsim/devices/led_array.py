@@ -112,6 +112,11 @@ class Led:
         """Whether it shines now."""
         return self._clock() < self._until
 
+    @property
+    def intensity(self) -> float:
+        """What it gives to a white surface facing it at 1 m [1: full scale]."""
+        return self.spec.intensity
+
     def command(self, message: LedLight) -> None:
         """Shine from now on for a time, whatever was said before."""
         self._until = self._clock() + message.duration.sec + 1e-9 * message.duration.nanosec

@@ -12,6 +12,11 @@ from ..tracks import Signal
 from .stage import SceneStage
 from .tracked_bodies import TrackedBodies
 
+LAMP = "lamp/"
+"""How the name of a lamp's signal begins, its brightness [0..1]."""
+BRIGHTNESS = 0.01
+"""Its resolution."""
+
 
 class TrackedState:
     """The rows of a motion track, and of a live view.
@@ -42,7 +47,7 @@ class TrackedState:
             signals += self._water_at(state.poses.vehicle(index).position, vehicle).tolist()
             if index in state.actuation:
                 signals += state.actuation[index].commands().tolist()
-        signals += [float(lamp.is_on) for lamp in self._lamps]
+        signals += [lamp.brightness for lamp in self._lamps]
         return np.concatenate([rows.reshape(-1), signals])
 
     def _water_at(self, place: Array, vehicle: str) -> Array:
@@ -62,4 +67,4 @@ class TrackedState:
                 for thruster in self._world.state.actuation[index].thrusters:
                     yield Signal(name=f"thrust/{vehicle}/{thruster}", step=0.01)
         for lamp in self._lamps:
-            yield Signal(name=f"lamp/{lamp.spec.name}", step=1.0)
+            yield Signal(name=f"{LAMP}{lamp.spec.name}", step=BRIGHTNESS)

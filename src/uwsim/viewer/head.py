@@ -66,7 +66,7 @@ root (`uwsim.simulation.tracked_bodies`); the object's name for objects. Names o
 optional::
 
     fog, light_rate            as they are [1/m], [1]
-    lamp/NAME                  0 off, 1 on
+    lamp/NAME                  its brightness, 0 off to 1: the intensity of the head
     thrust/VEHICLE/NAME        command of a thruster, -1..1 of its largest [1], or [N] with unit
     water/VEHICLE/x|y|z        velocity of the water at the vehicle, in W [m/s]
     contacts/k/x|y|z           points of contact, in W; NaN: fewer

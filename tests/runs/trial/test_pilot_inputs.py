@@ -6,6 +6,7 @@ import json
 
 import pytest
 
+from tests.simulation.test_lamp import LAMP, night
 from uwsim import load
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.errors import ResultError
@@ -70,3 +71,13 @@ def test_a_pilot_drives_a_single_thruster_of_a_vehicle_that_takes_twists_too() -
         wanted = [0.0] * len(names)
         wanted[1] = -0.5
         assert thrust(simulation) == pytest.approx(wanted, abs=0.1)
+
+
+def test_a_pilot_dims_the_lamps_of_the_scene() -> None:
+    with Simulation(night(LAMP), is_blind=True) as simulation:
+        piloted(simulation, lamps=-1.0)
+        (lamp,) = simulation.world.scenery.mounted_lamps
+        simulation.advance(1.0)
+        assert 0.45 <= lamp.intensity / LAMP.intensity <= 0.6
+        simulation.advance(2.0)
+        assert lamp.intensity == 0.0

@@ -15,8 +15,10 @@ from mcap_ros2.decoder import DecoderFactory
 from PIL import Image
 
 from tests.short_benchmark import run, write_benchmark
+from tests.simulation.test_lamp import LAMP, night
 from uwsim.cli import main
 from uwsim.results.journal import recorded_trials, track_path
+from uwsim.tracks import Signal
 from uwsim.viewer.film.curves import chosen
 from uwsim.viewer.film.film import Film, FilmSpec, record
 from uwsim.viewer.film.puppets import Puppets
@@ -51,6 +53,21 @@ def test_a_recorded_trial_has_its_levels_and_the_samples_of_its_measures(
     curve = trial.levels[1].curves[0]
     assert (curve.measure, curve.unit) == ("corners", "px")
     assert curve.times[0] == pytest.approx(trial.levels[1].began, abs=0.051)
+
+
+def test_lamps_are_as_bright_as_they_were(trial: RecordedTrial) -> None:
+    track, brightness = trial.track, np.linspace(0.0, 1.0, trial.track.n_frames)
+    dimmed = replace(
+        track,
+        signals=(*track.signals, Signal(name="lamp/headlight", step=0.01)),
+        values=np.column_stack([track.values, brightness]),
+    )
+    puppets = Puppets(replace(trial, scene=night(LAMP), track=dimmed))
+    (lamp,) = puppets.simulation.world.scenery.mounted_lamps
+    for frame in (0, 5, track.n_frames - 1):
+        puppets.put((frame + 0.01) / track.rate)
+        assert lamp.intensity == pytest.approx(brightness[frame] * LAMP.intensity)
+    puppets.close()
 
 
 def level_with(*curves: Curve, details: tuple[Curve, ...] = ()) -> RecordedLevel:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 
 import uwsim
+from tests.simulation.test_lamp import LAMP, night
+from uwsim.messages import Float64
+from uwsim.simulation import Simulation
 from uwsim.viewer.document import document
 from uwsim.viewer.live.mapping import KEYS, PilotMapping
 from uwsim.viewer.live.server import LiveServer
@@ -76,6 +81,30 @@ SEEN = """() => {
     return Math.max(...[...document.querySelectorAll("#help dd")].map(seen).filter(y => y < lowest))
 }"""
 """How far down rows of the help are seen [px]."""
+
+
+@pytest.mark.parametrize("brightness", [1.0, 0.3, 0.0])
+def test_a_dimmed_lamp_looks_in_the_page_as_in_a_camera(
+    browser: Any, server: LiveServer, brightness: float
+) -> None:
+    with Simulation(night(LAMP)) as simulation:
+        simulation.publish("headlight/brightness", Float64(data=brightness))
+        simulation.advance(0.01)
+        view = LiveView(server)
+        view.open(simulation, "scene")
+        view.close()
+        drawn = simulation.image("bowtech1").colour
+    assert drawn is not None
+    assert bool(drawn.max() > 30) is (brightness > 0.0)
+    page = browser.new_context(bypass_csp=True).new_page()
+    page.set_default_timeout(LIMIT)
+    page.goto(server.url)
+    page.wait_for_function("window.uwsim !== undefined")
+    pixels = np.frombuffer(base64.b64decode(page.evaluate("uwsim.image('bowtech1')")), np.uint8)
+    seen = pixels.reshape(*drawn.shape[:2], 4)[..., :3].astype(np.int16)
+    assert np.abs(seen - drawn).mean() <= 1.0
+    assert np.percentile(np.abs(seen - drawn), 99) <= 4.0
+    page.context.close()
 
 
 def test_the_help_names_all_axes_of_a_key(browser: Any, server: LiveServer) -> None:

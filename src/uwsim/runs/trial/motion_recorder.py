@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from ...benchmark.ground_truth import CornersFromCameraSpec
 from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, MeasureSpec
 from ...geometry import Array
 from ...simulation import Simulation
-from ...simulation.tracked_state import TrackedState
+from ...simulation.tracked_state import BRIGHTNESS, LAMP, TrackedState
 from ...tracks import RATE, Signal, TrackLevel, track_bytes
 from ...tracks.motion_track import quantised, steps_of
 from ...tracks.packing import Table
@@ -74,7 +75,8 @@ class MotionRecorder:
         """Return the file of the track up to now."""
         self._pack()
         table = np.concatenate(self._tables or [np.zeros((0, len(self._steps)), np.int32)])
-        return track_bytes(self._state.bodies, self._signals, table, self._levels)
+        signals = switched(self._signals, table)
+        return track_bytes(self._state.bodies, signals, table, self._levels)
 
     def _look(self) -> None:
         while self._simulation.step >= self._due:
@@ -102,6 +104,24 @@ class MotionRecorder:
             is_whole = quad is not None and quad.shape == (CORNERS,)
             found += quad.tolist() if quad is not None and is_whole else [np.nan] * CORNERS
         return found
+
+
+def switched(signals: Sequence[Signal], table: Table) -> tuple[Signal, ...]:
+    """Store lamps that are never dimmed as on or off: 1 or 0 instead of multiples of 0.01.
+
+    Args:
+        signals: what the last columns of the table are.
+        table: quantised rows, (frames, 7 bodies + signals); columns of such lamps are changed.
+
+    Returns:
+        The signals, with the steps of the table as it is now.
+    """
+    found, full = list(signals), round(1.0 / BRIGHTNESS)
+    for k, signal in enumerate(signals, start=-len(signals)):
+        if signal.name.startswith(LAMP) and not (table[:, k] % full).any():
+            table[:, k] //= full
+            found[k] = replace(signal, step=1.0)
+    return tuple(found)
 
 
 def _compared(measures: Sequence[MeasureSpec]) -> dict[str, str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ...devices.lamp import LampSpec
 from ...simulation import Simulation
 from ...topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from ...topics.ros_odom_to_pat import ROSOdomToPATSpec
@@ -34,6 +35,9 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
         elif isinstance(spec, ROSThrustersToPATSpec) and world.vehicle(name).thrusters:
             found.setdefault("thrusters_topic", spec.topic)
             found["n_thrusters"] = float(len(world.vehicle(name).thrusters))
+    lamps = (lamp.brightness_topic for lamp in world.scene.vehicles[0].parts_of(LampSpec))
+    if topics := " ".join(dict.fromkeys(topic for topic in lamps if " " not in topic)):
+        found["lamp_topics"] = topics
     joints = list(world.vehicle(name).joint_names)
     jaw = ""
     if joints and any(word in joints[-1].lower() for word in JAW):

@@ -297,7 +297,7 @@ def _shining(lamp: MountedLamp | Led) -> Lamp:
         half_angle=math.radians(spec.fov / 2.0),
         softness=spec.softness,
         colour=spec.color,
-        intensity=spec.intensity,
+        intensity=lamp.intensity,
         casts_shadow=spec.shadow,
     )
 

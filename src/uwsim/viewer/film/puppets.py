@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 
+from ...devices.lamp import MountedLamp
 from ...geometry import Array
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
+from ...simulation.tracked_state import LAMP
 from ...tracks import MotionTrack
 from ..recorded import RecordedTrial
 
@@ -48,6 +50,10 @@ class Puppets:
             world.set_fog(fog)
         if light is not None:
             world.set_light_rate(light)
+        for lamp in world.devices:
+            if isinstance(lamp, MountedLamp):
+                brightness = self.signal(f"{LAMP}{lamp.spec.name}", before)
+                lamp.brightness = 1.0 if brightness is None else brightness
 
     def signal(self, name: str, frame: int) -> float | None:
         """Return a signal in a frame; None where there is none."""

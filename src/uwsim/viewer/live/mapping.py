@@ -29,7 +29,7 @@ KEYS = {
     **{"w": "+surge", "s": "-surge", "d": "+sway", "a": "-sway", "e": "+yaw", "q": "-yaw"},
     **{"r": "+heave", "v": "-heave", "t": "+joint1", "g": "-joint1", "y": "+joint2"},
     **{"h": "-joint2", "u": "+joint3", "j": "-joint3", "i": "+joint4", "k": "-joint4"},
-    **{"o": "+jaw", "l": "-jaw"},
+    **{"o": "+jaw", "l": "-jaw", "m": "+lamps", "n": "-lamps"},
 }
 """Key -> axis and direction; none of those by which the page itself is used."""
 

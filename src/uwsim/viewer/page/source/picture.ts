@@ -160,8 +160,12 @@ export class Picture {
 
   private lamps(moment: Moment): ShiningLamp[] {
     return this.head.lamps
-      .filter((lamp) => (moment.signal(`lamp/${lamp.name}`) ?? Number(lamp.on)) > 0.5)
-      .map((lamp) => ({ lamp, place: this.models.mounted(lamp) }));
+      .map((lamp) => ({ lamp, brightness: moment.signal(`lamp/${lamp.name}`) ?? Number(lamp.on) }))
+      .filter(({ brightness }) => brightness > 0)
+      .map(({ lamp, brightness }) => ({
+        lamp: { ...lamp, intensity: brightness * lamp.intensity },
+        place: this.models.mounted(lamp),
+      }));
   }
 }
 
