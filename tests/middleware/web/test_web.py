@@ -149,6 +149,16 @@ def test_a_client_calls_services_and_asks_what_there_is(setting: Setting) -> Non
     assert "Did you mean '/reset'?" in wrong["values"]
 
 
+def test_a_client_that_comes_before_the_first_step_finds_what_there_is(setting: Setting) -> None:
+    setting.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
+    client = setting.client()
+    send(client, op="call_service", id="c", service="/rosapi/services")
+    with pytest.raises(TimeoutError):
+        client.recv(timeout=0.2)
+    setting.bridge.step()
+    assert "/reset" in heard(client)["values"]["services"]
+
+
 def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
     client = setting.client()
     kind = "underwater_sensor_msgs/GTpublish"

@@ -79,6 +79,7 @@ class WebBridge(Bridge):
         self._loop = asyncio.new_event_loop()
         self._listening: Future[int] = Future()
         self._ended: asyncio.Event | None = None
+        self._begun, self._has_begun = asyncio.Event(), False
         self._thread = threading.Thread(target=self._serve_all, name="uwsim web", daemon=True)
         self._thread.start()
         try:
@@ -110,7 +111,13 @@ class WebBridge(Bridge):
                 session.post(subscription, outgoing)
 
     def tick(self) -> None:
-        """Publish ``/clock`` for those who read it."""
+        """Publish ``/clock`` for those who read it, and serve those who came before the first step.
+
+        Until then nobody knows what there is on the bus.
+        """
+        if not self._has_begun:
+            self._has_begun = True
+            self._loop.call_soon_threadsafe(self._begun.set)
         if CLOCK in self._readers and CLOCK not in self._ends:
             clock = message_class("rosgraph_msgs/Clock")
             self.send(CLOCK, clock(clock=clock_time(self.clock())))
@@ -238,6 +245,7 @@ class WebBridge(Bridge):
         writer = asyncio.create_task(_write(connection, session))
         began, n = time.monotonic(), 0
         try:
+            await self._begun.wait()
             async for raw in connection:
                 session.handle(raw)
                 n += 1
