@@ -87,6 +87,15 @@ def test_a_pane_is_what_a_range_finder_meets_first(renderer: Renderer) -> None:
         assert image.range[24, 32] == pytest.approx(2.0, abs=0.01)
 
 
+@pytest.mark.parametrize("target", ["colour", "range", "ids"])
+def test_an_image_of_one_kind_alone_may_show_a_pane(renderer: Renderer, target: str) -> None:
+    renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(3.0))
+    renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.3)), 2), at(2.0))
+    alone = getattr(look(renderer, targets={target}), target)
+    together = getattr(look(renderer), target)
+    assert np.array_equal(alone, together)
+
+
 def test_a_pane_behind_a_wall_is_not_seen(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(2.0))
     renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.5)), 2), at(3.0))

@@ -45,6 +45,9 @@ SAMPLERS = {
 Switches = tuple[tuple[str, int], ...]
 """Preprocessor switches of a shader and their values."""
 
+ColourMask = tuple[bool, bool, bool, bool]
+"""Whether red, green, blue and alpha of a target are written."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class View:
@@ -318,8 +321,9 @@ class Renderer:
 
         def write(*, colour: bool, rest: bool) -> None:
             rgb = (colour, colour, colour, False)  # alpha stays 1
-            masks = [rgb if name == "colour" else (rest,) * 4 for name in places]
-            buffer.color_mask = masks  # type: ignore[assignment]  # one for each target
+            others = (rest, rest, rest, rest)
+            masks = [rgb if name == "colour" else others for name in places]
+            _set_colour_masks(buffer, masks)
 
         shown = [(one, round(255.0 * opacity)) for one, opacity in clear if opacity > 0.0]
         if "colour" in places:
@@ -335,7 +339,7 @@ class Renderer:
             write(colour=False, rest=True)
             for one, _ in shown:
                 self._draw_batch(target, one, switches)
-        buffer.color_mask = [(True,) * 4] * len(places)  # type: ignore[assignment]
+        _set_colour_masks(buffer, [(True, True, True, True)] * len(places))
         self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)
 
@@ -358,3 +362,11 @@ class Renderer:
         if key not in self._targets:
             self._targets[key] = Targets(self._context, size, view.wanted, view.store)
         return self._targets[key]
+
+
+def _set_colour_masks(buffer: moderngl.Framebuffer, masks: Sequence[ColourMask]) -> None:
+    """Say which channels of each target are written; moderngl takes that of a single one alone."""
+    if len(masks) == 1:
+        buffer.color_mask = masks[0]
+    else:
+        buffer.color_mask = masks  # type: ignore[assignment]  # one for each target
