@@ -10,10 +10,11 @@ import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
 from uwsim.devices.dredge_tool import DredgeToolSpec
-from uwsim.geometry import Pose
+from uwsim.geometry import Pose, rotation_from_rpy
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
+from uwsim.sensors.dvl_sensor import Dvl, DvlSensorSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.simulation import Simulation
 from uwsim.simulation.scenery.sand import Heap
@@ -101,3 +102,17 @@ def test_sand_is_saved(tmp_path: Path) -> None:
         one, other = (s.world.scenery.heaps[0].height(0.0, 0.0) for s in (first, second))
         assert one == other
         assert below(first) == below(second)
+
+
+def test_a_dvl_over_a_buried_object_hears_the_sand(tmp_path: Path) -> None:
+    looks_down = (np.pi, 0.0, 0.0)
+    dvl = DvlSensorSpec(
+        name="dvl", relative_to="base_link", orientation=looks_down, beam_angle=1.0
+    )  # fmt: skip
+    spec = scene(tmp_path, 1.0)
+    rov = replace(spec.vehicles[0], position=(0.0, 0.0, 1.0), parts=(dvl,))
+    with Simulation(replace(spec, vehicles=(rov,)), is_blind=True) as simulation:
+        sensor = simulation.world.sensor("dvl", ("dvlSensor",))
+        assert isinstance(sensor, Dvl)
+        ranges = sensor.ranges(Pose(np.array([0.0, 0.0, 1.0]), rotation_from_rpy(*looks_down)))
+        assert ranges == pytest.approx(below(simulation) / np.cos(np.radians(1.0)), abs=1e-3)

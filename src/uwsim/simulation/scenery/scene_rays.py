@@ -48,7 +48,10 @@ class SceneRays:
         owners = {
             p.id: scene.vehicles[p.vehicle].name for p in self._parts if p.vehicle is not None
         }
-        self.vehicles: tuple[str, ...] = tuple(owners.get(number, "") for number in numbers)
+        self.vehicles: tuple[str, ...] = (
+            *(owners.get(number, "") for number in numbers),
+            *("" for _ in heaps),
+        )
         """Name of the vehicle that each surface belongs to, by its number; or empty."""
 
     def cast(
