@@ -99,25 +99,27 @@ class Engine:
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
 
     @property
-    def _engine(self) -> tuple[mujoco.MjData, Array, Array, Array]:
-        """MuJoCo's data, and the model parameters that servos change."""
+    def _engine(self) -> tuple[mujoco.MjData, Array, Array, Array, int]:
+        """MuJoCo's data, and the model parameters that servos and steps change."""
         model = self._model
         return (
             copy.copy(self._data),
             model.jnt_limited.copy(),
             model.actuator_gainprm.copy(),
             model.actuator_biasprm.copy(),
+            model.opt.disableflags,
         )
 
     @_engine.setter
-    def _engine(self, kept: tuple[mujoco.MjData, Array, Array, Array]) -> None:
-        model, (data, limited, gains, biases) = self._model, kept
+    def _engine(self, kept: tuple[mujoco.MjData, Array, Array, Array, int]) -> None:
+        model, (data, limited, gains, biases, flags) = self._model, kept
         if (data.model.nq, data.nbuffer) != (model.nq, self._data.nbuffer):
             raise UwsimError("The saved simulation is not of this scene.")
         mujoco.mj_copyData(self._data, model, data)
         model.jnt_limited[:] = limited
         model.actuator_gainprm[:] = gains
         model.actuator_biasprm[:] = biases
+        model.opt.disableflags = flags
 
     @property
     def is_dynamic(self) -> bool:

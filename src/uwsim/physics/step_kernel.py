@@ -17,6 +17,7 @@ from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
 from .hydrodynamics.kernel.memory import Ints64, carray, floats, longs, pointer, small, word
+from .islands import choose_islands
 
 _TINY = 1e-15  # mjMINVAL
 ROW = 9
@@ -118,6 +119,7 @@ def end(plans: Record) -> int:
         for k in range(6):
             qvel[placed[2 * i + 1] + k] = 0.0
     plan.step += 1
+    choose_islands(m, d, at, plan.step)
     return WENT_WELL
 
 

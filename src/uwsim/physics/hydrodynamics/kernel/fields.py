@@ -71,6 +71,8 @@ SPRING = _NAMES.index("qfrc_spring")
 DAMPER = _NAMES.index("qfrc_damper")
 ACTUATOR = _NAMES.index("qfrc_actuator")
 AWAKE = _NAMES.index("tree_awake")
+N_ROWS = _NAMES.index("nefc")
+ITERATIONS = _NAMES.index("solver_niter")
 
 # a row of the kernel's own array, one a body; wrenches and twists have their rotational part
 # first, as in MuJoCo

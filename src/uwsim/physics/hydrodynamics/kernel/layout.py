@@ -35,8 +35,12 @@ DATA_FIELDS = (
     "qpos", "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat",
     "subtree_com", "cdof", "cdof_dot", "cvel", "cacc", "cinert", "crb", "M", "qfrc_passive",
     "qfrc_applied", "qfrc_bias", "qfrc_spring", "qfrc_damper", "qfrc_actuator", "tree_awake",
+    "nefc", "solver_niter",
 )  # fmt: skip
 """What the kernel reads and writes of the data."""
+
+_INSIDE = ("opt.", "nefc", "solver_niter")
+"""Beginnings of the names of numbers of 32 bits, and of arrays that lie in the struct itself."""
 
 _SIZES = {
     "char": 1, "mjtByte": 1, "mjtBool": 1, "int": 4, "float": 4, "mjtNum": 8, "double": 8,
@@ -74,14 +78,14 @@ def check(model: mujoco.MjModel, data: mujoco.MjData, at: npt.NDArray[np.int64])
         live = data if is_data else model
         for part in name.split("."):
             live = getattr(live, part)
-        if isinstance(live, np.ndarray) and name.startswith("opt."):
+        if isinstance(live, np.ndarray) and name.startswith(_INSIDE):
             right = live.ctypes.data == place
         elif isinstance(live, np.ndarray):
             right = live.size == 0 or live.ctypes.data == _read(place, ctypes.c_uint64)
         elif isinstance(live, float):
             right = live == _read(place, ctypes.c_double)
         else:
-            width = ctypes.c_int32 if name.startswith("opt.") else ctypes.c_int64
+            width = ctypes.c_int32 if name.startswith(_INSIDE) else ctypes.c_int64
             right = int(live) == _read(place, width)
         if not right:
             raise MujocoChanged(
