@@ -9,7 +9,9 @@ import pytest
 
 from uwsim.assets.bundled import bundled
 from uwsim.cli import main
+from uwsim.scene.reader import read_scene
 from uwsim.scene.unsupported import UNSUPPORTED
+from uwsim.simulation import Simulation
 
 
 def said(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -112,3 +114,33 @@ def test_topics_of_devices_are_listed_with_their_direction(
         "/modem2/tx": ("listens", None),
         "/modem2/rx": ("publishes", None),
     }
+
+
+def test_every_topic_that_a_run_has_is_listed(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text(ALL_KINDS_OF_TOPICS)
+    found = json.loads(said(capsys, str(file), "--json"))["topics"]
+    assert all(each["type"] for each in found)
+    with Simulation(read_scene(file), is_blind=True) as simulation:
+        assert {each["topic"] for each in found} == {f"/{name}" for name in simulation.bus.topics}
+
+
+ALL_KINDS_OF_TOPICS = """<UWSimScene>
+  <vehicle>
+    <name>girona500</name> <file>data/scenes/g500ARM5.urdf</file>
+    <objectPicker> <name>picker</name> <relativeTo>part4_base</relativeTo> <range>0.2</range>
+    </objectPicker>
+    <simulatedDevices> <echo> <name>echo1</name> <info>here</info> </echo> </simulatedDevices>
+    <LedArray> <name>leds</name> <relativeTo>base_link</relativeTo> </LedArray>
+  </vehicle>
+  <rosInterfaces>
+    <ROSImageToHUD> <width>4</width> <height>4</height>
+      <imageTopic>/hud</imageTopic> <infoTopic>/hud_info</infoTopic> </ROSImageToHUD>
+    <SimulatedDeviceROS>
+      <echoROS> <name>echo1</name> <topic>/g500/echo1</topic> </echoROS>
+    </SimulatedDeviceROS>
+  </rosInterfaces>
+</UWSimScene>
+"""

@@ -22,7 +22,7 @@ from ..geometry import Pose
 from ..messages import LedLight
 from ..schema import REQUIRED, element
 from ..world import Body, Stage
-from .device import Device, DeviceSpec, DeviceVehicle
+from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .lamp import LampSpec
 
 INTENSITY = 0.83
@@ -55,6 +55,11 @@ class LedArraySpec(DeviceSpec):
     """Radius of each lamp [m]."""
     space: float = 0.2
     """Distance between the lamps, along y [m]."""
+
+    @property
+    def topics(self) -> tuple[DeviceTopic, ...]:
+        """The topics of its lamps."""
+        return tuple(DeviceTopic(name=f"{self.name}/{colour}", is_heard=True) for colour in COLOURS)
 
     @property
     def places(self) -> dict[str, tuple[float, float, float]]:

@@ -18,7 +18,7 @@ from ..messages import Bool, Range, header
 from ..schema import element
 from ..sensors.sensor import LookAt
 from ..world import Body, Stage
-from .device import Device, DeviceSpec, DeviceVehicle
+from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 
 RATE = 60.0
 """How often a picker looks for an object, as often as the original draws an image [Hz]."""
@@ -53,11 +53,21 @@ class ObjectPickerSpec(DeviceSpec):
     """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
 
+    @property
+    def release_topic(self) -> str:
+        """Name of the topic on which it is told to release what it holds."""
+        return f"{self.name}/release"
+
+    @property
+    def topics(self) -> tuple[DeviceTopic, ...]:
+        """The topic of its release."""
+        return (DeviceTopic(name=self.release_topic, is_heard=True),)
+
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ObjectPicker:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual=True)
         picker = ObjectPicker(self, mount, stage, vehicle)
-        stage.bus.subscribe(f"{self.name}/release", Bool, picker.command)
+        stage.bus.subscribe(self.release_topic, Bool, picker.command)
         stage.every(RATE, picker.look)
         return picker
 

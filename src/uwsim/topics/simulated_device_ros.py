@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from ..schema import element
@@ -19,3 +20,12 @@ class SimulatedDeviceROSSpec(InterfaceSpec):
     def bind(self, world: TopicWorld) -> Interface:
         """Bind the interface in it; raises UnknownName if there is no such device."""
         return Interface() if self.echo_ros is None else self.echo_ros.bind(world)
+
+
+def unwrapped(interfaces: Iterable[InterfaceSpec]) -> Iterator[InterfaceSpec]:
+    """Give all interfaces, and what is in a wrapper in its place."""
+    for interface in interfaces:
+        if not isinstance(interface, SimulatedDeviceROSSpec):
+            yield interface
+        elif interface.echo_ros is not None:
+            yield interface.echo_ros

@@ -28,8 +28,11 @@ from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
 from ...simulation.scenery.below import below_vehicle
 from ...topics import InterfaceSpec, element_of
+from ...topics.simulated_device_ros import unwrapped
 
 Fields = dict[str, Any]
+TOPIC_FIELDS = ("topic", "image_topic", "info_topic")
+"""What names a topic in an interface that is not simulated."""
 
 
 def inventory(
@@ -214,10 +217,10 @@ def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
     """Every topic of an interface or device: what it carries, which way, how often."""
     types: Mapping[str, str] = simulation.bus.topics
     found = []
-    for interface in scene.ros_interfaces:
+    for interface in unwrapped(scene.ros_interfaces):
         name = element_of(interface)
         is_heard = interface.subscribes
-        for field in ("topic", "image_topic", "info_topic"):
+        for field in interface.carries() or TOPIC_FIELDS:
             topic = getattr(interface, field, "")
             if not topic:
                 continue

@@ -7,14 +7,14 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from itertools import chain
 
 from ...devices.force_sensor import ForceSensorSpec
 from ...devices.lamp import MAX_LAMPS, LampSpec
 from ...schema import Diagnostics, line_of
 from ...topics import InterfaceSpec, element_of
-from ...topics.simulated_device_ros import SimulatedDeviceROSSpec
+from ...topics.simulated_device_ros import unwrapped
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from ..object import ObjectSpec
 from ..spec import SceneSpec
@@ -78,7 +78,7 @@ def check_left_out(
         vehicle = scene.vehicles[index]
         _check_links(vehicle, robots[index], scene, diagnostics, is_its_own=is_its_own)
     known = _names(scene)
-    for interface in _interfaces(scene):
+    for interface in unwrapped(scene.ros_interfaces):
         _check_interface(interface, known, diagnostics)
     _check_sources(scene, diagnostics)
     check_shared_names(scene, diagnostics)
@@ -140,15 +140,6 @@ def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
             name = str(getattr(part, "name", None) or getattr(part, "dccomms_id", ""))
             known.setdefault(element, {})[name] = None
     return known
-
-
-def _interfaces(scene: SceneSpec) -> Iterator[InterfaceSpec]:
-    for interface in scene.ros_interfaces:
-        if isinstance(interface, SimulatedDeviceROSSpec):
-            if interface.echo_ros is not None:
-                yield interface.echo_ros
-        else:
-            yield interface
 
 
 def _check_interface(

@@ -8,6 +8,7 @@ from ...schema import Diagnostics
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...topics import InterfaceSpec, element_of
 from ...topics.interface import VehiclePublisherSpec
+from ...topics.simulated_device_ros import unwrapped
 from ..spec import SceneSpec
 
 NAME = re.compile(r"[A-Za-z]\w*(/\w+)*", re.ASCII)
@@ -66,7 +67,7 @@ def _check_parts(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 
 def _check_topics(scene: SceneSpec, diagnostics: Diagnostics) -> None:
     writers: dict[str, tuple[str, str]] = {}
-    for interface in scene.ros_interfaces:
+    for interface in unwrapped(scene.ros_interfaces):
         element, own = element_of(interface), _source(interface)
         for field in interface.carries():
             topic = str(getattr(interface, field))
