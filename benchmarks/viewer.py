@@ -3,7 +3,8 @@
 A level of `currents` (118 s) is run once in a temporary folder; then the command line writes its
 replay, its film and its MCAP, each in a process of its own whose CPU time is taken. Where Chromium
 and playwright are, the replay is opened offline and drawn at 640 x 480: requests to the network,
-and CPU time of a frame, all of Chromium's processes together. One JSON on stdout.
+and CPU time of a frame, all of Chromium's processes together. Last the live view (`live_view`),
+with receivers that draw nothing and with pages of Chromium. One JSON on stdout.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from live_view import with_pages, with_receivers
 from measure import main
 
 LEVEL = "current=0.1"
@@ -51,7 +53,8 @@ def measure() -> dict[str, object]:
             "run: cpu_s": round(run, 2),
             "motion: kB a simulated minute": kept(motion / 1e3 / (LASTS / 60.0), 40.0),
             **files(Path(folder), result),
-            **drawn(Path(folder) / "0.html"),
+            **with_receivers(kept),
+            **in_chromium(Path(folder) / "0.html"),
         }
 
 
@@ -73,8 +76,8 @@ def files(folder: Path, result: Path) -> dict[str, object]:
     }
 
 
-def drawn(page: Path) -> dict[str, object]:
-    """The replay in Chromium without a network: requests, and CPU time of a frame [ms]."""
+def in_chromium(page: Path) -> dict[str, object]:
+    """The replay and the live view in Chromium, where it is."""
     chromium = shutil.which("chromium")
     if chromium is None or importlib.util.find_spec("playwright") is None:
         return {"page": "not measured: Chromium or playwright is not installed"}
@@ -82,23 +85,31 @@ def drawn(page: Path) -> dict[str, object]:
 
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS, timeout=120_000)
-        view: Any = {"width": 1024, "height": 768}
-        tab = browser.new_context(viewport=view, offline=True, bypass_csp=True).new_page()
-        tab.set_default_timeout(200_000)
-        asked: list[str] = []
-        tab.on("request", lambda request: asked.append(request.url))
-        tab.goto(page.as_uri())
-        tab.wait_for_function("window.uwsim")
-        tab.evaluate("window.uwsim.page.switches.pictures = false")
-        tab.add_style_tag(content=SIZE)
-        found: dict[str, object] = {}
-        for name, is_shown in (("drawn", False), ("drawn and shown", True)):
-            tab.evaluate(DRAW, [10, is_shown])
-            before = cpu_of_children()
-            tab.evaluate(DRAW, [FRAMES, is_shown])
-            cpu_ms = 1000.0 * (cpu_of_children() - before) / FRAMES
-            found[f"frame of 640x480, {name}: cpu_ms"] = kept(cpu_ms, 40.0)
+        found = {**drawn(browser, page), **with_pages(browser, kept)}
         browser.close()
+    return found
+
+
+def drawn(browser: Any, page: Path) -> dict[str, object]:
+    """The replay without a network: requests, and CPU time of a frame [ms]."""
+    view: Any = {"width": 1024, "height": 768}
+    context = browser.new_context(viewport=view, offline=True, bypass_csp=True)
+    tab = context.new_page()
+    tab.set_default_timeout(200_000)
+    asked: list[str] = []
+    tab.on("request", lambda request: asked.append(request.url))
+    tab.goto(page.as_uri())
+    tab.wait_for_function("window.uwsim")
+    tab.evaluate("window.uwsim.page.switches.pictures = false")
+    tab.add_style_tag(content=SIZE)
+    found: dict[str, object] = {}
+    for name, is_shown in (("drawn", False), ("drawn and shown", True)):
+        tab.evaluate(DRAW, [10, is_shown])
+        before = cpu_of_children()
+        tab.evaluate(DRAW, [FRAMES, is_shown])
+        cpu_ms = 1000.0 * (cpu_of_children() - before) / FRAMES
+        found[f"frame of 640x480, {name}: cpu_ms"] = kept(cpu_ms, 40.0)
+    context.close()
     outside = [url for url in asked if not url.startswith(("file:", "data:", "blob:"))]
     return {"page: requests to the network": kept(float(len(outside)), 0.0), **found}
 

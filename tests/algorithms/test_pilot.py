@@ -34,8 +34,14 @@ def move(node: TimedNode, **axes: float) -> list[tuple[str, object]]:
     values = np.array([axes.get(axis, 0.0) for axis in AXES])
     node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=values))
     node.published.clear()
-    node.tick()
+    wait(node)
     return list(node.published)
+
+
+def wait(node: TimedNode, seconds: float = PERIOD) -> None:
+    """Let time pass, and the timer go off."""
+    node.now += seconds
+    node.tick()
 
 
 def commands(published: list[tuple[str, object]]) -> list[float]:
@@ -55,8 +61,22 @@ def test_single_thrusters_get_their_axes_in_the_order_of_the_vehicle() -> None:
 
 def test_thrust_scales_commands_and_their_rate_is_limited() -> None:
     node = flown(thrusters_topic="/t", n_thrusters=1.0, thrust=0.5, rate=2.0)
-    assert commands(move(node, thruster1=1.0)) == pytest.approx([0.05])
-    assert commands(move(node, thruster1=1.0)) == pytest.approx([0.1])
+    assert commands(move(node, thruster1=1.0)) == pytest.approx([0.1])  # one more at once
+    assert commands(move(node, thruster1=1.0)) == pytest.approx([0.15])
+
+
+def test_an_input_that_changes_is_followed_at_once_and_no_faster_than_the_rate() -> None:
+    node = flown(thrusters_topic="/t", n_thrusters=1.0, rate=2.0)
+    full = Float64MultiArray(layout=LAYOUT, data=np.eye(len(AXES))[AXES.index("thruster1")])
+    wait(node, 0.013)
+    assert node.published == []
+    node.readers[TOPIC](full)
+    assert commands(node.published) == pytest.approx([2.0 * PERIOD])
+    node.published.clear()
+    node.readers[TOPIC](full)  # the same again is no news
+    assert node.published == []
+    wait(node, 0.004)
+    assert commands(node.published) == pytest.approx([2.0 * (PERIOD + 0.004)])
 
 
 def test_thrusters_beyond_the_last_axis_stand_still() -> None:
@@ -91,7 +111,7 @@ def test_inputs_without_axes_that_came_later_leave_those_at_rest() -> None:
     older[AXES.index("surge")] = 1.0
     node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=older))
     node.published.clear()
-    node.tick()
+    wait(node)
     assert [topic for topic, _ in node.published] == ["/v"]
 
 
@@ -99,7 +119,7 @@ def test_inputs_of_more_numbers_than_axes_are_passed_over() -> None:
     node = flown(twist_topic="/v")
     too_many = np.ones(len(AXES) + 1)
     node.readers[TOPIC](Float64MultiArray(layout=LAYOUT, data=too_many))
-    node.tick()
+    wait(node)
     assert node.published == []
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim.viewer.pack import Blob, numbers, packed, unpacked
+from uwsim.viewer.pack import Blob, as_text, from_text, numbers, packed, unpacked
 
 
 def test_what_was_packed_comes_back() -> None:
@@ -42,3 +42,12 @@ def test_the_numbers_begin_at_a_multiple_of_eight() -> None:
 def test_a_number_that_is_none_is_refused() -> None:
     with pytest.raises(ValueError, match="JSON"):
         packed({"a": float("nan")}, Blob())
+
+
+@pytest.mark.parametrize("n", range(6))
+def test_text_of_a_pack_is_free_of_markup_and_gives_its_bytes_again(n: int) -> None:
+    data = bytes(range(256)) * 64 + b"\xff\x00\xfe\x01\x80"[:n]
+    text = as_text(data)
+    assert len(text) == len(data) + -(-len(data) // 4)
+    assert not set(text) & set("<>&\"'\\ \n")
+    assert from_text(text) == data

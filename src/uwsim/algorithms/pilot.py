@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import ClassVar
@@ -42,14 +43,15 @@ AXES = (
 )
 """What the numbers are, new ones last: twist; jaw open; joints on; thrusters; brighter lamps."""
 PERIOD = 0.05
-"""Between two commands [s]."""
+"""Between two commands while no input changes [s]."""
 
 
 class Pilot:
     """A human pilot: inputs of the live view become commands of a vehicle and its joints.
 
     An input within the dead zone counts as none; what is commanded follows the input at a limited
-    rate. Before the first input nothing is commanded. A vehicle that takes twists and commands of
+    rate: an input that changes is followed at once, as far as it may be in `PERIOD` after a rest.
+    Before the first input nothing is commanded. A vehicle that takes twists and commands of
     single thrusters gets those whose axes were moved last; at first twists. All lamps are dimmed
     together, from full brightness on. Services and topics are named with blanks between them;
     those of the scene are found without being given.
@@ -83,6 +85,7 @@ class Pilot:
         self.parameters = chosen(self.PARAMETERS, node.parameters)
         self._wanted = np.zeros(len(AXES))
         self._given = np.zeros(len(AXES))
+        self._changed = self._commanded = -math.inf  # when what is given changed, and was sent [s]
         self._has_begun = self._was_moving_joints = False
         twist, odom = (str(self.parameters[name]) for name in ("twist_topic", "odom_topic"))
         joints = str(self.parameters["joints_topic"])
@@ -100,7 +103,7 @@ class Pilot:
         self._joints = [(f"joint{k}", name) for k, name in enumerate(names, start=1)]
         self._joints += [("jaw", name) for name in jaw]
         node.subscribe(TOPIC, Float64MultiArray, self._on_input)
-        node.every(PERIOD, self._command)
+        node.every(PERIOD, self._go_on)
 
     def _on_input(self, message: Float64MultiArray) -> None:
         values = np.asarray(message.data, dtype=np.float64)
@@ -108,25 +111,34 @@ class Pilot:
             return
         dead = float(self.parameters["dead_zone"])
         values = np.clip(values, -1.0, 1.0)
-        self._wanted = np.zeros(len(AXES))
-        self._wanted[: len(values)] = np.where(np.abs(values) <= dead, 0.0, values)
-        self._has_begun = True
+        wanted = np.zeros(len(AXES))
+        wanted[: len(values)] = np.where(np.abs(values) <= dead, 0.0, values)
+        is_news = not self._has_begun or not np.array_equal(wanted, self._wanted)
+        self._wanted, self._has_begun = wanted, True
+        if is_news:
+            self._command()
 
-    def _command(self) -> None:
+    def _go_on(self) -> None:
         for service in str(self.parameters["start"]).split():
             with suppress(UnknownName):  # nobody waits for it just now
                 self._node.call(service, Empty())
-        if not self._has_begun:
-            return
-        step = float(self.parameters["rate"]) * PERIOD
-        self._given += np.clip(self._wanted - self._given, -step, step)
+        if self._has_begun:
+            self._command()
+
+    def _command(self) -> None:
+        now = self._node.now
+        passed, self._commanded = min(PERIOD, now - self._commanded), now
+        step = float(self.parameters["rate"]) * min(PERIOD, now - self._changed)
+        change = np.clip(self._wanted - self._given, -step, step)
+        if change.any():
+            self._given, self._changed = self._given + change, now
         given = dict(zip(AXES, self._given.tolist(), strict=True))
         if self._takes_thrusters(given):
             self._thrust(given)
         else:
             self._drive(given)
         self._move_joints(given)
-        self._dim(given["lamps"])
+        self._dim(given["lamps"] * passed)
 
     def _takes_thrusters(self, given: Mapping[str, float]) -> bool:
         """Whether single thrusters are commanded now, and no twist."""
@@ -182,8 +194,8 @@ class Pilot:
         )
 
     def _dim(self, moved: float) -> None:
-        """Command the brightness of all lamps when it changes."""
-        change = float(self.parameters["dim_rate"]) * PERIOD * moved
+        """Command the brightness of all lamps when it changes; ``moved``: the axis times time."""
+        change = float(self.parameters["dim_rate"]) * moved
         brightness = min(1.0, max(0.0, self._brightness + change))
         if brightness != self._brightness:
             self._brightness = brightness

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import base64
 import html
 import re
 from functools import cache
 from pathlib import Path
+
+from .pack import as_text
 
 FOLDER = Path(__file__).parent / "page"
 """What the page is made of; ``scripts/page`` makes ``page.js`` from ``source``."""
@@ -23,8 +24,7 @@ def document(title: str, pack: bytes | None) -> str:
     """
     data = ""
     if pack is not None:
-        text = base64.b64encode(pack).decode("ascii")
-        data = f'<script type="application/octet-stream" id="pack">{text}</script>'
+        data = f'<script type="application/octet-stream" id="pack">{as_text(pack)}</script>'
     parts = {
         "title": html.escape(title),
         "connect": SOCKET if pack is None else NOWHERE,

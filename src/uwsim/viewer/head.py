@@ -1,9 +1,13 @@
 """What the page knows of a scene before anything moves: the *head*, and how motion reaches it.
 
-One format, two sources. A *replay* is one HTML file with packs in it as base64; a *live* view gets
+One format, two sources. A *replay* is one HTML file with a pack in it as text; a *live* view gets
 the same packs over a WebSocket. All numbers are little-endian, lengths in metres, angles in
 radians, quaternions w x y z, matrices row by row, positions in W (z up). Cameras, lamps and
 projectors have OpenGL axes: x right, y up, they look along -z.
+
+**Text** of a pack: four bytes, the first the highest, are a number of five digits to the base 85,
+the highest first; n < 4 bytes at the end are n + 1 digits. The digits are
+``0-9A-Za-z!#$%/()*+-;,=.?@^_`{|}~``.
 
 **A pack** is gzip (mtime 0) of a uint32 n, n bytes of JSON padded with blanks to a multiple of
 8 bytes (with the 4 before it), and the bytes that the JSON refers to: ``[offset, count, kind]``,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import gzip
 import json
 import struct
@@ -26,6 +27,10 @@ KINDS = {
         ("u1", "u1"),
     )
 }
+
+_MARKUP, _INSTEAD = b"<>&", b",./"
+_TO_TEXT = bytes.maketrans(_MARKUP, _INSTEAD)
+_FROM_TEXT = bytes.maketrans(_INSTEAD, _MARKUP)
 
 
 class Blob:
@@ -74,3 +79,13 @@ def numbers(ref: Ref | list[Any], data: bytes) -> npt.NDArray[Any]:
     offset, count, kind = ref
     dtype = {kind: dtype for dtype, kind in KINDS.items()}[kind]
     return np.frombuffer(data, dtype, count, offset)
+
+
+def as_text(pack: bytes) -> str:
+    """Return bytes as text for HTML, 5 characters for 4 bytes: base 85 without markup (`head`)."""
+    return base64.b85encode(pack).translate(_TO_TEXT).decode("ascii")
+
+
+def from_text(text: str) -> bytes:
+    """Return the bytes of `as_text`."""
+    return base64.b85decode(text.encode("ascii").translate(_FROM_TEXT))

@@ -81,3 +81,17 @@ def test_a_pilot_dims_the_lamps_of_the_scene() -> None:
         assert 0.45 <= lamp.intensity / LAMP.intensity <= 0.6
         simulation.advance(2.0)
         assert lamp.intensity == 0.0
+
+
+def test_a_change_is_published_in_the_step_in_which_it_comes_unless_one_has_just_been() -> None:
+    with load("remus-scene") as simulation:
+        held = [0.0] * len(AXES)
+        kept = PilotInputs(simulation, lambda: tuple(held))
+        simulation.advance(0.1)
+        for n_steps in (7, 1, 1):
+            held[0] += 0.1
+            for _ in range(n_steps):
+                simulation.advance()
+        simulation.advance(0.1)
+        steps = [json.loads(line)["step"] for line in kept.data().splitlines()[1:]]
+    assert steps == [1, 51, 51 + 17]  # 17 steps: 30 Hz

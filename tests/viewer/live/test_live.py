@@ -15,6 +15,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
+import uwsim
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.algorithms.pilot import AXES
 from uwsim.errors import BadSetting
@@ -255,6 +256,59 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
     texts = [json.loads(data) for data in heard if isinstance(data, str)]
     levels = [text["levels"] for text in texts if text["type"] == "levels"][-1]
     assert [level["label"] for level in levels] == ["fog 0", "fog 0.4", "fog 0.8"]
+
+
+class Desk:
+    """A server without a network: what was published, and what viewers say."""
+
+    n_viewers = 1
+
+    def __init__(self) -> None:
+        self.published: list[str] = []
+        self.said: list[tuple[int, dict[str, Any]]] = []
+
+    def publish(self, channel: str, content: str | bytes) -> None:
+        self.published.append(channel)
+
+    def forget(self, channels: object) -> None:
+        """Nothing is kept."""
+
+    def wanted(self) -> frozenset[str]:
+        return frozenset()
+
+    def messages(self) -> list[tuple[int, dict[str, Any]]]:
+        said, self.said = self.said, []
+        return said
+
+
+def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_coming() -> None:
+    desk, now = Desk(), [0.0]
+    view = LiveView(desk, speed=0.0, mapping=PilotMapping(), wall=lambda: now[0])  # type: ignore[arg-type]
+    rows: list[int] = []  # at these milliseconds
+
+    def pass_by(milliseconds: int) -> None:
+        for _ in range(milliseconds):
+            now[0] = round(now[0] + 0.001, 3)
+            desk.published.clear()
+            simulation.advance()
+            rows.extend([round(1e3 * now[0])] * desk.published.count("row"))
+
+    with uwsim.load("remus-scene") as simulation:
+        view.open(simulation, "scene")
+        pass_by(100)
+        began = rows[-1] + 2
+        pass_by(began - round(1e3 * now[0]))
+        desk.said.append((1, {"type": "input", "keys": ["w"]}))
+        pass_by(15)
+        assert [row - began for row in rows if row > began] == [11]
+        desk.said.append((1, {"type": "input", "keys": ["w"]}))  # as before: no news
+        pass_by(15)
+        assert rows[-1] == began + 11
+        n = len(rows)
+        for k in range(200):
+            desk.said.append((1, {"type": "input", "keys": ["w"] if k % 2 else []}))
+            pass_by(1)
+        assert 10 <= len(rows) - n <= 25
 
 
 class Scribble:

@@ -5,8 +5,9 @@
     {"uwsim_inputs": 1, "axes": ["surge", ...]}
     {"step": 1503, "values": [0.5, 0.0, ...]}
 
-They lie beside the journal of the trial. An input is published at the end of its step and
-delivered at the end of the next, so a run with stored inputs is the one in which they were made.
+They lie beside the journal of the trial. A change is published at once, or, soon after another
+one, when 1 / `RATE` has passed. An input is published at the end of its step and delivered at the
+end of the next, so a run with stored inputs is the one in which they were made.
 Inputs of an earlier version may lack axes that came later; they stay without them.
 """
 
@@ -80,7 +81,7 @@ class PilotInputs:
     def _now(self, step: int) -> tuple[float, ...] | None:
         if self._stored is not None:
             return self._stored.by_step.get(step)
-        if step % self._every:
+        if self._kept and step - self._kept[-1][0] < self._every:
             return None
         values = self._live()
         return None if values is None else tuple(round(float(value), 4) for value in values)

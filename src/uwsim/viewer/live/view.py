@@ -33,6 +33,8 @@ from .server import LiveServer, Message
 
 RATE = 30.0
 """Rows a second of the wall clock [Hz]."""
+PROMPT = 0.01
+"""A row goes out so long after an input has changed, when its vehicle has begun to move [s]."""
 IMAGE_RATE = 10.0
 """Images a second of the wall clock [Hz]."""
 SAMPLE_RATE = 2.0
@@ -80,6 +82,7 @@ class LiveView:
         self._views: dict[int, Message] = {}
         self._mapping, self._waits = mapping, waits
         self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
+        self._prompt = math.inf  # when a row that follows an input is due
 
     def open(self, simulation: Simulation, title: str) -> None:
         """Show a simulation from now on; it is at step 0."""
@@ -146,6 +149,8 @@ class LiveView:
         assert self._simulation is not None
         assert self._state is not None
         now = self._wall()
+        if now >= self._prompt:
+            self._prompt, self._due["row"] = math.inf, now
         if self._is_due("row", now, RATE):
             row = self._state.row().astype("<f4").tobytes()
             self._server.publish("row", self._header(ROW, 0) + row)
@@ -251,11 +256,17 @@ class LiveView:
                 self._views.pop(viewer, None)
                 self._views[viewer] = message
             elif kind == "input" and self._mapping is not None:
-                self._inputs[viewer] = self._mapping.values(message)
+                self._take(viewer, self._mapping.values(message))
             elif kind == "left":
                 self._views.pop(viewer, None)
                 if viewer in self._inputs:
-                    self._inputs[viewer] = (0.0,) * len(AXES)
+                    self._take(viewer, (0.0,) * len(AXES))
+
+    def _take(self, viewer: int, values: tuple[float, ...]) -> None:
+        """Keep what a viewer's pilot does now."""
+        if self._inputs.get(viewer) != values:
+            self._inputs[viewer] = values
+            self._prompt = min(self._prompt, self._wall() + PROMPT)
 
 
 def jpeg(image: npt.NDArray[np.uint8]) -> bytes:

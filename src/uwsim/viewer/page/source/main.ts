@@ -2,7 +2,7 @@
 import { Curves } from "./curves";
 import { Keyboard } from "./keys";
 import { connect, type Link } from "./live";
-import { fromBase64, unpack, type Pack } from "./pack";
+import { fromText, unpack, type Pack } from "./pack";
 import { element, LevelList, make, Thrusters, toggleHelp } from "./panels";
 import { graphics, Picture, type Switches } from "./picture";
 import { Replay, Stream, type Player } from "./player";
@@ -147,7 +147,7 @@ export class Page {
     const { clientWidth, clientHeight } = this.picture.canvas;
     const state = [this.time, this.player.end, clientWidth, clientHeight, this.views.version];
     const key = state.join() + JSON.stringify(this.switches);
-    if (key !== this.drawn && !document.hidden) {
+    if (key !== this.drawn && !document.hidden && this.picture.isReady()) {
       this.drawn = key;
       this.draw();
     }
@@ -227,7 +227,7 @@ async function begin(): Promise<void> {
     const data = document.getElementById("pack");
     const gl = graphics(element<HTMLCanvasElement>("image"));
     const link = data ? null : await connect(gl === null);
-    const pack = link ? link.pack : await unpack(fromBase64(data!.textContent ?? ""));
+    const pack = link ? link.pack : await unpack(fromText(data!.textContent ?? ""));
     const picture = await Picture.make(gl, pack);
     const player: Player = link ? new Stream(pack.head) : new Replay(pack);
     const page = new Page(pack, player, picture, new Views(pack.head, picture.models), link);

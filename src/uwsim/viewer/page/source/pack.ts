@@ -33,11 +33,21 @@ export async function gunzip(data: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer
   return new Response(stream).arrayBuffer();
 }
 
-export function fromBase64(text: string): Uint8Array<ArrayBuffer> {
-  const binary = atob(text.trim());
-  const bytes = new Uint8Array(binary.length);
-  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
-  return bytes;
+const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%/()*+-;,=.?@^_`{|}~";
+
+/** The bytes of a text of digits to the base 85, five for four bytes. */
+export function fromText(text: string): Uint8Array<ArrayBuffer> {
+  const values = new Uint8Array(128);
+  for (let i = 0; i < DIGITS.length; ++i) values[DIGITS.charCodeAt(i)] = i;
+  const n = Math.ceil(text.length / 5);
+  const view = new DataView(new ArrayBuffer(4 * n));
+  for (let word = 0; word < n; ++word) {
+    let number = 0;
+    for (let i = 5 * word; i < 5 * word + 5; ++i)
+      number = 85 * number + (i < text.length ? values[text.charCodeAt(i)] : 84);
+    view.setUint32(4 * word, number);
+  }
+  return new Uint8Array(view.buffer, 0, text.length - n);
 }
 
 export async function unpack(data: Uint8Array<ArrayBuffer>): Promise<Pack> {

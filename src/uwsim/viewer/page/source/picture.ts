@@ -11,6 +11,7 @@ import { inside, type Sight, type Views } from "./views";
 import type { Lens } from "./geometry";
 
 const PICTURE_HEIGHT = 150;
+const LONGEST_REST = 100; // between two images that software draws [ms]
 
 export interface Switches extends Shown {
   clear: boolean;
@@ -35,11 +36,40 @@ export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | nu
   return canvas.getContext("webgl2", { alpha: false, antialias, powerPreference: "high-performance" });
 }
 
+/** Keeps software from drawing all the time, on the cores that others need, and images from piling up. */
+class Pace {
+  private fence: WebGLSync | null = null;
+  private began = 0;
+  private rests = 0; // until then
+
+  constructor(private readonly gl: WebGL2RenderingContext) {}
+
+  /** An image has been begun. */
+  begin(): void {
+    if (this.fence) this.gl.deleteSync(this.fence);
+    this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    this.gl.flush();
+    this.began = performance.now();
+  }
+
+  /** Whether the last image is there, and as much time again has passed. */
+  isReady(now: number): boolean {
+    const { gl, fence } = this;
+    if (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED) {
+      gl.deleteSync(fence);
+      this.fence = null;
+      this.rests = Math.min(2 * now - this.began, now + LONGEST_REST);
+    }
+    return !this.fence && now >= this.rests;
+  }
+}
+
 export class Picture {
   readonly canvas = element<HTMLCanvasElement>("image");
   private readonly overlay = element<HTMLCanvasElement>("overlay");
   private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
+  private readonly pace: Pace | null;
 
   private constructor(
     private readonly gl: WebGL2RenderingContext | null,
@@ -47,6 +77,7 @@ export class Picture {
     readonly models: Models,
   ) {
     this.renderer = gl && new Renderer(gl, head, models);
+    this.pace = gl && isSoftware(gl) ? new Pace(gl) : null;
     for (const camera of head.cameras) {
       const frame = make("figure");
       frame.append(make("figcaption", `${camera.name} · redrawn, no noise`));
@@ -88,7 +119,13 @@ export class Picture {
     if (sight.camera) drawQuads(context, sight.camera, sight.lens, 0, 0, moment);
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === sight.camera));
     this.drawPictures(context, water, lamps, moment, switches, ratio, h);
+    this.pace?.begin();
     return sight;
+  }
+
+  /** Whether the next image of a motion may be begun. */
+  isReady(): boolean {
+    return this.pace?.isReady(performance.now()) ?? true;
   }
 
   /** A camera's image in its own size, row 0 at the top, RGBA. */
