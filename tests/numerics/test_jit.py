@@ -51,7 +51,17 @@ def fresh(cache: Path) -> ModuleType:
 
 
 def files(cache: Path) -> list[Path]:
-    return sorted(path for path in cache.rglob("*") if path.is_file())
+    found = (path for path in cache.rglob("*") if path.is_file())
+    return sorted(path for path in found if not path.name.startswith("numba_runtime"))
+
+
+def started(cache: Path, code: str) -> list[str]:
+    """Run code in a process of its own; the words that it prints."""
+    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(cache.parent), *sys.path])}
+    run = subprocess.run(
+        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
+    )
+    return run.stdout.split()
 
 
 def test_what_was_compiled_is_read_back(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -164,11 +174,83 @@ def test_what_is_read_back_needs_none_of_the_tables_for_compiling(cache: Path) -
     code = (
         "import doubles, sys; print(doubles.twice(1.5), 'numba.cpython.printimpl' in sys.modules)"
     )
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join([str(cache.parent), *sys.path])}
-    run = subprocess.run(
-        [sys.executable, "-c", code], env=environment, capture_output=True, text=True, check=True
-    )
-    assert run.stdout.split() == ["3.0", "False"]
+    assert started(cache, code) == ["3.0", "False"]
+
+
+SUMS = """
+import numpy as np
+from uwsim.numerics import jit
+
+@jit.njit
+def running(x):
+    found = np.empty(len(x))
+    total = 0.0
+    for i in range(len(x)):
+        total += x[i]
+        found[i] = total
+    return found
+
+@jit.njit
+def last(x):
+    return running(x)[-1]
+"""
+READ_BACK = """
+import llvmlite.binding as llvm
+from llvmlite.binding import module
+
+def fail(*_):
+    raise AssertionError("LLVM compiles, or reads bitcode")
+
+import numpy as np
+import doubles
+from numba.core.codegen import CPUCodeLibrary
+CPUCodeLibrary.finalize = llvm.parse_bitcode = module.parse_bitcode = fail
+print(*doubles.running(np.ones(3)))
+"""
+
+
+@pytest.mark.slow
+def test_what_is_read_back_needs_neither_compiler_nor_bitcode(cache: Path) -> None:
+    (cache.parent / "doubles.py").write_text(SUMS)
+    assert started(cache, "import numpy, doubles; doubles.running(numpy.ones(3))") == []
+    assert started(cache, READ_BACK) == ["1.0", "2.0", "3.0"]
+
+
+@pytest.mark.slow
+def test_errors_of_numbas_own_functions_are_those_of_numpy_in_what_is_read_back(
+    cache: Path,
+) -> None:
+    (cache.parent / "doubles.py").write_text(SUMS.replace("np.empty(len(x))", "np.empty(x[0])"))
+    code = """
+import numpy, sys, doubles
+try:
+    doubles.running(numpy.array([-1]))
+except ValueError as error:
+    print(error, 'numba.np.arraymath' in sys.modules)
+"""
+    assert started(cache, code) == ["negative", "dimensions", "not", "allowed", "True"]
+    assert started(cache, code) == ["negative", "dimensions", "not", "allowed", "False"]
+
+
+@pytest.mark.slow
+def test_a_damaged_file_of_numbas_own_functions_is_made_anew(cache: Path) -> None:
+    (cache.parent / "doubles.py").write_text(SUMS)
+    code = "import numpy, doubles; print(doubles.running(numpy.ones(2))[1])"
+    assert started(cache, code) == ["2.0"]
+    (runtime,) = cache.rglob("numba_runtime*")
+    whole = runtime.read_bytes()
+    runtime.write_bytes(whole[: len(whole) // 2])
+    assert started(cache, code) == ["2.0"]
+    assert runtime.read_bytes() == whole
+
+
+@pytest.mark.slow
+def test_a_function_that_is_compiled_alone_calls_one_that_was_read_back(cache: Path) -> None:
+    (cache.parent / "doubles.py").write_text(SUMS)
+    code = "import numpy, doubles; print(doubles.running(numpy.ones(3))[2])"
+    assert started(cache, code) == ["3.0"]
+    both = "import numpy, doubles; x = numpy.ones(3); print(doubles.running(x)[2], doubles.last(x))"
+    assert started(cache, both) == ["3.0", "3.0"]
 
 
 def test_read_back_code_is_called_by_what_is_compiled_later(cache: Path) -> None:

@@ -12,7 +12,6 @@ import functools
 import hashlib
 import importlib
 import os
-import pickle
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType
@@ -26,12 +25,12 @@ import numpy as np
 import numpy.typing as npt
 from numba.core.caching import FunctionCache, NullCache
 from numba.core.ccallback import CFunc
-from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from ..files import disk_cache
 from .compiled_source import source_digest
 from .compiling import one_is_compiled
+from .loading import FORMAT, LibraryCache, start_runtime, unpacked
 
 
 @functools.cache
@@ -99,6 +98,8 @@ def c_function(function: Callable[..., object], signature: Any) -> Any:
 class HashedCache(FunctionCache):
     """numba's cache of a function, with files that are checked by their hash."""
 
+    _impl_class = LibraryCache
+
     def __init__(self, function: FunctionType) -> None:
         super().__init__(function)  # type: ignore[no-untyped-call]
         locator = self._impl.locator
@@ -114,8 +115,7 @@ class HashedCache(FunctionCache):
         numba's own would first fill the tables of all that it can compile: 0.2 s and 20 MB of a
         start. Code that is compiled already needs only the functions that count references.
         """
-        rtsys.initialize(target_context)
-        _load_arrays()
+        start_runtime(target_context, self._cache_file.folder)
         return cast("object | None", super()._load_overload(sig, target_context))  # type: ignore[no-untyped-call]
 
     def save_overload(self, sig: object, data: object) -> None:
@@ -136,7 +136,7 @@ class Signatures:
     """
 
     def __init__(self, *, folder: Path, base: str, stamp: Callable[[], str]) -> None:
-        self._folder, self._base = folder, base
+        self.folder, self._base = folder, base
         self._find_stamp = functools.cache(stamp)
 
     def load(self, key: object) -> object | None:
@@ -151,7 +151,7 @@ class Signatures:
         if data is None:
             return None
         try:
-            stamp, kept_key, compiled = pickle.loads(data)
+            stamp, kept_key, compiled = unpacked(data)
         except (ImportError, AttributeError):  # it calls what was moved since
             return None
         return compiled if (stamp, kept_key) == (self._find_stamp(), key) else None
@@ -162,12 +162,12 @@ class Signatures:
 
     def flush(self) -> None:
         """Forget everything."""
-        for file in self._folder.glob(f"{self._base}.*.uwsim"):
+        for file in self.folder.glob(f"{self._base}.*.uwsim"):
             file.unlink(missing_ok=True)
 
     def _file(self, key: object) -> Path:
-        called = hashlib.sha256(repr((numba.__version__, key)).encode()).hexdigest()[:16]
-        return self._folder / f"{self._base}.{called}.uwsim"
+        called = hashlib.sha256(repr((FORMAT, numba.__version__, key)).encode()).hexdigest()[:16]
+        return self.folder / f"{self._base}.{called}.uwsim"
 
 
 class NoCache(NullCache):
@@ -175,7 +175,6 @@ class NoCache(NullCache):
 
     def load_overload(self, sig: object, target_context: object) -> None:
         """Find nothing: it is compiled."""
-        _load_arrays()
         one_is_compiled()
 
 
@@ -201,6 +200,7 @@ class CacheOnUse(NullCache):
         """Load compiled code; None if there is none, and it is compiled."""
         found = self._found.load_overload(sig, target_context)
         if found is None or self._is_typed:
+            _load_arrays()
             target_context.refresh()
         return found
 
