@@ -143,6 +143,25 @@ def test_a_wrong_name_is_reported_at_each_of_its_lines(
     assert all(f"{file}:{n}: No body is called 'blakbox'" in said for n in lines)
 
 
+def test_names_of_a_benchmark_are_looked_up_next_to_its_other_errors(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = (DATA / "benchmarks" / "visibility.xml").read_text()
+    text = text.replace("<camera>bowtech1", "<camera>bowtec", 1).replace(
+        ">corners+centroid<", ">corners+middle<"
+    )
+    text = text.replace("<type>service</type>", "<type>onStart</type>")  # that of the benchmark
+    file = tmp_path / "wrong.xml"
+    file.write_text(text)
+    assert status(str(file)) == 2
+    said = capsys.readouterr().out
+    assert f"{file}:10: No virtual camera is called 'bowtec'. Did you mean 'bowtech1'?" in said
+    assert "no measure is called 'middle'" in said
+    assert "<type> is 'onStart'; expected one of" in said
+    assert "3 errors" in said
+    assert "no level will ever begin" not in said  # it is not known when one will
+
+
 def test_a_benchmark_whose_scene_is_nowhere_is_an_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

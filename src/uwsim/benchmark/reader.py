@@ -91,8 +91,10 @@ def check_benchmark(
     triggers: Mapping[str, type[TriggerSpec]] = TRIGGERS,
     updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
     timestep: float = TIMESTEP,
-) -> list[Diagnostic]:
-    """Return all errors and warnings of a benchmark file, ordered by line.
+) -> tuple[list[Diagnostic], BenchmarkSpec | None]:
+    """Return all errors and warnings of a benchmark file, ordered by line, and what could be read.
+
+    Where there are errors, the spec lacks the parts that are wrong, or there is none.
 
     Args:
         path: the file.
@@ -103,11 +105,12 @@ def check_benchmark(
         timestep: length of a step [s].
     """
     diagnostics = Diagnostics(path)
+    reader = _Reader(diagnostics, measures, triggers, updaters, timestep)
     try:
-        _Reader(diagnostics, measures, triggers, updaters, timestep).benchmark(path, strict=strict)
+        spec = reader.benchmark(path, strict=strict)
     except BenchmarkError as error:
-        return list(error.diagnostics)
-    return diagnostics.all()
+        return list(error.diagnostics), None
+    return diagnostics.all(), spec
 
 
 @dataclass(frozen=True)
@@ -164,7 +167,7 @@ class _Reader:
             self.diagnostics.error(place, message)
         if spec is not None and updater is not None:
             warn_endless(spec, self.diagnostics)
-        if spec is not None:
+        if spec is not None and not self.diagnostics.any:
             for place, message in never_started(spec):
                 self.diagnostics.warning(place, message)
         return spec

@@ -15,16 +15,20 @@ from .updaters import SceneUpdaterSpec, chain
 Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
 
 
-def unknown_names(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
+def unknown_names(
+    benchmark: BenchmarkSpec, stage: Stage, *, is_whole: bool = True
+) -> list[Diagnostic]:
     """Look up every name of a benchmark file; reports all errors of binding it to the scene.
 
     Args:
-        benchmark: what was read from the file without an error.
+        benchmark: what was read from the file.
         stage: the scene.
+        is_whole: whether it was read without an error; else its parts are not bound.
     """
     diagnostics = Diagnostics(benchmark.path)
+    errors_of = _wrong if is_whole else _unknown
     for line, message in dict.fromkeys(
-        wrong for part in _parts(benchmark) for wrong in _wrong(part, stage)
+        wrong for part in _parts(benchmark) for wrong in errors_of(part, stage)
     ):
         diagnostics.error(line, message)
     return diagnostics.all()

@@ -17,6 +17,7 @@ from .tables import read_plugins
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin
     from ..benchmark.plugin_tables import Tables
+    from ..benchmark.spec import BenchmarkSpec
     from ..scene.spec import SceneSpec
 
 
@@ -123,35 +124,37 @@ def _of_benchmark(
 
     try:
         with attribute_errors_to(plugins):
-            found = check_benchmark(
+            found, spec = check_benchmark(
                 file,
                 strict=strict,
                 measures=tables.measures,
                 triggers=tables.triggers,
                 updaters=tables.updaters,
             )
-            if not any(diagnostic.severity == "error" for diagnostic in found):
-                found += _unknown_names(file, scene, data_path, tables)
+            if spec is not None:
+                is_whole = not any(diagnostic.severity == "error" for diagnostic in found)
+                found += _unknown_names(spec, scene, data_path, tables, is_whole)
     except PluginError as error:
         return list(error.diagnostics)
-    return found
+    return sorted(found, key=lambda each: (each.line is None, each.line or 0))
 
 
 def _unknown_names(
-    file: Path, scene: Path | None, data_path: tuple[Path, ...], tables: Tables
+    benchmark: BenchmarkSpec,
+    scene: Path | None,
+    data_path: tuple[Path, ...],
+    tables: Tables,
+    is_whole: bool,
 ) -> list[Diagnostic]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
     from ..benchmark import unknown_names as names
-    from ..benchmark.reader import read_benchmark
     from ..benchmark.warnings import arm_warnings
     from ..scene.reader import read_scene
     from ..schema import Diagnostics
     from ..simulation import Simulation
 
-    benchmark = read_benchmark(
-        file, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
-    )
+    file = Path(benchmark.path)
     diagnostics = Diagnostics(file)
     if benchmark.algorithm is not None and ":" not in benchmark.algorithm:
         try:
@@ -176,7 +179,7 @@ def _unknown_names(
         try:
             return [
                 *diagnostics.all(),
-                *names.unknown_names(benchmark, simulation.world),
+                *names.unknown_names(benchmark, simulation.world, is_whole=is_whole),
                 *arm_warnings(benchmark, simulation.world.vehicles, simulation.world.robots),
             ]
         finally:
