@@ -9,6 +9,8 @@ Viewers are of two kinds. A *receiver* reads and decodes all that a page does, a
 what is measured is uwsim's own. A *page* is one in Chromium; without a GPU it draws on the same
 cores, which the simulation then has to share. On a page, the vehicle counts as moved at the first
 frame that begins after its new pose was drawn.
+
+`viewer` measures both; as a command this file measures receivers alone.
 """
 
 from __future__ import annotations
@@ -20,13 +22,14 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
+from measure import kept, main, reached
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
@@ -40,6 +43,11 @@ HELD, REST = 0.4, 1.0  # [s]
 MOVED = 1e-5  # [m]
 LIMIT = 120.0  # [s]
 KIND = {"head": 0, "row": 1, "image": 2}
+COUNT = """() => {
+  const { player } = window.uwsim.page, push = player.push.bind(player);
+  window.n = 0;
+  player.push = (...row) => { ++window.n; push(...row); };
+}"""
 WATCH = """([body, moved]) => {
   const { page } = window.uwsim, draw = page.draw.bind(page), found = [];
   let pressed = null, place = null;
@@ -61,7 +69,6 @@ WATCH = """([body, moved]) => {
 }"""
 
 Figures = dict[str, object]
-Kept = Callable[[float, float], Mapping[str, float | None]]
 
 
 class Receiver:
@@ -153,7 +160,7 @@ def receivers(url: str, n: int) -> Iterator[list[Receiver]]:
         yield found
 
 
-def with_receivers(kept: Kept) -> Figures:
+def with_receivers() -> Figures:
     """Two receivers."""
     name = "live, 2 receivers"
     with running(PACED) as (process, url), receivers(url, 2) as looking:
@@ -174,7 +181,7 @@ def with_receivers(kept: Kept) -> Figures:
         for k in range(N_KEYS):
             time.sleep(REST + 0.0137 * k)  # at any moment between two rows and commands
             waited.append(looking[0].key_to_moved())
-    return {**figures, **delays(f"{name}: key to moved vehicle", waited, kept)}
+    return {**figures, **delays(f"{name}: key to moved vehicle", waited)}
 
 
 def stalled(url: str, process: int, before: float) -> float:
@@ -193,15 +200,14 @@ def resident(process: int) -> float:
     return float(words[words.index("VmRSS:") + 1]) / 1e3
 
 
-def with_pages(browser: Any, kept: Kept) -> Figures:
+def with_pages(browser: Any) -> Figures:
     """Two pages of Chromium."""
     name = "live, 2 Chromium pages"
     with running(PACED) as (_, url):
         tab, _ = opened(browser, url), opened(browser, url)
         time.sleep(WARM_UP)
         now = "[performance.now() / 1000, window.uwsim.page.player.end]"
-        count = "window.n = 0; { const { player } = uwsim.page, push = player.push.bind(player); "
-        tab.evaluate(count + "player.push = (...row) => { ++window.n; push(...row); } }")
+        tab.evaluate(COUNT)
         first = tab.evaluate(now)
         time.sleep(LASTS)
         last, n = tab.evaluate(now), tab.evaluate("window.n")
@@ -224,7 +230,7 @@ def with_pages(browser: Any, kept: Kept) -> Figures:
             tab.keyboard.up("w")
         waited = [delay / 1000.0 for delay in tab.evaluate("window.found")]
         close(browser)
-    return {**figures, **delays(f"{name}: key to moved vehicle", waited, kept)}
+    return {**figures, **delays(f"{name}: key to moved vehicle", waited)}
 
 
 def opened(browser: Any, url: str) -> Any:
@@ -243,12 +249,11 @@ def close(browser: Any) -> None:
         context.close()
 
 
-def delays(name: str, waited: Sequence[float], kept: Kept) -> Figures:
+def delays(name: str, waited: Sequence[float]) -> Figures:
     """Median and 95th percentile [ms]."""
     half, most = (1000.0 * float(np.percentile(waited, share)) for share in (50, 95))
     return {f"{name}, median: ms": round(half, 1), f"{name}, p95: ms": kept(most, 100.0)}
 
 
-def reached(value: float, target: float) -> Mapping[str, float]:
-    """A figure that is to be no less than its target; the ratio is reached from 1 on."""
-    return {"value": round(value, 3), "target": target, "ratio": round(value / target, 3)}
+if __name__ == "__main__":
+    main(with_receivers)

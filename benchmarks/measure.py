@@ -77,6 +77,17 @@ def milliseconds(
     return figures
 
 
+def kept(value: float, target: float) -> Mapping[str, float | None]:
+    """A figure with its target; the ratio is kept up to 1."""
+    ratio = round(value / target, 3) if target else None
+    return {"value": round(value, 3), "target": target, "ratio": ratio}
+
+
+def reached(value: float, target: float) -> Mapping[str, float]:
+    """A figure that is to be no less than its target; the ratio is reached from 1 on."""
+    return {"value": round(value, 3), "target": target, "ratio": round(value / target, 3)}
+
+
 def hardware() -> dict[str, object]:
     """Where this was measured."""
     model = platform.processor() or platform.machine()

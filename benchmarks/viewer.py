@@ -15,13 +15,12 @@ import resource
 import shutil
 import subprocess
 import sys
-from collections.abc import Mapping
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from live_view import with_pages, with_receivers
-from measure import main
+from measure import kept, main
 
 LEVEL = "current=0.1"
 LASTS = 118.0  # [s]
@@ -53,7 +52,7 @@ def measure() -> dict[str, object]:
             "run: cpu_s": round(run, 2),
             "motion: kB a simulated minute": kept(motion / 1e3 / (LASTS / 60.0), 40.0),
             **files(Path(folder), result),
-            **with_receivers(kept),
+            **with_receivers(),
             **in_chromium(Path(folder) / "0.html"),
         }
 
@@ -85,7 +84,7 @@ def in_chromium(page: Path) -> dict[str, object]:
 
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS, timeout=120_000)
-        found = {**drawn(browser, page), **with_pages(browser, kept)}
+        found = {**drawn(browser, page), **with_pages(browser)}
         browser.close()
     return found
 
@@ -112,12 +111,6 @@ def drawn(browser: Any, page: Path) -> dict[str, object]:
     context.close()
     outside = [url for url in asked if not url.startswith(("file:", "data:", "blob:"))]
     return {"page: requests to the network": kept(float(len(outside)), 0.0), **found}
-
-
-def kept(value: float, target: float) -> Mapping[str, float | None]:
-    """A figure with its target; the ratio is kept up to 1."""
-    ratio = round(value / target, 3) if target else None
-    return {"value": round(value, 3), "target": target, "ratio": ratio}
 
 
 def cpu_of(*arguments: str) -> float:
