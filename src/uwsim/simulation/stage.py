@@ -94,7 +94,7 @@ class SceneStage(SceneWorld):
                         continue
                     yield device
                     if isinstance(device, Sensor):
-                        self._sensors.setdefault((element, getattr(part, "name", "")), device)
+                        self._sensors[element, getattr(part, "name", "")] = device
                     if isinstance(device, MountedLamp) and not spec.vr:
                         lamps.append(device)
                     if isinstance(device, LedArray) and not spec.vr:

@@ -124,14 +124,14 @@ class SceneWorld:
         """Names of the virtual cameras, in the file's order."""
 
     def _bound_sensors(self) -> dict[tuple[str, str], Sensor]:
-        """Sensors by element and name; where two share both, the first has it."""
+        """Sensors by element and name; where two share both, the last has it."""
         sensors: dict[tuple[str, str], Sensor] = {}
         for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
             for element, part in spec.all_parts():
                 # a sensor on a link that is not there is left out, as in the original
                 with suppress(UnknownName):
                     if isinstance(part, BindsSensor) and not isinstance(part, DeviceSpec):
-                        sensors.setdefault((element, part.name), part.bind(self, vehicle))
+                        sensors[element, part.name] = part.bind(self, vehicle)
         return sensors
 
     @cached_property

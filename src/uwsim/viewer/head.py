@@ -266,20 +266,19 @@ class _Bodies:
 
 
 def _cameras(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
-    seen: set[str] = set()
-    for vehicle in world.scene.vehicles:
-        for spec in vehicle.parts_of(VirtualCameraSpec):
-            if spec.name in seen or spec.name not in world.cameras:
-                continue
-            seen.add(spec.name)
-            camera = world.camera(spec.name)
-            link = f"{vehicle.name}/{spec.relative_to}"
-            yield {
-                **_mounted(bodies, link, camera.world_from_camera),
-                "name": spec.name,
-                "grey": camera.is_grey,
-                **asdict(camera.intrinsics),
-            }
+    links = {  # of several of one name the last is found
+        spec.name: f"{vehicle}/{spec.relative_to}"
+        for vehicle, spec in _mounted_parts(world)
+        if isinstance(spec, VirtualCameraSpec)
+    }
+    for name in world.cameras:
+        camera = world.camera(name)
+        yield {
+            **_mounted(bodies, links[name], camera.world_from_camera),
+            "name": name,
+            "grey": camera.is_grey,
+            **asdict(camera.intrinsics),
+        }
 
 
 def _lamps(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:

@@ -56,7 +56,7 @@ def test_two_sensors_of_one_name(tmp_path: Path) -> None:
     (message,) = said(
         tmp_path, parts="<imu> <name>imu</name> <relativeTo>base_link</relativeTo> </imu>"
     )
-    assert message == "warning 5: <imu>: several are called 'imu'; interfaces find the first"
+    assert message == "warning 5: <imu>: several are called 'imu'; interfaces find the last"
     other = "<pressureSensor> <name>imu</name> <relativeTo>base_link</relativeTo> </pressureSensor>"
     (message,) = said(tmp_path, parts=other)
     assert message.startswith("warning 5: <pressureSensor>: 'imu' is the name of a <imu>")

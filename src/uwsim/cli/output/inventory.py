@@ -20,7 +20,7 @@ from ...physics.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ...scene.object import ObjectSpec
 from ...scene.spec import SceneSpec
 from ...scene.unsupported import READ_ONLY, limit_of
-from ...scene.urdf.robot import JointSpec
+from ...scene.urdf.robot import JointSpec, RobotSpec
 from ...scene.variation import draw
 from ...scene.vehicle import VehicleSpec
 from ...schema.names import local
@@ -47,11 +47,7 @@ def inventory(
         "frame": _frame(scene),
         "water": _water(scene),
         "vehicles": [_vehicle(scene, i, simulation) for i in range(len(scene.vehicles))],
-        "cameras": [
-            _camera(scene, vehicle, camera)
-            for vehicle in scene.vehicles
-            for camera in vehicle.parts_of(VirtualCameraSpec)
-        ],
+        "cameras": _cameras(scene, simulation.world.robots),
         "objects": [_object(scene, thing) for thing in scene.objects],
         "topics": _topics(scene, simulation),
         "services": list(simulation.bus.services.names),
@@ -181,13 +177,37 @@ def _rounded(values: npt.NDArray[np.float64]) -> list[float]:
     return [round(float(value), 6) + 0.0 for value in values]
 
 
-def _camera(scene: SceneSpec, vehicle: VehicleSpec, camera: VirtualCameraSpec) -> Fields:
-    topics = [
+def _cameras(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
+    """Every camera; of several of one name, on links that are there, interfaces find the last."""
+    cameras = [
+        (index, spec)
+        for index, vehicle in enumerate(scene.vehicles)
+        for spec in vehicle.parts_of(VirtualCameraSpec)
+    ]
+    found = {
+        spec.name: (index, spec)
+        for index, spec in cameras
+        if robots[index].link(spec.relative_to) is not None
+    }
+    return [
+        _camera(
+            scene.vehicles[each[0]],
+            each[1],
+            _image_topics(scene, each[1].name) if found.get(each[1].name) == each else [],
+        )
+        for each in cameras
+    ]
+
+
+def _image_topics(scene: SceneSpec, camera: str) -> list[str]:
+    return [
         interface.image_topic
         for interface in scene.ros_interfaces
-        if getattr(interface, "camera_name", None) == camera.name
-        and hasattr(interface, "image_topic")
+        if getattr(interface, "camera_name", None) == camera and hasattr(interface, "image_topic")
     ]
+
+
+def _camera(vehicle: VehicleSpec, camera: VirtualCameraSpec, topics: list[str]) -> Fields:
     return {
         "name": camera.name,
         "vehicle": vehicle.name,

@@ -41,12 +41,19 @@ def check_looks(
                 diagnostics.warning(spec, f"{_called(spec)} {_looks(spec, frames)}")
         if not uses_extensions(scene):
             _check_age(frames, diagnostics)
-    cameras = [spec.name for one in scene.vehicles for spec in one.parts_of(VirtualCameraSpec)]
-    for name, count in Counter(cameras).items():
+    cameras = [
+        spec
+        for index, robot in robots.items()
+        for spec in scene.vehicles[index].parts_of(VirtualCameraSpec)
+        if robot.link(spec.relative_to) is not None
+    ]
+    last = {spec.name: spec for spec in cameras}
+    for name, count in Counter(spec.name for spec in cameras).items():
         if count > 1:
-            diagnostics.warning(
-                None, f"{count} cameras are called {name!r}; searches find the first"
+            message = (
+                f"{count} cameras are called {name!r}; interfaces and benchmarks find this one"
             )
+            diagnostics.warning(last[name], message)
 
 
 def looking(vehicle: VehicleSpec) -> Iterator[Looking]:

@@ -42,7 +42,7 @@ def _check_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 
 
 def _check_parts(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Of one kind the first of a name is found; parts of one vehicle share noise and faults."""
+    """Of one kind the last of a name is found; parts of one vehicle share noise and faults."""
     of_kind: set[tuple[str, str]] = set()
     for vehicle in scene.vehicles:
         of_vehicle: dict[str, str] = {}
@@ -51,7 +51,7 @@ def _check_parts(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             if name is None:
                 continue
             if (element, name) in of_kind and not isinstance(part, VirtualCameraSpec):
-                why = f"several are called {name!r}; interfaces find the first"
+                why = f"several are called {name!r}; interfaces find the last"
             elif name in of_vehicle and of_vehicle[name] != element:
                 why = (
                     f"{name!r} is the name of a <{of_vehicle[name]}> of the vehicle, too; they "
