@@ -166,10 +166,10 @@ def _below(surfaces: Sequence[Fields]) -> str:
 
 
 def _joint(joint: Fields) -> str:
-    text = f"{joint['name']}: {joint['kind']}"
-    if joint["lower"] is not None:
-        text += f", {joint['lower']:g} to {joint['upper']:g} {joint['unit']}"
-    return text + (f", follows {joint['mimics']}" if joint["mimics"] else "")
+    limits = f"{joint['lower']:g} to {joint['upper']:g} {joint['unit']}"
+    return f"{joint['name']}: {joint['kind']}, {limits}" + (
+        f", follows {joint['mimics']}" if joint["mimics"] else ""
+    )
 
 
 def _camera(camera: Fields) -> tuple[str, ...]:

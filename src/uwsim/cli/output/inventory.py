@@ -149,12 +149,11 @@ def _fin(fin: FinSpec) -> Fields:
 
 
 def _joint(joint: JointSpec) -> Fields:
-    is_limited = joint.kind in ("revolute", "prismatic")
     return {
         "name": joint.name,
         "kind": joint.kind,
-        "lower": joint.lower if is_limited else None,
-        "upper": joint.upper if is_limited else None,
+        "lower": joint.lower,
+        "upper": joint.upper,
         "unit": "m" if joint.kind == "prismatic" else "rad",
         "mimics": joint.mimic.joint if joint.mimic is not None else None,
     }
