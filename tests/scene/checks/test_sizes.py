@@ -53,6 +53,17 @@ def test_so_has_the_window(tmp_path: Path) -> None:
         read_scene(path)
 
 
+@pytest.mark.parametrize("kind", ["virtualCamera", "virtualRangeImage"])
+def test_a_camera_whose_planes_are_swapped_is_an_error(kind: str, tmp_path: Path) -> None:
+    planes = "<fx>1</fx><fy>1</fy><x0>0</x0><y0>0</y0><f>{}</f><n>{}</n><k>0</k>"
+    given = camera(4, 4, kind).replace(f"</{kind}>", f"<parameters>{planes}</parameters></{kind}>")
+    assert diagnostics(given.format("10", "0.1"), tmp_path) == []
+    assert diagnostics(given.format("0.1", "10"), tmp_path) == [
+        "the far plane <f> is 0.1 m and the near plane <n> 10 m; expected the far one beyond the "
+        "near one"
+    ]
+
+
 def test_all_images_together_have_a_largest_size(tmp_path: Path) -> None:
     assert diagnostics(camera(7680, 4320) * 3, tmp_path) == []
     assert diagnostics(camera(7680, 4320) * 5, tmp_path) == [

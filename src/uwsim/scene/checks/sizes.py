@@ -1,4 +1,4 @@
-"""Limits on the sizes of images, fans of beams and sonars, which cost memory and time."""
+"""Limits on the sizes of images, fans of beams and sonars, and on the planes of cameras."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ImageSpec = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
 
 
 def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Report cameras, windows, fans of beams and sonars that are too large."""
+    """Report cameras, windows, fans of beams and sonars that are too large, or see nothing."""
     n_all = 0
     for image in (scene.sim_params, *_cameras(scene)):
         n = image.resw * image.resh
@@ -47,6 +47,14 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
                 f"at most {MAX_PIXELS_IN_ALL / 1e6:.0f} are drawn",
             )
             break
+    for camera in _cameras(scene):
+        planes = camera.parameters
+        if planes is not None and planes.f <= planes.n:
+            diagnostics.error(
+                planes,
+                f"the far plane <f> is {planes.f:g} m and the near plane <n> {planes.n:g} m; "
+                "expected the far one beyond the near one",
+            )
     for fan in _fans(scene):
         if abs(fan.final_angle - fan.init_angle) >= MAX_BEAMS * fan.angle_incr:
             diagnostics.error(
