@@ -113,6 +113,19 @@ def test_a_hostile_file_costs_little_time_and_less_than_500_mb(
     )
 
 
+def test_a_mesh_that_is_nowhere_is_reported_at_its_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "rov.urdf"
+    file.write_text(
+        '<robot name="rov">\n<link name="base_link">\n<visual> <geometry>\n'
+        '<mesh filename="package://my_rov/meshes/hull.dae"/> </geometry> </visual>\n</link></robot>'
+    )
+    assert status(str(file)) == 0
+    said = capsys.readouterr().out
+    assert f"{file}:3: warning: there is no model 'package://my_rov/meshes/hull.dae'" in said
+
+
 def test_names_of_a_benchmark_that_its_scene_does_not_have_are_errors(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Protocol
@@ -20,7 +20,7 @@ from .legacy import upgrade
 from .spec import SceneSpec
 from .unsupported import not_simulated
 from .urdf.reader import read_robot, read_urdf
-from .urdf.robot import RobotSpec
+from .urdf.robot import RobotSpec, VisualSpec
 from .variation import check_variations
 
 ROOT = "UWSimScene"
@@ -150,12 +150,12 @@ def check_robot(
     except SceneError as error:
         return list(error.diagnostics)
     if robot is not None and library is not None:
-        for name in itertools.islice(dict.fromkeys(_meshes(robot)), MAX_FILES):
+        for name, shape in itertools.islice(_meshes(robot).items(), MAX_FILES):
             if why := library.unreadable(name, path):
-                diagnostics.error(None, why)
+                diagnostics.error(shape, why)
             elif not library.has_model(name, path):
                 diagnostics.warning(
-                    None, f"there is no model {name!r}, nor a stand-in: a labelled box"
+                    shape, f"there is no model {name!r}, nor a stand-in: a labelled box"
                 )
     return diagnostics.all()
 
@@ -219,11 +219,14 @@ def _check_models(
             _lost(f"model {name!r}", spec, document, library, diagnostics)
 
 
-def _meshes(robot: RobotSpec) -> Iterator[str]:
+def _meshes(robot: RobotSpec) -> dict[str, VisualSpec]:
+    """The mesh files of a robot, each with the shape that names it first."""
+    first: dict[str, VisualSpec] = {}
     for link in robot.links:
         for shape in (*link.visuals, *link.collisions):
             if shape.kind == "mesh":
-                yield shape.file
+                first.setdefault(shape.file, shape)
+    return first
 
 
 def _lost(
