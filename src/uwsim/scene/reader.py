@@ -6,14 +6,13 @@ import itertools
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Protocol
 
 from ..errors import AssetError, Diagnostic, SceneError
 from ..schema import Diagnostics, Document, check_head, read
 from ..xacro import parse_expanded
 from .checks.angles import check_angles
-from .checks.comms import comms_devices
 from .checks.looks import check_looks
+from .checks.models import MAX_FILES, Library, check_models
 from .checks.names import check_left_out, check_names
 from .checks.sizes import check_sizes
 from .legacy import upgrade
@@ -25,27 +24,6 @@ from .variation import check_variations
 
 ROOT = "UWSimScene"
 """Name of the root element."""
-MAX_FILES = 200
-"""So many different robots and models of a scene, and meshes of a robot, are looked for."""
-
-
-class Library(Protocol):
-    """Look-up of the files that a scene names, implemented by ``uwsim.assets``."""
-
-    def find(self, name: str, named_by: Path) -> Path | None:
-        """The file ``name``, which the file ``named_by`` names; None when it is nowhere."""
-
-    def find_robot(self, name: str, named_by: Path) -> Path | None:
-        """The robot file ``name``, or else ours of the same file name; None without either."""
-
-    def has_model(self, name: str, named_by: Path) -> bool:
-        """Whether there is a model of that name, or a stand-in."""
-
-    def unreadable(self, name: str, named_by: Path) -> str:
-        """Why the file of a model cannot be read here; empty if it can, or is not there."""
-
-    def searched(self, named_by: Path) -> str:
-        """The folders that were searched."""
 
 
 def read_scene(path: Path | str, *, data_path: tuple[Path, ...] = ()) -> SceneSpec:
@@ -120,7 +98,7 @@ def check_scene(
         check_looks(scene if settled is None else settled(scene), robots, diagnostics)
         check_angles(scene, diagnostics)
         if library is not None:
-            _check_models(scene, document, library, diagnostics)
+            check_models(scene, document, library, diagnostics)
         not_simulated(document.root, diagnostics)
         if further is not None and not diagnostics.any:
             others += further(scene)
@@ -200,25 +178,6 @@ def _robots(
     return robots, found
 
 
-def _check_models(
-    scene: SceneSpec, document: Document, library: Library, diagnostics: Diagnostics
-) -> None:
-    """Report models of objects and devices that are not found, or cannot be read."""
-    first: dict[str, object] = {}
-    for device in (each for vehicle in scene.vehicles for each in comms_devices(vehicle)):
-        if device.mesh is not None:
-            first.setdefault(device.mesh.path, device.mesh)
-    for thing in scene.objects:
-        first.setdefault(thing.file, thing)
-        if thing.physics is not None and thing.physics.collision_shape:
-            first.setdefault(thing.physics.collision_shape, thing)
-    for name, spec in itertools.islice(first.items(), MAX_FILES):
-        if why := library.unreadable(name, document.path):
-            diagnostics.error(spec, why)
-        elif not library.has_model(name, document.path):
-            _lost(f"model {name!r}", spec, document, library, diagnostics)
-
-
 def _meshes(robot: RobotSpec) -> dict[str, VisualSpec]:
     """The mesh files of a robot, each with the shape that names it first."""
     first: dict[str, VisualSpec] = {}
@@ -227,16 +186,3 @@ def _meshes(robot: RobotSpec) -> dict[str, VisualSpec]:
             if shape.kind == "mesh":
                 first.setdefault(shape.file, shape)
     return first
-
-
-def _lost(
-    what: str, spec: object, document: Document, library: Library, diagnostics: Diagnostics
-) -> None:
-    """Report a missing file: an error, but in a scene of the original a warning.
-
-    The archive with the original's models is no longer to be had, so that a scene with the
-    original's DOCTYPE is not at error for naming what lay in it.
-    """
-    say = diagnostics.warning if document.has_doctype else diagnostics.error
-    searched = library.searched(document.path)
-    say(spec, f"{what} is nowhere and has no stand-in; searched: {searched}")
