@@ -245,6 +245,13 @@ def test_a_scene_includes_a_vehicle_a_library_and_another_scene(folder: Path) ->
     assert [each.topic for each in scene.ros_interfaces] == ["/one", "/two"]  # type: ignore[attr-defined]
 
 
+def test_a_library_of_macros_may_have_any_root_element(folder: Path) -> None:
+    """As in ROS, which drops the root of what is included."""
+    library = (folder / "library.xacro").read_text()
+    (folder / "library.xacro").write_text(library.replace("fragment", "root"))
+    assert [thing.name for thing in read_scene(folder / "scene.xml").objects] == ["first"]
+
+
 def test_what_is_included_may_be_in_a_folder_of_the_data_path(folder: Path) -> None:
     elsewhere = folder / "elsewhere"
     elsewhere.mkdir()

@@ -236,8 +236,7 @@ class Expander:
             raise ExpressionError(f"the file {name[:200]!r} is nowhere; searched: {found}")
         path, root = found
         with self._nested(path, self._line_of(node)):
-            is_whole = etree.QName(root).localname in ("UWSimScene", "robot", "fragment")
-            made = list(self._expanded(list(root) if is_whole else [root], scope))
+            made = list(self._expanded(list(root) if _is_stripped(root) else [root], scope))
         yield from made
 
     @contextmanager
@@ -256,3 +255,11 @@ class Expander:
 
     def _substituted(self, text: str) -> str:
         return substituted(text, self._arguments, self._file)
+
+
+def _is_stripped(root: etree._Element) -> bool:
+    """Whether only the content of an included file counts: a whole file, or macros alone."""
+    if etree.QName(root).localname in ("UWSimScene", "robot", "fragment"):
+        return True
+    spaces = {namespace_of(child) for child in root.iterchildren("*")}
+    return bool(spaces) and spaces <= XACRO
