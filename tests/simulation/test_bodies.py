@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE
+from tests.simulation.small_robots import joint, scene_of, write_robot
 from uwsim.compatibility import COMPATIBILITY, compatibility
+from uwsim.errors import UnknownName
 from uwsim.geometry import rotation_x, rotation_z
 from uwsim.scene.reader import read_scene
+from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 from uwsim.simulation.bodies import scaled_box
 from uwsim.world import Box
@@ -94,3 +98,16 @@ def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() ->
     link, visual = (simulation.world.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
     assert visual.world_from_body.position == pytest.approx(link.world_from_body.position)
     assert visual.box is None
+
+
+def test_a_link_whose_name_has_a_slash_is_found_by_its_route(tmp_path: Path) -> None:
+    """As in robot files that put the names of links in a name space."""
+    inside = '<link name="ns/base_link"/><link name="tool"/>' + joint("j", "ns/base_link tool")
+    vehicle = VehicleSpec(name="rov", file=str(write_robot(tmp_path, inside)))
+    world = Simulation(scene_of(vehicle), is_blind=True).world
+    found = [
+        world.body(route).name for route in ("ns/base_link", "/rov/ns/base_link/", "rov/x/tool")
+    ]
+    assert found == ["ns/base_link", "rov/ns/base_link", "rov/tool"]
+    with pytest.raises(UnknownName):
+        world.body("rov/ns")

@@ -188,16 +188,18 @@ def scaled_box(
 def find_body(route: str, bodies: Mapping[str, SceneBody]) -> SceneBody:
     """Find what a route ``a/b/c`` names; nodes between the first and the last may be skipped.
 
+    The name of a link may have slashes itself, ``rov/bluerov2/base_link``.
+
     Raises:
         UnknownName: nothing matches; lists what there is.
     """
     nodes = [node.strip() for node in route.strip().strip("/").split("/")]
     if nodes[0] == "localizedWorld" and len(nodes) > 1:
         nodes = nodes[1:]
-    name = nodes[0] if len(nodes) == 1 else f"{nodes[0]}/{nodes[-1]}"
-    if name not in bodies:
-        raise UnknownName("body", route, bodies)
-    return bodies[name]
+    for name in ("/".join(nodes), f"{nodes[0]}/{nodes[-1]}"):
+        if name in bodies:
+            return bodies[name]
+    raise UnknownName("body", route, bodies)
 
 
 def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:
