@@ -128,20 +128,44 @@ def test_every_topic_that_a_run_has_is_listed(
         assert {each["topic"] for each in found} == {f"/{name}" for name in simulation.bus.topics}
 
 
+def test_a_vehicle_that_follows_a_frame_or_packets_does_not_stand_still(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "a.xml"
+    file.write_text(ALL_KINDS_OF_TOPICS)
+    moves = {
+        v["name"]: v["moves"] for v in json.loads(said(capsys, str(file), "--json"))["vehicles"]
+    }
+    assert moves == {
+        "girona500": "stands still",
+        "ghost": "kinematic: follows the frame 'boat' of /tf",
+        "sitl": "kinematic: goes where UDP packets at port 9002 put it",
+    }
+
+
 ALL_KINDS_OF_TOPICS = """<UWSimScene>
+  <netTracingScript/>
+  <CustomCommsChannel> <id>0</id> </CustomCommsChannel>
   <vehicle>
     <name>girona500</name> <file>data/scenes/g500ARM5.urdf</file>
     <objectPicker> <name>picker</name> <relativeTo>part4_base</relativeTo> <range>0.2</range>
     </objectPicker>
     <simulatedDevices> <echo> <name>echo1</name> <info>here</info> </echo> </simulatedDevices>
     <LedArray> <name>leds</name> <relativeTo>base_link</relativeTo> </LedArray>
+    <CustomCommsDevice> <dccommsId>modem</dccommsId> <relativeTo>base_link</relativeTo>
+      <txChannelId>0</txChannelId> <rxChannelId>0</rxChannelId> <mac>1</mac>
+      <bitrate>1000</bitrate> </CustomCommsDevice>
   </vehicle>
+  <vehicle> <name>ghost</name> <file>data/scenes/g500ARM5.urdf</file> <tf> <tfId>boat</tfId> </tf>
+  </vehicle>
+  <vehicle> <name>sitl</name> <file>data/scenes/g500ARM5.urdf</file> <fdm>9002</fdm> </vehicle>
   <rosInterfaces>
     <ROSImageToHUD> <width>4</width> <height>4</height>
       <imageTopic>/hud</imageTopic> <infoTopic>/hud_info</infoTopic> </ROSImageToHUD>
     <SimulatedDeviceROS>
       <echoROS> <name>echo1</name> <topic>/g500/echo1</topic> </echoROS>
     </SimulatedDeviceROS>
+    <CustomCommsDeviceROS> <name>modem</name> <topic>/modem</topic> </CustomCommsDeviceROS>
   </rosInterfaces>
 </UWSimScene>
 """

@@ -12,27 +12,22 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...devices.device import DeviceSpec
 from ...devices.lamp import LampSpec
 from ...devices.sway import SwaySpec
 from ...errors import Diagnostic
 from ...physics.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ...scene.object import ObjectSpec
 from ...scene.spec import SceneSpec
-from ...scene.unsupported import READ_ONLY, limit_of
+from ...scene.unsupported import READ_ONLY
 from ...scene.urdf.robot import JointSpec, RobotSpec
 from ...scene.variation import draw
 from ...scene.vehicle import VehicleSpec
-from ...schema.names import local
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
 from ...simulation.scenery.below import below_vehicle
-from ...topics import InterfaceSpec, element_of
-from ...topics.simulated_device_ros import unwrapped
+from .topic_rows import topics
 
 Fields = dict[str, Any]
-TOPIC_FIELDS = ("topic", "image_topic", "info_topic")
-"""What names a topic in an interface that is not simulated."""
 
 
 def inventory(
@@ -49,7 +44,7 @@ def inventory(
         "vehicles": [_vehicle(scene, i, simulation) for i in range(len(scene.vehicles))],
         "cameras": _cameras(scene, simulation.world.robots),
         "objects": [_object(scene, thing) for thing in scene.objects],
-        "topics": _topics(scene, simulation),
+        "topics": topics(scene, simulation),
         "services": list(simulation.bus.services.names),
         "varies": [
             {"path": each.path, "unit": each.unit, "drawn_from": each.drawn_from}
@@ -122,6 +117,10 @@ def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
         return f"simulated in water ({spec.dynamics})"
     if spec.parts_of(SwaySpec):
         return "sways, kinematically"
+    if spec.tf is not None:
+        return f"kinematic: follows the frame {spec.tf.tf_id!r} of /tf"
+    if spec.fdm > 0:
+        return f"kinematic: goes where UDP packets at port {spec.fdm} put it"
     is_reported = any(
         getattr(interface, "vehicle_name", None) == spec.name and interface.subscribes
         for interface in scene.ros_interfaces
@@ -230,57 +229,3 @@ def _object(scene: SceneSpec, thing: ObjectSpec) -> Fields:
         "position": list(thing.position),
         "kind": kind,
     }
-
-
-def _topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
-    """Every topic of an interface or device: what it carries, which way, how often."""
-    types: Mapping[str, str] = simulation.bus.topics
-    found = []
-    for interface in unwrapped(scene.ros_interfaces):
-        name = element_of(interface)
-        is_heard = interface.subscribes
-        for field in interface.carries() or TOPIC_FIELDS:
-            topic = getattr(interface, field, "")
-            if not topic:
-                continue
-            plain = topic.strip().lstrip("/")
-            found.append(
-                {
-                    "topic": f"/{plain}",
-                    "type": types.get(plain),
-                    "direction": "listens" if is_heard else "publishes",
-                    "rate_hz": None if is_heard else getattr(interface, "rate", None),
-                    "of": _of(interface),
-                    "interface": local(name),
-                    "limit": limit_of("rosInterfaces", name),
-                }
-            )
-    return found + _device_topics(scene, types)
-
-
-def _device_topics(scene: SceneSpec, types: Mapping[str, str]) -> list[Fields]:
-    """The topics that devices have without an interface; of a device that is left out none."""
-    return [
-        {
-            "topic": f"/{topic.name}",
-            "type": types[topic.name],
-            "direction": "listens" if topic.is_heard else "publishes",
-            "rate_hz": topic.rate,
-            "of": getattr(part, "name", ""),
-            "interface": element,
-            "limit": "",
-        }
-        for vehicle in scene.vehicles
-        for element, part in vehicle.all_parts()
-        if isinstance(part, DeviceSpec)
-        for topic in part.topics
-        if topic.name in types
-    ]
-
-
-def _of(interface: InterfaceSpec) -> str:
-    """The vehicle, camera or device an interface is about."""
-    for field in ("vehicle_name", "camera_name", "name"):
-        if value := getattr(interface, field, None):
-            return str(value)
-    return ""
