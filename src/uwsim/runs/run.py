@@ -59,6 +59,8 @@ class Run:
         """Make the directory, and return the trials that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self._forget_what_was_stopped()
+        if self.plan.client is not None and self.plan.client.sync == "none":
+            self._forget_what_cannot_be_repeated()
         self.n_resumed = self.n_finished()
         return self.unfinished()
 
@@ -76,6 +78,12 @@ class Run:
                 if is_to_go(name, row["missing"].get("total")):
                     journal.cut_back(self.out, trial.index, n)
                     break
+
+    def _forget_what_cannot_be_repeated(self) -> None:
+        """Begin unfinished trials anew: their rows would not come out as they are stored."""
+        for trial in self.unfinished():
+            if self.n_rows(trial):
+                journal.cut_back(self.out, trial.index, 0)
 
     def unfinished(self) -> list[Trial]:
         """Return the trials whose end is not on disk."""

@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from tests.byte_hashes import short_currents
+from tests.keep_station import LEVELS, scored_in_process, short_benchmark
 from tests.short_benchmark import write_benchmark
 from tests.waiting import until
 from uwsim import load
@@ -94,6 +95,21 @@ def test_a_controller_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path
         benchmark, tmp_path / "outside", [*program, "--delay", "20"], *level
     )
     assert outside["rows"] == inside["rows"], said
+
+
+@pytest.mark.slow
+def test_a_program_that_takes_the_steps_itself_scores_the_rows_of_the_class(tmp_path: Path) -> None:
+    benchmark = short_benchmark(tmp_path)
+    inside = scored_in_process(benchmark, tmp_path / "inside")
+    outside, said = scored_outside(
+        benchmark,
+        tmp_path / "outside",
+        ["keep_station.py", "--delay", "20"],
+        *LEVELS,
+        *("--sync", "step"),
+    )
+    assert outside["rows"] == inside["rows"], said
+    assert outside["run"]["clients"] == [["outside", "lock-step, web, grade (b)"]]
 
 
 def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:

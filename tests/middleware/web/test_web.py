@@ -342,7 +342,7 @@ def test_a_publisher_that_breaks_off_in_the_middle_of_a_frame_is_forgotten(
     linger = struct.pack("ii", 1, 0)
     broken.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
     broken.socket.shutdown(socket.SHUT_RDWR)
-    setting.step_until(lambda: setting.bridge._n_clients == 0)
+    setting.step_until(lambda: not setting.bridge._sessions)
     other = setting.client()
     other.socket.sendall(frame)
     setting.step_until(lambda: setting.bridge.n_arrived["text"] == 2)

@@ -28,14 +28,19 @@ CLIENTS = {
     "own process, grade (b)": "in lock-step, in a process of its own, by messages only (grade b: "
     "each call is waited for)",
     "in process": "in the process of the simulation (--in-process)",
-    **{
-        f"lock-step, {transport}, grade (a)": "as a program outside over "
-        f"{name}, in lock-step: simulation time waits for its answers "
-        "(grade a: each names its tick)"
-        for transport, name in {"web": "WebSocket", "ros1": "ROS 1", "ros2": "ROS 2"}.items()
-    },
 }
-"""How an algorithm or an external client takes part -> what that means."""
+"""How an algorithm class takes part -> what that means."""
+TRANSPORTS = {"web": "WebSocket", "ros1": "ROS 1", "ros2": "ROS 2"}
+GRADES = {
+    "grade (a)": "in lock-step: simulation time waits for its answers (grade a: each names its "
+    "tick)",
+    "grade (b)": "in lock-step: simulation time passes in the steps that it asks for (grade b)",
+    "grade (c)": "in lock-step: simulation time waits for the outputs that are due (grade c: it "
+    "works by /clock alone)",
+    "not repeatable": "in real time, which waits for nothing: another run gives other numbers",
+}
+"""How a program outside takes part -> what that means."""
+UNSURE = "what it was sent is only likely to have arrived: the same numbers are not guaranteed"
 CODE = ("code", "code_before")
 """Parts of the provenance: what libraries chose for the processor."""
 NOT_OF_THE_RESULT = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
@@ -71,10 +76,20 @@ def remarks(result: Result, unchecked: str | None = None) -> list[str]:
         message.append(f"Only these levels of the sweep were run: {', '.join(chosen)}.")
     if settings := run.pairs_of_settings:
         message.append(f"Changed for this run: {', '.join(settings)}.")
-    message += [f"{who} takes part: {CLIENTS.get(how, how)}." for who, how in run.clients or ()]
+    message += [f"{who} takes part: {_participation(how)}." for who, how in run.clients or ()]
     if names := run.compatibility:
         message.append(f"Compatibility quirks: {', '.join(names)}.")
     return message + [f"{note}." for note in run.notes or ()]
+
+
+def _participation(how: str) -> str:
+    """Say in words how an algorithm takes part: ``lock-step, ros1, grade (a)``."""
+    _, *more = how.split(", ")
+    if how in CLIENTS or not more or more[0] not in TRANSPORTS:
+        return CLIENTS.get(how, how)
+    said = [f"as a program outside over {TRANSPORTS[more[0]]}", *(GRADES.get(w) for w in more[1:2])]
+    text = ", ".join(word for word in said if word is not None)
+    return f"{text}; {UNSURE}" if "not guaranteed" in more else text
 
 
 def settings(result: Result) -> list[tuple[str, str]]:

@@ -1,4 +1,4 @@
-"""Options of ``uwsim bench`` for an algorithm outside, in lock-step."""
+"""Options of ``uwsim bench`` for an algorithm outside, in lock-step or in real time."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from .web_options import (
 )
 
 if TYPE_CHECKING:
-    from ...middleware.lockstep.client import ClientSpec
+    from ...middleware.lockstep.spec import ClientSpec, OutputSpec
 
 
 @dataclass(frozen=True, kw_only=True)
 class ClientOptions:
-    """An algorithm outside, and how it comes."""
+    """An algorithm outside, how it comes, and what is waited for."""
 
     client: Annotated[
         str | None,
@@ -31,11 +31,53 @@ class ClientOptions:
             CONNECTED,
             "--client",
             metavar="NAME",
-            help="The algorithm is a program outside, in lock-step: simulation time waits until it "
-            "has joined under this name, and for its answers.",
+            help="The algorithm is a program outside, which the result calls by this name: in "
+            "lock-step, unless --sync says otherwise.",
         ),
     ] = None
     client_limit: ClientLimitOption = CLIENT_LIMIT
+    sync: Annotated[
+        str | None,
+        in_group(
+            CONNECTED,
+            "--sync",
+            metavar="WHAT",
+            help="What simulation time waits for. ack: the client joins and acknowledges each "
+            "tick. step: it takes the steps itself, by the service /step_simulation. output: it "
+            "knows nothing of lock-step and works by /clock; each --output that is due is waited "
+            "for. none: nothing, simulation time is real time; not repeatable.  [ack]",
+        ),
+    ] = None
+    output: Annotated[
+        list[str] | None,
+        in_group(
+            CONNECTED,
+            "--output",
+            metavar="TOPIC=RATE|INPUT",
+            help="Of --sync output: a topic that the client publishes at a rate, as "
+            "/cmd_vel=10Hz, or once for each message of another, as /corners=/camera/image; may "
+            "be repeated.",
+        ),
+    ] = None
+    settle: Annotated[
+        float | None,
+        in_group(
+            CONNECTED,
+            "--settle",
+            metavar="SECONDS",
+            help="Of --sync output and step, over ROS: how long messages may be on their way, in "
+            "wall time.  [0.005]",
+        ),
+    ] = None
+    speed: Annotated[
+        float | None,
+        in_group(
+            CONNECTED,
+            "--speed",
+            metavar="X",
+            help="Of --sync none: simulation time per real time.  [1]",
+        ),
+    ] = None
     web: WebOption = None
     web_host: WebHostOption = None
     web_token: WebTokenOption = None
@@ -52,22 +94,62 @@ class ClientOptions:
             if self.client is None and self._connections.is_connected:
                 name = self._connections.transports[0]
                 raise BadSetting(
-                    f"--{name}: a benchmark is connected to a --client NAME in lock-step only."
+                    f"--{name}: add --client NAME, the program outside that is scored; and --sync "
+                    "none, if it knows nothing of lock-step."
                 )
         with wrong.kept():
             if self.client is not None and workers not in ("0", "1"):
                 raise BadSetting(
                     f"--workers {workers}: --client {self.client} is one program; expected 1."
                 )
+        self._check_sync(wrong)
+
+    def _check_sync(self, wrong: AllErrors) -> None:
+        """Collect what is wrong about what is waited for."""
+        from ...middleware.lockstep.spec import sync_named
+
+        sync = self.sync or "ack"
+        of = {
+            "--output": (self.output, ("output",)),
+            "--settle": (self.settle, ("output", "step")),
+            "--speed": (self.speed, ("none",)),
+        }
+        for option, (value, kinds) in of.items():
+            with wrong.kept():
+                if value is not None and sync not in kinds:
+                    raise BadSetting(f"{option} is of --sync {' and '.join(kinds)}.")
+        with wrong.kept():
+            if self.sync is not None and self.client is None:
+                raise BadSetting(f"--sync {sync} is of --client NAME.")
+        with wrong.kept():
+            if sync_named(sync) == "output" and not self.output:
+                raise BadSetting(
+                    "--sync output: add what the client publishes, as --output /cmd_vel=10Hz."
+                )
+        with wrong.kept():
+            if not 0.0 < (1.0 if self.speed is None else self.speed) < float("inf"):
+                raise BadSetting(f"--speed {self.speed:g}: expected a number > 0.")
+        with wrong.kept():
+            if not 0.0 <= (self.settle or 0.0) < float("inf"):
+                raise BadSetting(f"--settle {self.settle:g}: expected a time >= 0 [s].")
+        for text in self.output or ():
+            with wrong.kept():
+                _output(text)
 
     def client_spec(self) -> ClientSpec | None:
         """Return the program outside; None without one."""
-        from ...middleware.lockstep.client import ClientSpec
+        from ...middleware.lockstep.spec import SETTLE, ClientSpec, sync_named
 
         if self.client is None:
             return None
         return ClientSpec(
-            name=self.client, connection=self._connections.spec(), limit=self.client_limit
+            name=self.client,
+            connection=self._connections.spec(),
+            limit=self.client_limit,
+            sync=sync_named(self.sync or "ack"),
+            outputs=tuple(_output(text) for text in self.output or ()),
+            settle=SETTLE if self.settle is None else self.settle,
+            speed=1.0 if self.speed is None else self.speed,
         )
 
     @property
@@ -84,3 +166,9 @@ class ClientOptions:
             client=None if self.client is None else [self.client],
             client_limit=self.client_limit,
         )
+
+
+def _output(text: str) -> OutputSpec:
+    from ...middleware.lockstep.spec import output_of
+
+    return output_of(text)

@@ -7,7 +7,6 @@ import math
 import secrets
 from collections import Counter, deque
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -16,7 +15,6 @@ from ...errors import BadMessage, BadSetting, ClientLost, NeverStarted
 from ...messages import Empty, String
 from ...messages.services import Service
 from ..bridge import Bridge
-from ..connection import ConnectionSpec
 from ..json_encoding import from_json, to_json
 from ..stamps import inward, outward
 from ..types import message_class, service
@@ -24,18 +22,6 @@ from .topics import ACK, JOIN, TICK
 
 MAX_ROUNDS = 1000
 """Ticks of one step: a client that answers its own messages without end goes no further."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class ClientSpec:
-    """A program outside that takes part in lock-step."""
-
-    name: str
-    """Under which it joins."""
-    connection: ConnectionSpec
-    """The one by which it comes."""
-    limit: float = 60.0
-    """How long it may take to join, and to answer a tick [s of wall time]."""
 
 
 class LockStepClient:

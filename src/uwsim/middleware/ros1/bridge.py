@@ -1,8 +1,8 @@
 """A bus in a ROS 1 graph, as one node.
 
 What is published on the bus is advertised; what is read there is subscribed to; services of the
-bus are offered, and services that only the graph has are called there. ``/clock`` goes out at
-`CLOCK_RATE`, and what the bridge reports goes to ``/rosout``. The contract of threads is in
+bus are offered, and services that only the graph has are called there. ``/clock`` goes out
+100 times a second, and what the bridge reports goes to ``/rosout``. The contract of threads is in
 `uwsim.middleware.bridge`.
 """
 
@@ -33,8 +33,6 @@ from .subscription import Subscription
 from .tcpros import PeerError
 from .xmlrpc import Answer, Refused, XmlRpcServer
 
-CLOCK_RATE = 100.0
-"""Messages on ``/clock`` for each second of simulation time [Hz]."""
 SEND_TIMEOUT = 30.0
 """How long a subscriber may take to read a message before it is left [s]."""
 NODE = "/uwsim"
@@ -80,7 +78,6 @@ class Ros1Bridge(Bridge):
         self._subscriptions: dict[str, Subscription] = {}
         self._offered: dict[str, WireService] = {}
         self._clock = self._publication("/clock", "rosgraph_msgs/Clock")
-        self._next_clock = 0.0
         self._rosout = rosout(node, self.log, clock, send_timeout)
         self._publications["/rosout"] = self._rosout
         try:
@@ -162,13 +159,19 @@ class Ros1Bridge(Bridge):
         if publication is not None:
             publication.send(message)
 
-    def tick(self) -> None:
-        """Publish the clock when it is due."""
-        now = self.clock()
-        if now < self._next_clock - 1e-9:
-            return
-        self._next_clock = now + 1.0 / CLOCK_RATE
-        self._clock.send(self._clock.kind.message(clock=clock_time(now)))
+    def publish_clock(self) -> None:
+        """Publish the time."""
+        self._clock.send(self._clock.kind.message(clock=clock_time(self.clock())))
+
+    @property
+    def clock_is_read(self) -> bool:
+        """Whether anybody has subscribed to ``/clock``."""
+        return self._clock.n_subscribers > 0
+
+    def is_fed(self, topic: str) -> bool:
+        """Whether it is connected with a publisher of ``topic``."""
+        subscription = self._subscriptions.get(f"/{topic}")
+        return subscription is not None and subscription.n_publishers > 0
 
     def close(self) -> None:
         """Leave the graph."""

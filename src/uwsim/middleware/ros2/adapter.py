@@ -32,8 +32,6 @@ from .settings import Ros2Settings
 
 NODE = "uwsim"
 """Name of the node."""
-CLOCK_PERIOD_S = 0.01
-"""Simulation time from one message of /clock to the next, at least [s]."""
 LEASE_S = 10.0
 """How long a node may be silent before it counts as gone, as Cyclone DDS has it [s]."""
 CLOSE_S = 5.0
@@ -75,7 +73,6 @@ class Ros2(Bridge):
         self._outgoing: LatestQueue[tuple[str, object]] = LatestQueue()
         self._types: dict[type, type[RawSample]] = {}
         self._clock_class = message_class("rosgraph_msgs/Clock")
-        self._next_clock = 0.0
         self._n_clocks = 0
         self._add_writer(CLOCK, self._clock_class, self._on_clocks)
         self._presence.tell()
@@ -132,13 +129,25 @@ class Ros2(Bridge):
             self._add_reader(name, self._topics[name].type)
 
     def tick(self) -> None:
-        """Publish the time, if anybody reads it."""
-        time = self.clock()
+        """Tell the time when it is due, and whether the thread of DDS has ended."""
         if self._participant.error is not None:
             self.log.say(f"stopped: {self._participant.error}", kind="stopped")
-        if self._n_clocks and not self._next_clock - CLOCK_PERIOD_S <= time < self._next_clock:
-            self._next_clock = time + CLOCK_PERIOD_S
-            self.send(CLOCK, self._clock_class(clock=clock_time(time)))
+        super().tick()
+
+    def publish_clock(self) -> None:
+        """Publish the time, if anybody reads it."""
+        if self._n_clocks:
+            self.send(CLOCK, self._clock_class(clock=clock_time(self.clock())))
+
+    @property
+    def clock_is_read(self) -> bool:
+        """Whether a reader matches the writer of ``/clock``."""
+        return self._n_clocks > 0
+
+    def is_fed(self, topic: str) -> bool:
+        """Whether a writer outside matches the reader of ``topic``."""
+        reader = self._readers.get(topic)
+        return reader is not None and len(reader.get_matched_publications()) > 0
 
     def close(self) -> None:
         """Send what waits, and leave the graph."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import hmac
 import http
+import math
 import re
 import threading
 import time
@@ -75,7 +76,8 @@ class WebBridge(Bridge):
         self.services: Mapping[str, Service] = {}
         """Services of the bus."""
         self._offerers: dict[str, Session] = {}
-        self._n_clients = 0
+        self._sessions: set[Session] = set()
+        self._clock_sent = math.nan
         self._loop = asyncio.new_event_loop()
         self._listening: Future[int] = Future()
         self._ended: asyncio.Event | None = None
@@ -111,16 +113,31 @@ class WebBridge(Bridge):
                 session.post(subscription, outgoing)
 
     def tick(self) -> None:
-        """Publish ``/clock`` for those who read it, and serve those who came before the first step.
+        """Serve those who came before the first step: until then nobody knows what is on the bus.
 
-        Until then nobody knows what there is on the bus.
+        Those who read ``/clock`` are told the time of each step.
         """
         if not self._has_begun:
             self._has_begun = True
             self._loop.call_soon_threadsafe(self._begun.set)
+        if self.clock() != self._clock_sent:
+            self.send_clock()
+
+    def publish_clock(self) -> None:
+        """Publish ``/clock`` for those who read it."""
+        self._clock_sent = self.clock()
         if CLOCK in self._readers and CLOCK not in self._ends:
             clock = message_class("rosgraph_msgs/Clock")
             self.send(CLOCK, clock(clock=clock_time(self.clock())))
+
+    @property
+    def clock_is_read(self) -> bool:
+        """Whether a client has subscribed to ``/clock``."""
+        return CLOCK in self._readers
+
+    def is_fed(self, topic: str) -> bool:
+        """Whether a client has advertised ``topic``."""
+        return any(session.advertises(topic) for session in tuple(self._sessions))
 
     def call_outside(self, name: str, request: object) -> Future[object]:
         """Call a service of a client."""
@@ -163,7 +180,9 @@ class WebBridge(Bridge):
         self._readers[topic] = (*self._readers.get(topic, ()), (session, subscription))
         if latched is not None:
             session.post(subscription, latched)
-        if topic != CLOCK:
+        if topic == CLOCK:
+            self._clock_sent = math.nan
+        else:
             self.want(topic)
 
     def unread(self, topic: str, session: Session, subscription: Subscription) -> None:
@@ -228,7 +247,7 @@ class WebBridge(Bridge):
 
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         """Refuse who has no token, and more clients than are served."""
-        if self._n_clients >= MAX_CLIENTS:
+        if len(self._sessions) >= MAX_CLIENTS:
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many clients.\n")
         token = self._options.token
         if token and not hmac.compare_digest(_token_of(request).encode(), token.encode()):
@@ -240,7 +259,7 @@ class WebBridge(Bridge):
         """Serve one client until it leaves."""
         name = f"client {_peer(connection)}"
         session = Session(self, self._loop, name)
-        self._n_clients += 1
+        self._sessions.add(session)
         self.log.say(f"{name} has come", kind="has come")
         writer = asyncio.create_task(_write(connection, session))
         began, n = time.monotonic(), 0
@@ -259,7 +278,7 @@ class WebBridge(Bridge):
         finally:
             writer.cancel()
             session.close()
-            self._n_clients -= 1
+            self._sessions.discard(session)
             why = connection.close_reason or connection.close_code
             self.log.say(f"{name} has left ({why})", kind="has left")
 

@@ -137,6 +137,10 @@ class Session:
         self.reply({**content, "args": to_json(outward(request))})
         return future
 
+    def advertises(self, topic: str) -> bool:
+        """Whether the client has said that it publishes ``topic``. Any thread."""
+        return topic in self._advertised
+
     def close(self) -> None:
         """Take back everything: the client has gone."""
         for topic in list(self._subscriptions):

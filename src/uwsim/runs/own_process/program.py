@@ -7,17 +7,17 @@ from contextlib import ExitStack, contextmanager
 from functools import partial
 
 from ...bus import Algorithm
-from ...middleware.lockstep.client import ClientSpec, lockstep_clients
+from ...middleware.lockstep.outside import outside_client
+from ...middleware.lockstep.spec import ClientSpec
+from ...middleware.pacing import Pace
 from ...simulation import Simulation
 from ..planning.plan import Plan
 from .process import OwnProcess, ProcessAlgorithm
 
 Program = Callable[[Simulation, Mapping[str, float | str]], Algorithm]
 """Makes the algorithm of a simulation; takes the parameters that the user set."""
-OWN_PROCESS, IN_PROCESS, LOCK_STEP = "own process", "in process", "lock-step"
-"""How an algorithm that is not bundled takes part, as a result says it."""
-STAMPED, BLOCKING = "grade (a)", "grade (b)"
-"""How its answers are paired with what it is given: by the number of the tick; by each call."""
+OWN_PROCESS, IN_PROCESS = "own process, grade (b)", "in process"
+"""How an algorithm class that is not bundled takes part, as a result says it."""
 
 
 @contextmanager
@@ -53,21 +53,20 @@ def _client(
     """Open the connection of a program outside, until the stack is closed."""
     opened = spec.connection.open(simulation.bus, lambda: simulation.time)
     bridges = stack.enter_context(opened)
-    (client,) = lockstep_clients(
-        bridges, [spec.name], timestep=simulation.timestep, limit=spec.limit
-    )
+    client = outside_client(spec, bridges, timestep=simulation.timestep)
     for bridge in bridges:
         simulation.watch(bridge.step)
+    if spec.sync == "none":
+        simulation.watch(Pace(lambda: simulation.time, spec.speed).step)
     return client
 
 
 def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
     """Return who takes part, how, and its grade; None where only code of uwsim does."""
     if plan.client is not None:
-        transport = plan.client.connection.names[0]
-        return ((plan.algorithm_name, f"{LOCK_STEP}, {transport}, {STAMPED}"),)
+        return ((plan.algorithm_name, plan.client.participation),)
     if plan.own_process:
-        return ((plan.algorithm_name, f"{OWN_PROCESS}, {BLOCKING}"),)
+        return ((plan.algorithm_name, OWN_PROCESS),)
     if plan.algorithm.__module__.startswith("uwsim."):
         return None
     return ((plan.algorithm_name, IN_PROCESS),)

@@ -18,7 +18,7 @@ from ...benchmark.updaters import Level
 from ...benchmark.updaters import levels as levels_of
 from ...bus import Algorithm
 from ...errors import BadSetting, did_you_mean
-from ...middleware.lockstep.client import ClientSpec
+from ...middleware.lockstep.spec import ClientSpec
 from ...scene.spec import SceneSpec
 from ...scene.variation import Draw, draw
 from ...world import TIMESTEP
@@ -106,7 +106,11 @@ class Plan:
     @property
     def patience(self) -> float:
         """How long a start is waited for [s of simulation time]."""
-        return PATIENCE if self.benchmark.patience is None else self.benchmark.patience
+        if self.benchmark.patience is not None:
+            return self.benchmark.patience
+        if self.client is not None and self.client.sync == "none":
+            return self.client.limit * self.client.speed  # somebody has yet to start the program
+        return PATIENCE
 
     def draws(self, seed: int) -> tuple[Draw, ...]:
         """Return the variations of a seed: those of the scene, then of the benchmark."""

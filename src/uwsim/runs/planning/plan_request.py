@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ...middleware.lockstep.client import ClientSpec
+    from ...middleware.lockstep.spec import ClientSpec
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,0 +1,186 @@
+"""A node that knows nothing of lock-step: time waits for the outputs that are due.
+
+The node works by the clock of the simulation and by what it reads, as any node with
+``use_sim_time``. At the end of each step, in two phases (topics are not ordered relative to each
+other in ROS): what was published is sent and has time to arrive, then ``/clock`` goes out, and
+simulation time stands until the outputs that were declared for this step are there. They are put
+on the bus in the same step.
+
+That what was sent has arrived is not known of such a node, only likely: over ROS its results are
+marked as not guaranteed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Callable
+from functools import partial
+
+from ...bus import Node
+from ...errors import ClientLost, NeverStarted
+from ..bridge import Bridge
+from .spec import ClientSpec, OutputSpec
+
+STAND_S = 1.0
+"""How long time stands when both ends of all topics are there, until the node is ready [s of wall
+time]."""
+FIRST_S = 0.2
+"""How long what comes with the first message of an output may take [s of wall time]."""
+GLANCE_S = 0.05
+"""How often a node that has not come yet is told the time [s of wall time]."""
+
+
+class OutputClient:
+    """One node; an algorithm in the sense of `uwsim.bus.Algorithm`.
+
+    Args:
+        bridge: to the transport by which it comes.
+        spec: names the outputs.
+        timestep: of the simulation [s].
+    """
+
+    def __init__(self, bridge: Bridge, spec: ClientSpec, *, timestep: float) -> None:
+        self._bridge, self._spec, self._timestep = bridge, spec, timestep
+        self._n_given: Counter[str] = Counter()  # messages of the topics that outputs follow
+        self._before: Counter[str] = Counter()  # outputs that came while time stood at the start
+        self._due = {output.topic: 0 for output in spec.outputs}
+        self._begun: set[str] = set()  # outputs of which one was due already
+        self._n_sent = 0
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return self._spec.name
+
+    @property
+    def parameters(self) -> dict[str, float | str]:
+        """Those of the node are its own."""
+        return {}
+
+    def start(self, node: Node) -> None:
+        """Wait until the node publishes its outputs and reads what they follow.
+
+        Raises:
+            NeverStarted: it did not within the limit.
+        """
+        self._node = node
+        bridge, spec = self._bridge, self._spec
+        for output in spec.outputs:
+            self._read(output)
+        bridge.step()
+        if not self._stand(spec.limit, until=lambda: not self._missing()):
+            raise NeverStarted(
+                f"Client {spec.name!r}: {'; '.join(self._missing())}, within {spec.limit:g} s of "
+                "wall time (--client-limit)."
+            )
+        self._stand(STAND_S, until=_never)
+        self._before.update(bridge.n_arrived)
+        node.every(self._timestep, self._barrier)
+
+    def _stand(self, limit: float, until: Callable[[], bool]) -> bool:
+        """Wait for something, and tell the time meanwhile; returns whether it came."""
+        n_glances = math.ceil(limit / GLANCE_S)
+        for _ in range(n_glances):
+            self._bridge.send_clock()
+            if self._bridge.wait_for(until, limit / n_glances):
+                return True
+        return False
+
+    def _read(self, output: OutputSpec) -> None:
+        """Read an output, and count what it follows.
+
+        Raises:
+            NeverStarted: nobody here has to do with one of the topics.
+        """
+        bus = self._bridge.bus
+        ends = bus.ends(output.topic)
+        if ends is None:
+            raise NeverStarted(
+                f"--output /{output.topic}: neither scene nor benchmark reads this topic."
+            )
+        bus.subscribe(output.topic, ends.type, _nothing)  # so that transports read it all the time
+        if output.follows is not None:
+            if bus.ends(output.follows) is None:
+                raise NeverStarted(
+                    f"--output /{output.topic}=/{output.follows}: neither scene nor benchmark has "
+                    f"the topic /{output.follows}."
+                )
+            self._node.subscribe(output.follows, object, self._counter(output.follows))
+
+    def _counter(self, topic: str) -> Callable[[object], None]:
+        def count(message: object) -> None:
+            self._n_given[topic] += 1
+
+        return count
+
+    def _missing(self) -> list[str]:
+        """Say which ends of the topics are not there."""
+        bridge, outputs = self._bridge, self._spec.outputs
+        nobody = [f"nobody publishes /{o.topic}" for o in outputs if not bridge.is_fed(o.topic)]
+        inputs = dict.fromkeys(o.follows for o in outputs if o.follows is not None)
+        nobody += [f"nobody reads /{name}" for name in inputs if not bridge.is_wanted(name)]
+        has_timer = any(o.rate is not None for o in outputs)
+        if has_timer and not bridge.clock_is_read:
+            nobody.append("nobody reads /clock (use_sim_time must be true before the node starts)")
+        return nobody
+
+    def _barrier(self) -> None:
+        """Tell the time, and wait for the outputs that are due."""
+        bridge = self._bridge
+        due = {output.topic: self._n_due(output) for output in self._spec.outputs}
+        if due == self._due and not bridge.clock_is_due:
+            return
+        self._due = due
+        if bridge.n_sent > self._n_sent and self._spec.settling:
+            bridge.wait_for(_never, self._spec.settling)
+        self._n_sent = bridge.n_sent
+        bridge.send_clock()
+        for topic, n in due.items():
+            if not bridge.wait_for(partial(self._has_arrived, topic, n), self._spec.limit):
+                raise ClientLost(
+                    f"Client {self.name!r} did not publish on /{topic} what was due at "
+                    f"{self._node.now:g} s within {self._spec.limit:g} s of wall time "
+                    "(--client-limit): the run is invalid."
+                )
+            if n > 0 and topic not in self._begun:
+                self._begin(topic, n)
+            self._refuse_more(topic, n)
+        bridge.step()
+
+    def _begin(self, topic: str, n_due: int) -> None:
+        """Take for due all that comes with the first of an output.
+
+        A timer of rospy that was made before the first ``/clock`` fires twice then.
+        """
+        self._begun.add(topic)
+        self._bridge.wait_for(_never, FIRST_S)
+        self._before[topic] = self._bridge.n_arrived[topic] - n_due
+
+    def _refuse_more(self, topic: str, n_due: int) -> None:
+        """Refuse outputs that are not due; raises ClientLost."""
+        n = self._bridge.n_arrived[topic] - self._before[topic]
+        if n > n_due:
+            raise ClientLost(
+                f"Client {self.name!r} has published {n} messages on /{topic} by "
+                f"{self._node.now:g} s, where {n_due} are due: the run is invalid. Does it go by "
+                "/clock (use_sim_time true before it starts), and is the --output right?"
+            )
+
+    def _n_due(self, output: OutputSpec) -> int:
+        """How many messages of an output are due by now."""
+        if output.follows is not None:
+            return self._n_given[output.follows]
+        assert output.rate is not None
+        return math.floor(self._node.now * output.rate + 1e-6)
+
+    def _has_arrived(self, topic: str, n: int) -> bool:
+        return self._bridge.n_arrived[topic] >= self._before[topic] + n
+
+
+def _never() -> bool:
+    return False
+
+
+def _nothing(message: object) -> None:
+    """Read by the node's outputs."""

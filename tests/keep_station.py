@@ -1,0 +1,85 @@
+"""The controller of the examples `keep_station.py`, as an algorithm class of uwsim."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from uwsim.bus import Node
+from uwsim.messages import Empty, Odometry, TwistStamped
+
+ROOT = Path(__file__).parents[1]
+BENCHMARK = ROOT / "examples" / "ros1" / "keep_station.xml"
+GOAL, KP, PERIOD = (-9.0, -8.0, 10.0), 0.4, 0.1
+LIMIT = 240.0
+"""Nothing takes longer unless it hangs [s]."""
+LEVELS = ("--level", "current=0.2", "--level", "current=0.4")
+
+
+class KeepStation:
+    """From 0.1 s on it commands a velocity towards a place, in each tenth of a second."""
+
+    def start(self, node: Node) -> None:
+        self._node, self._odometry, self._has_begun = node, Odometry(), False
+        self._publish = node.publisher("/g500/twist", TwistStamped)
+        node.subscribe("/g500/odom", Odometry, self._hear)
+        node.every(PERIOD, self._control)
+
+    def _hear(self, odometry: Odometry) -> None:
+        self._odometry = odometry
+
+    def _control(self) -> None:
+        if self._node.now < PERIOD / 2:
+            return
+        if not self._has_begun:
+            self._has_begun = True
+            self._node.call("startBench", Empty())
+        command = TwistStamped()
+        linear = command.twist.linear
+        linear.x, linear.y, linear.z = _velocity(self._odometry)
+        self._publish(command)
+
+
+def short_benchmark(folder: Path) -> Path:
+    """Write the benchmark of the examples with levels of 3 s."""
+    path = folder / "keep_station.xml"
+    path.write_text(BENCHMARK.read_text().replace("<interval>20<", "<interval>3<"))
+    return path
+
+
+def bench_words(benchmark: Path, out: Path, *options: str) -> list[str]:
+    """The command that runs two levels of it."""
+    words = ["-m", "uwsim", "bench", str(benchmark), *LEVELS, *options, "--out", str(out)]
+    return [sys.executable, *words]
+
+
+def result_in(out: Path) -> dict[str, Any]:
+    """Read a result."""
+    found: dict[str, Any] = json.loads((out / "result.json").read_text())
+    return found
+
+
+def scored_in_process(benchmark: Path, out: Path) -> dict[str, Any]:
+    """Score the class of this file."""
+    words = bench_words(benchmark, out, "--algorithm", f"{__file__}:KeepStation")
+    done = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT)
+    assert done.returncode == 0, done.stderr
+    return result_in(out)
+
+
+def _velocity(odometry: Odometry) -> list[float]:
+    """Velocity towards the goal with the axes of the vehicle, 3 numbers [m/s]."""
+    p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
+    away = [KP * (wanted - is_at) for wanted, is_at in zip(GOAL, (p.x, p.y, p.z), strict=True)]
+    axis = [q.x, q.y, q.z]
+    turn = _cross(axis, away)
+    return [
+        v - 2.0 * q.w * t + 2.0 * u for v, t, u in zip(away, turn, _cross(axis, turn), strict=True)
+    ]
+
+
+def _cross(a: list[float], b: list[float]) -> list[float]:
+    return [a[i - 2] * b[i - 1] - a[i - 1] * b[i - 2] for i in range(3)]

@@ -1,0 +1,232 @@
+"""Nodes that know nothing of lock-step: which outputs are waited for, and what is reported."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+import numpy as np
+import pytest
+
+from uwsim.bus import Bus, TopicEnds
+from uwsim.errors import BadSetting, ClientLost, NeverStarted
+from uwsim.messages import Float64
+from uwsim.messages.services import Service
+from uwsim.middleware.bridge import Bridge
+from uwsim.middleware.connection import ConnectionSpec
+from uwsim.middleware.lockstep import output_client
+from uwsim.middleware.lockstep.output_client import OutputClient
+from uwsim.middleware.lockstep.spec import ClientSpec, OutputSpec, output_of, sync_named
+from uwsim.middleware.log import Log
+from uwsim.simulation import InProcessNode
+
+TIMESTEP = 0.002
+
+
+class Outside(Bridge):
+    """A transport with a node at its other end, which acts on the clock and on messages."""
+
+    def __init__(self, bus: Bus) -> None:
+        super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
+        self.said: list[str] = []
+        self.on_clock: Callable[[float], None] = lambda time: None
+        self.on_message: Callable[[object], None] = lambda message: None
+        self.fed = True
+
+    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+        pass
+
+    def on_services(self, services: Mapping[str, Service]) -> None:
+        pass
+
+    def is_fed(self, topic: str) -> bool:
+        return self.fed
+
+    def send(self, topic: str, message: object) -> None:
+        self.said.append(topic)
+        self.on_message(message)
+
+    def publish_clock(self) -> None:
+        self.said.append("clock")
+        self.on_clock(self.clock())
+
+
+@pytest.fixture(autouse=True)
+def _stand_for_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(output_client, "STAND_S", 0.001)
+    monkeypatch.setattr(output_client, "FIRST_S", 0.001)
+
+
+class Sea:
+    """A bus with a depth that is published and a command that is read, and a node outside."""
+
+    def __init__(self, *outputs: OutputSpec, limit: float = 60.0) -> None:
+        self.bus = Bus()
+        self.outside = Outside(self.bus)
+        self.say = self.bus.publisher("depth", Float64)
+        self.commands = self.bus.inbox("cmd", Float64)
+        connection = ConnectionSpec(ros1=True)
+        spec = ClientSpec(
+            name="n", connection=connection, limit=limit, sync="output", outputs=outputs, settle=0.0
+        )
+        self.client = OutputClient(self.outside, spec, timestep=TIMESTEP)
+        self.node = InProcessNode(
+            self.bus, name="n", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+        )
+
+    def start(self) -> None:
+        self.outside.want("depth")
+        self.node.run(self.client)
+        assert self.node.error is None
+
+    def step(self) -> list[float]:
+        """Take a step; returns the commands that came in it."""
+        self.bus.step += 1
+        self.bus.deliver()
+        self.node.tick()
+        self.bus.deliver()
+        return [message.data for message in self.commands.take()]
+
+
+def test_a_timer_of_the_node_is_waited_for_in_the_step_in_which_it_is_due() -> None:
+    sea = Sea(OutputSpec(topic="cmd", rate=30.0))
+    sea.start()
+    due = [0.0]
+
+    def fire(time: float) -> None:
+        if time >= due[-1] + 1 / 30 - 1e-9:
+            due.append(due[-1] + 1 / 30)
+            sea.outside.put("cmd", Float64(data=time))
+
+    sea.outside.on_clock = fire
+    came = {n: found for n in range(1, 60) if (found := sea.step())}
+    assert came == {17: [0.034], 34: [0.068], 50: [0.1]}
+
+
+def test_messages_are_sent_before_the_time_is_told() -> None:
+    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    sea.start()
+    sea.outside.said.clear()
+    sea.outside.on_message = lambda message: sea.outside.put("cmd", message)
+    sea.say(Float64(data=1.0))
+    assert sea.step() == [1.0]
+    assert sea.outside.said == ["depth", "clock"]
+
+
+def test_each_message_of_an_input_has_its_output_in_the_same_step() -> None:
+    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    sea.start()
+    sea.outside.on_message = lambda message: sea.outside.put("cmd", message)
+    assert sea.step() == []
+    for value in (1.0, 2.0):
+        sea.say(Float64(data=value))
+    assert sea.step() == [1.0, 2.0]
+
+
+def test_what_came_while_time_stood_is_not_taken_for_what_is_due() -> None:
+    sea = Sea(OutputSpec(topic="cmd", rate=100.0), limit=0.05)
+    sea.outside.on_clock = lambda time: sea.outside.put("cmd", Float64(data=-1.0))
+    sea.start()
+    sea.outside.on_clock = lambda time: None
+    assert sea.outside.n_arrived["cmd"] > 0
+    for _ in range(4):
+        sea.step()
+    with pytest.raises(ClientLost):
+        sea.step()
+
+
+def test_an_output_that_does_not_come_ends_the_run() -> None:
+    sea = Sea(OutputSpec(topic="cmd", rate=500.0), limit=0.01)
+    sea.start()
+    with pytest.raises(ClientLost, match=r"'n' did not publish on /cmd what was due at 0\.002 s"):
+        sea.step()
+
+
+def test_a_timer_of_rospy_that_fires_twice_at_first_is_waited_for_as_any_other() -> None:
+    sea = Sea(OutputSpec(topic="cmd", rate=100.0))
+    sea.start()
+    due = [0.0]
+
+    def fire(time: float) -> None:
+        if time >= due[-1] + 0.01 - 1e-9:
+            for _ in range(2 if len(due) == 1 else 1):
+                sea.outside.put("cmd", Float64(data=time))
+            due.append(time)
+
+    sea.outside.on_clock = fire
+    came = {n: len(found) for n in range(1, 20) if (found := sea.step())}
+    assert came == {5: 2, 10: 1, 15: 1}
+
+
+def test_a_node_that_does_not_go_by_the_clock_ends_the_run() -> None:
+    sea = Sea(OutputSpec(topic="cmd", rate=10.0))
+    sea.start()
+    sea.outside.on_clock = lambda time: sea.outside.put("cmd", Float64(data=time))
+    sea.step()
+
+    def run_on() -> None:
+        for _ in range(10):
+            sea.step()
+
+    with pytest.raises(ClientLost, match=r"1 messages on /cmd by 0\.01 s, where 0 are due"):
+        run_on()
+
+
+def test_who_is_not_there_is_named() -> None:
+    sea = Sea(OutputSpec(topic="cmd", follows="depth"), limit=0.01)
+    sea.outside.fed = False
+    with pytest.raises(NeverStarted, match="nobody publishes /cmd; nobody reads /depth"):
+        sea.node.run(sea.client)
+
+
+@pytest.mark.parametrize(
+    ("output", "said"),
+    [
+        (OutputSpec(topic="cmb", rate=10.0), "neither scene nor benchmark reads"),
+        (OutputSpec(topic="cmd", follows="depht"), "has the topic /depht"),
+    ],
+)
+def test_a_topic_that_is_not_there_is_an_error(output: OutputSpec, said: str) -> None:
+    sea = Sea(output)
+    with pytest.raises(NeverStarted, match=said):
+        sea.node.run(sea.client)
+
+
+def test_outputs_are_read_from_the_command_line() -> None:
+    assert output_of("/cmd=10Hz") == OutputSpec(topic="cmd", rate=10.0)
+    assert output_of("cmd = 2.5 Hz") == OutputSpec(topic="cmd", rate=2.5)
+    assert output_of("/corners=/camera/image") == OutputSpec(
+        topic="corners", follows="camera/image"
+    )
+
+
+@pytest.mark.parametrize("text", ["", "cmd", "/cmd=", "=10Hz", "cmd=0Hz", "cmd=-1Hz", "cmd=1e9Hz"])
+def test_what_is_no_output_is_an_error(text: str) -> None:
+    with pytest.raises(BadSetting, match="--output"):
+        output_of(text)
+
+
+@pytest.mark.parametrize("text", ["10", "1e", "10kHz", "1.1.1Hz", "1e999Hz"])
+def test_a_rate_has_its_unit(text: str) -> None:
+    with pytest.raises(BadSetting, match="expected a rate"):
+        output_of(f"cmd={text}")
+
+
+def test_what_is_waited_for_is_one_of_four() -> None:
+    with pytest.raises(BadSetting, match="Did you mean 'output'"):
+        sync_named("outputs")
+
+
+@pytest.mark.parametrize(
+    ("sync", "connection", "said"),
+    [
+        ("ack", ConnectionSpec(ros2=True), "lock-step, ros2, grade (a)"),
+        ("step", ConnectionSpec(ros1=True), "lock-step, ros1, grade (b), not guaranteed"),
+        ("output", ConnectionSpec(ros1=True), "lock-step, ros1, grade (c), not guaranteed"),
+        ("none", ConnectionSpec(ros1=True), "free-running, ros1, not repeatable"),
+    ],
+)
+def test_the_result_says_what_was_waited_for(
+    sync: str, connection: ConnectionSpec, said: str
+) -> None:
+    spec = ClientSpec(name="n", connection=connection, sync=sync_named(sync))
+    assert spec.participation == said
