@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 from ..assets.bundled import bundled
 from ..errors import AssetNotFound, ResultError
-from ..middleware.lockstep.spec import FREE, LOCK_STEP
 from ..results.inputs import Inputs, differing
-from ..runs.own_process.program import IN_PROCESS
+from ..runs.own_process.program import IN_PROCESS, is_outside
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.planning.stored_pilot import PILOT, PREFIX
@@ -51,7 +50,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     """
     run = result.run
     for client, how in run.clients or ():
-        if how.startswith((LOCK_STEP, FREE)):
+        if is_outside(how):
             raise ResultError(
                 f"The result was made with the program {client!r} outside ({how}): run the "
                 "benchmark with it again and compare."

@@ -8,7 +8,7 @@ from functools import partial
 
 from ...bus import Algorithm
 from ...middleware.lockstep.outside import outside_client
-from ...middleware.lockstep.spec import ClientSpec
+from ...middleware.lockstep.spec import FREE, LOCK_STEP, ClientSpec
 from ...middleware.pacing import Pace
 from ...simulation import Simulation
 from ..planning.plan import Plan
@@ -70,3 +70,8 @@ def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
     if plan.algorithm.__module__.startswith("uwsim."):
         return None
     return ((plan.algorithm_name, IN_PROCESS),)
+
+
+def is_outside(how: str) -> bool:
+    """Whether an entry of `clients_of` is of a program outside, which only its owner can run."""
+    return how.startswith((LOCK_STEP, FREE))
