@@ -54,8 +54,8 @@ class Setting:
 
     def client(self, path: str = "/", **options: Any) -> ClientConnection:
         uri = f"ws://127.0.0.1:{self.bridge.port}{path}"
-        client = connect(uri, max_size=2**26, open_timeout=LIMIT, ping_interval=None, **options)
-        return self._stack.enter_context(client)
+        options = {"max_size": 2**26, "open_timeout": LIMIT, "ping_interval": None} | options
+        return self._stack.enter_context(connect(uri, close_timeout=0.1, **options))
 
     def step_until(self, condition: Any) -> None:
         deadline = time.monotonic() + LIMIT
@@ -81,11 +81,14 @@ class Setting:
 
     def close(self) -> None:
         self.bridge.close()
+        assert not self.bridge._thread.is_alive()
         self._stack.close()
 
 
 @pytest.fixture
-def setting() -> Iterator[Setting]:
+def setting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Setting]:
+    monkeypatch.setattr("uwsim.middleware.web.server.CLOSING", 0.2)  # [s]
+    monkeypatch.setattr("uwsim.middleware.web.server.PING", 0.5)  # [s]
     made = Setting()
     yield made
     made.close()
@@ -157,6 +160,14 @@ def test_a_client_that_comes_before_the_first_step_finds_what_there_is(setting: 
         client.recv(timeout=0.2)
     setting.bridge.step()
     assert "/reset" in heard(client)["values"]["services"]
+
+
+def test_closing_does_not_wait_for_a_client_that_came_before_the_first_step() -> None:
+    setting = Setting()
+    with setting.client() as client:
+        setting.close()
+        with pytest.raises(ConnectionClosed, match="the simulation has ended"):
+            client.recv(timeout=LIMIT)
 
 
 def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
@@ -284,10 +295,10 @@ def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setti
     setting.bridge.step()
     flooder, other = setting.client(), setting.client()
     frame = json.dumps({"op": "publish", "topic": "/twist", "msg": {}})
-    for _ in range(5000):
+    for _ in range(2000):
         flooder.send(frame)
     assert setting.ask(other, service="/rosapi/nodes")["result"] is True
-    setting.step_until(lambda: setting.bridge.n_arrived["twist"] == 5000)
+    setting.step_until(lambda: setting.bridge.n_arrived["twist"] == 2000)
     setting.bridge.step()
     assert inbox.last is not None
 

@@ -32,7 +32,8 @@ WAIT = 60.0
 
 
 @pytest.fixture
-def server() -> Iterator[LiveServer]:
+def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[LiveServer]:
+    monkeypatch.setattr("uwsim.viewer.live.server.CLOSING", 0.2)  # [s]
     made = LiveServer(lambda: "<p>page</p>")
     yield made
     made.close()
@@ -41,7 +42,7 @@ def server() -> Iterator[LiveServer]:
 def socket_of(server: LiveServer, **options: Any) -> ClientConnection:
     url = server.url.replace("http://", "ws://").replace("/?", "/socket?")
     reading = {"max_queue": None, "ping_interval": None} | options  # also while a test is busy
-    return connect(url, open_timeout=WAIT, max_size=None, **reading)
+    return connect(url, open_timeout=WAIT, close_timeout=0.1, max_size=None, **reading)
 
 
 def get(server: LiveServer, path: str) -> tuple[int, str]:

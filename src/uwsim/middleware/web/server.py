@@ -224,7 +224,7 @@ class WebBridge(Bridge):
     async def _listen(self) -> None:
         self._ended = asyncio.Event()
         options = self._options
-        async with serve(
+        server = await serve(
             self._attend,
             options.host,
             options.port,
@@ -236,14 +236,13 @@ class WebBridge(Bridge):
             close_timeout=CLOSING,
             server_header=None,
             compression=None,
-        ) as server:
-            self._listening.set_result(server.sockets[0].getsockname()[1])
-            await self._ended.wait()
-            server.close(code=1001, reason="the simulation has ended")
-            with suppress(TimeoutError):
-                await asyncio.wait_for(server.wait_closed(), CLOSING)
-            for task in asyncio.all_tasks() - {asyncio.current_task()}:
-                task.cancel()  # of clients that do not let go
+        )
+        self._listening.set_result(server.sockets[0].getsockname()[1])
+        await self._ended.wait()
+        server.close(code=1001, reason="the simulation has ended")
+        self._begun.set()  # who came before the first step waits no longer
+        with suppress(TimeoutError):
+            await asyncio.wait_for(server.wait_closed(), CLOSING)
 
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         """Refuse who has no token, and more clients than are served."""

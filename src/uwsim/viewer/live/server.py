@@ -36,6 +36,8 @@ KEPT = 256
 """Messages of viewers that wait for the simulation."""
 BUFFER = 64 * 1024
 """Of what is on its way to a viewer [byte]."""
+CLOSING = 1.0
+"""How long a viewer that is disconnected may take to answer [s]."""
 START = 60.0
 """Longest time that the port takes to open [s]."""
 
@@ -161,7 +163,7 @@ class LiveServer:
                 write_limit=BUFFER,
                 compression=None,
                 ping_interval=20.0,
-                close_timeout=1.0,
+                close_timeout=CLOSING,
             )
         except OSError as error:
             self._failure = error
