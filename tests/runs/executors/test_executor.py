@@ -13,9 +13,7 @@ import pytest
 
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from tests.stored_rows import stored_end, stored_row
-from uwsim.bus import Node
 from uwsim.errors import NeverStarted, RunFailed
-from uwsim.messages import Empty, Image
 from uwsim.results.journal import Journal
 from uwsim.results.result_file import load
 from uwsim.runs.executors import executor
@@ -23,25 +21,7 @@ from uwsim.runs.executors.executor import Job, JobQueue, SerialExecutor, run_all
 from uwsim.runs.executors.processes import ProcessExecutor, picklable
 from uwsim.simulation import Cut
 
-HERE = "tests.runs.executors.test_executor"
-
-
-class Mortal:
-    """Takes its process with it at the ninth image, in level 2, unless a file is there."""
-
-    def start(self, node: Node) -> None:
-        self.n_images = 0
-        self.immortal = Path(str(node.parameters["immortal"]))
-        self.dies_once = node.parameters["dies"] == "once"
-        node.subscribe("/uwsim/camera1", Image, self.look)
-        node.call("startBench", Empty())
-
-    def look(self, image: Image) -> None:
-        self.n_images += 1
-        if self.n_images == 9 and not self.immortal.exists():
-            if self.dies_once:
-                self.immortal.touch()
-            os.kill(os.getpid(), signal.SIGKILL)
+ALGORITHMS = "tests.runs.executors.algorithms"
 
 
 @pytest.fixture
@@ -51,7 +31,7 @@ def benchmark(tmp_path: Path) -> Path:
 
 def mortal(tmp_path: Path, dies: str) -> dict[str, object]:
     settings = [f"algorithm.immortal={tmp_path / 'immortal'}", f"algorithm.dies={dies}"]
-    return {"algorithm": f"{HERE}:Mortal", "settings": settings}
+    return {"algorithm": f"{ALGORITHMS}:Mortal", "settings": settings}
 
 
 def killing_its_worker(tmp_path: Path) -> dict[str, object]:
@@ -89,20 +69,13 @@ def test_what_kills_every_worker_is_reported_in_its_row_and_tried_again_when_res
     good = bench_of(benchmark, tmp_path / "good", repeat=2)
     result, _ = run_all([deadly, good], ProcessExecutor(2))
     assert result.values("status") == ("ok", "algorithm error", "algorithm error")
-    said = f"{HERE}:Mortal was stopped at 0.268 s: its process ended (killed by SIGKILL)"
+    said = f"{ALGORITHMS}:Mortal was stopped at 0.268 s: its process ended (killed by SIGKILL)"
     assert result.why(1, "total") == result.why(2, "total") == said
     assert load(tmp_path / "good").values("status") == ("ok",) * 6
     (tmp_path / "immortal").touch()
     run_all([bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))])
     run(benchmark, tmp_path / "b", **mortal(tmp_path, "always"))
     assert fingerprint(tmp_path / "deadly") == fingerprint(tmp_path / "b")
-
-
-class Absent:
-    """Never starts anything."""
-
-    def start(self, node: Node) -> None:
-        pass
 
 
 @pytest.mark.parametrize(
@@ -113,7 +86,7 @@ class Absent:
 def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
     benchmark: Path, tmp_path: Path, executor: executor.Executor
 ) -> None:
-    absent = bench_of(benchmark, tmp_path / "absent", algorithm=f"{HERE}:Absent", repeat=2)
+    absent = bench_of(benchmark, tmp_path / "absent", algorithm="tests.failing:Absent", repeat=2)
     good = bench_of(benchmark, tmp_path / "good")
     with pytest.raises(NeverStarted, match="10 s of simulation time"):
         run_all([absent, good], executor)
@@ -188,21 +161,13 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     assert (bench.unfinished() == []) == (n_left == 3)
 
 
-class Wanders:
-    """Goes to another folder."""
-
-    def start(self, node: Node) -> None:
-        node.subscribe("/uwsim/camera1", Image, lambda _: os.chdir(str(node.parameters["where"])))
-        node.call("startBench", Empty())
-
-
 def test_an_algorithm_that_changes_the_working_directory_takes_no_result_with_it(
     benchmark: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "elsewhere").mkdir()
     settings = [f"algorithm.where={tmp_path / 'elsewhere'}"]
-    algorithm = f"{HERE}:Wanders"
+    algorithm = f"{ALGORITHMS}:Wanders"
     run(benchmark, Path("out"), algorithm=algorithm, settings=settings, repeat=2)
     assert len(load(tmp_path / "out").rows) == 6
     assert list((tmp_path / "elsewhere").iterdir()) == []

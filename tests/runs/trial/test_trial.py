@@ -3,7 +3,6 @@
 import inspect
 import json
 import re
-import sys
 from pathlib import Path
 
 import pytest
@@ -11,9 +10,7 @@ import pytest
 from tests import failing
 from tests.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, shared_column
-from uwsim.bus import Node
 from uwsim.errors import BadSetting, NeverStarted
-from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image
 from uwsim.results.result_file import load
 from uwsim.simulation import what_broke
 
@@ -31,42 +28,7 @@ def esm(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "a"
 
 
-class Counts:
-    """Publishes the number of its image as corners, to see what a level takes for its own."""
-
-    def start(self, node: Node) -> None:
-        self.n = 0.0
-        self.publish = node.publisher("cornersTopic", Float32MultiArray)
-        node.subscribe("/uwsim/camera1", Image, self.look)
-        node.serve("autoInit", GTpublish, self.initialise)
-        self.started = False
-        self.node = node
-        self.truth = None
-
-    def initialise(self, request: GTpublish) -> GTpublishResponse:
-        self.truth = request.groundTruth
-        return GTpublishResponse()
-
-    def look(self, image: Image) -> None:
-        from uwsim.messages import floats
-
-        if not self.started:
-            self.started = True
-            self.node.call("startBench", Empty())
-            return
-        self.publish(floats(self.truth))
-
-
-class SpeaksOnce(Counts):
-    """Says once what it was told, and then nothing more."""
-
-    def look(self, image: Image) -> None:
-        if self.n == 0.0:
-            super().look(image)
-            self.n = float(self.truth is not None)
-
-
-HERE = "tests.runs.trial.test_trial"
+ALGORITHMS = "tests.runs.trial.algorithms"
 
 
 def test_two_runs_with_one_seed_are_the_same_bytes(
@@ -199,7 +161,7 @@ def test_the_last_estimate_received_is_valid_in_the_original(tmp_path: Path) -> 
     file = write_benchmark(tmp_path, "1.6")
     for compat, status in (([], "timeout"), (["last-norm"], "ok")):
         out = tmp_path / status
-        result = run(file, out, algorithm=f"{HERE}:SpeaksOnce", levels=spoke, compat=compat)
+        result = run(file, out, algorithm=f"{ALGORITHMS}:SpeaksOnce", levels=spoke, compat=compat)
         assert result.values("status") == (status,)
     assert result.numbers("corners") == pytest.approx([0.0], abs=1e-4)
     never = run(
@@ -216,7 +178,7 @@ def test_latency_shows_in_what_is_scored(benchmark: Path, tmp_path: Path) -> Non
     result = run(
         benchmark,
         tmp_path / "a",
-        algorithm=f"{HERE}:Counts",
+        algorithm=f"{ALGORITHMS}:Counts",
         settings=["algorithm.latency_s=0.1"],
         levels=["fog=0"],
     )
@@ -240,49 +202,20 @@ def test_a_setting_of_the_scene_reaches_the_camera(benchmark: Path, tmp_path: Pa
     assert max(v for v in quiet.numbers("corners") if v is not None) < 0.01
 
 
-class Leaves:
-    """Ends the process, or means to."""
-
-    def start(self, node: Node) -> None:
-        node.subscribe("/uwsim/camera1", Image, lambda image: sys.exit(0))
-        node.call("startBench", Empty())
-
-
-class Shouts:
-    """Raises with colours and a second line."""
-
-    def start(self, node: Node) -> None:
-        node.subscribe("/uwsim/camera1", Image, self.look)
-        node.call("startBench", Empty())
-
-    def look(self, image: Image) -> None:
-        raise ValueError("\x1b[31mred\nnext")
-
-
-class Unmakeable:
-    """Wants what nobody gives."""
-
-    def __init__(self, wish: str) -> None:
-        self.wish = wish
-
-    def start(self, node: Node) -> None:
-        pass
-
-
 def test_an_algorithm_that_calls_exit_fails_alone(benchmark: Path, tmp_path: Path) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Leaves", levels=["fog=0"])
+    result = run(benchmark, tmp_path / "a", algorithm=f"{ALGORITHMS}:Leaves", levels=["fog=0"])
     assert result.values("status") == ("algorithm error",)
     assert "SystemExit" in str(result.why(0, "corners"))
 
 
 def test_a_level_alone_ends_when_the_algorithm_has_failed(benchmark: Path, tmp_path: Path) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Leaves", mode="independent")
+    result = run(benchmark, tmp_path / "a", algorithm=f"{ALGORITHMS}:Leaves", mode="independent")
     assert result.values("status") == ("algorithm error",) * 3
     assert max(result.numbers("taskTime")) < 0.15  # of 0.2 s
 
 
 def test_what_an_algorithm_says_is_one_printable_line(benchmark: Path, tmp_path: Path) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Shouts", levels=["fog=0"])
+    result = run(benchmark, tmp_path / "a", algorithm=f"{ALGORITHMS}:Shouts", levels=["fog=0"])
     why = str(result.why(0, "corners"))
     assert why.isprintable()
     assert r"\x1b[31mred\nnext" in why
@@ -290,7 +223,7 @@ def test_what_an_algorithm_says_is_one_printable_line(benchmark: Path, tmp_path:
 
 def test_an_algorithm_that_cannot_be_made_is_named(benchmark: Path, tmp_path: Path) -> None:
     with pytest.raises(NeverStarted, match=r"Unmakeable.*cannot be made: TypeError"):
-        run(benchmark, tmp_path / "a", algorithm=f"{HERE}:Unmakeable")
+        run(benchmark, tmp_path / "a", algorithm=f"{ALGORITHMS}:Unmakeable")
 
 
 @pytest.mark.parametrize("latency", ["-1", "soon"])
