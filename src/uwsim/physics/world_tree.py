@@ -41,18 +41,18 @@ def rebuild_world_tree(model: mujoco.MjModel) -> None:
     shapes = model.bvh_nodeid[rows][leaves].copy()
     boxes = model.bvh_aabb[rows][leaves].copy()  # (n, 6): middle, half edges [m]
     low, high = boxes[:, :3] - boxes[:, 3:], boxes[:, :3] + boxes[:, 3:]
+    tree_boxes, children = model.bvh_aabb[rows], model.bvh_child[rows]
+    depths, numbers = model.bvh_depth[rows], model.bvh_nodeid[rows]
     node = 0
     waiting: list[tuple[Ints, int, int, int]] = [(np.arange(len(leaves)), -1, 0, 0)]
     while waiting:
         members, parent, side, depth = waiting.pop()
         lower, upper = low[members].min(axis=0), high[members].max(axis=0)
-        at = first + node
-        model.bvh_aabb[at] = [*(0.5 * (lower + upper)), *(0.5 * (upper - lower))]
-        model.bvh_depth[at] = depth
-        model.bvh_child[at] = -1
-        model.bvh_nodeid[at] = shapes[members[0]] if len(members) == 1 else -1
+        tree_boxes[node, :3], tree_boxes[node, 3:] = 0.5 * (lower + upper), 0.5 * (upper - lower)
+        depths[node], children[node] = depth, -1
+        numbers[node] = shapes[members[0]] if len(members) == 1 else -1
         if parent >= 0:
-            model.bvh_child[first + parent, side] = node
+            children[parent, side] = node
         if len(members) > 1:
             left, right = _cut(members, low, high, depth)
             waiting += [(right, node, 1, depth + 1), (left, node, 0, depth + 1)]
@@ -82,25 +82,24 @@ def place_fixed_shapes(model: mujoco.MjModel, data: mujoco.MjData) -> None:
 def _cut(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints]:
     """Split the shapes of a node."""
     middles = low[members] + high[members]
-    orders = [members[np.argsort(middles[:, axis], kind="stable")] for axis in range(3)]
+    orders = members[np.argsort(middles, axis=0, kind="stable").T]  # (3, n): along each axis
+    if len(members) == 2:
+        return orders[0, :1], orders[0, 1:]
     if depth >= MAX_DEPTH:
         order = orders[int(np.argmax(np.ptp(middles, axis=0)))]
         half = len(order) // 2
         return order[:half], order[half:]
-    best, halves = np.inf, (members[:1], members[1:])
-    for order in orders:
-        below = _areas(low[order], high[order])[:-1]
-        above = _areas(low[order[::-1]], high[order[::-1]])[-2::-1]
-        counts = np.arange(1, len(order))
-        costs = below * counts + above * counts[::-1]
-        place = int(np.argmin(costs))
-        if costs[place] < best:
-            best, halves = float(costs[place]), (order[: place + 1], order[place + 1 :])
-    return halves
+    lows, highs = low[orders], high[orders]  # (3, n, 3)
+    below = _areas(lows, highs)[:, :-1]
+    above = _areas(lows[:, ::-1], highs[:, ::-1])[:, -2::-1]
+    counts = np.arange(1, len(members))
+    axis, place = divmod(int(np.argmin(below * counts + above * counts[::-1])), len(counts))
+    return orders[axis, : place + 1], orders[axis, place + 1 :]
 
 
-def _areas(low: Array, high: Array) -> Array:
-    """Half the surface of the box around the first 1, 2, ... of some boxes, (n,) [m2]."""
-    x, y, z = (np.maximum.accumulate(high, axis=0) - np.minimum.accumulate(low, axis=0)).T
+def _areas(lows: Array, highs: Array) -> Array:
+    """Half the surface of the box around the first 1, 2, ... of some rows of boxes, (3, n) [m2]."""
+    edges = np.maximum.accumulate(highs, axis=1) - np.minimum.accumulate(lows, axis=1)
+    x, y, z = np.moveaxis(edges, 2, 0)
     areas: Array = x * y + y * z + z * x
     return areas

@@ -19,7 +19,7 @@ of loose things, faces seen from both sides.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -29,7 +29,7 @@ import numpy.typing as npt
 from ...assets.mesh import Model
 from ...errors import UwsimError
 from ...geometry import Array, Pose
-from ...numerics.linear import dot, length, placed, product
+from ...numerics.linear import placed, product
 from .polygon_cache import cached_faces
 
 TRIMESHES = ("trimesh", "compound trimesh")
@@ -199,25 +199,56 @@ def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
         return ()
     thinnest = float(np.min(np.ptp(triangles.reshape(-1, 3), axis=0)))
     depth = THICKNESS if thinnest < FLAT else min(THICKNESS, thinnest)
-    return tuple(_plate(face, depth) for face in faces)
+    found: dict[int, CollisionShape] = {}
+    sizes = np.array([len(face) for face in faces])
+    for size in np.unique(sizes):
+        places = np.flatnonzero(sizes == size).tolist()
+        polygons = np.stack([faces[place] for place in places])
+        found.update(zip(places, _plates_of(polygons, depth), strict=True))
+    return tuple(found[place] for place in range(len(faces)))
 
 
-def _plate(face: Array, depth: float) -> CollisionShape:
-    """The solid behind a flat convex polygon, (k, 3) [m]: a slab if it is a rectangle."""
-    edges = np.roll(face, -1, axis=0) - face
-    normal = np.cross(face[1:-1] - face[0], face[2:] - face[0]).sum(axis=0)
-    normal /= length(normal)
-    lengths = np.linalg.norm(edges, axis=1)
-    is_square = abs(dot(edges[0], edges[1])) <= SQUARE * lengths[0] * lengths[1]
-    is_even = length(edges[0] + edges[2]) <= SQUARE * lengths[0]
-    if len(face) == 4 and is_square and is_even:
-        along = edges[0] / lengths[0]
-        turn = np.column_stack([along, np.cross(normal, along), normal])  # body_from_shape
-        middle = face.mean(axis=0) - 0.5 * depth * normal
-        half = (0.5 * float(lengths[0]), 0.5 * float(lengths[1]), 0.5 * depth)
-        return CollisionShape(kind="box", body_from_shape=Pose(middle, turn), size=half)
-    prism = np.concatenate([face, face - depth * normal])
-    return CollisionShape(kind="hull", body_from_shape=Pose.identity(), corners=prism)
+def _plates_of(faces: Array, depth: float) -> Iterator[CollisionShape]:
+    """The solids behind flat convex polygons, (n, k, 3) [m]: a slab behind a rectangle."""
+    edges = np.roll(faces, -1, axis=1) - faces
+    spokes = faces[:, 1:] - faces[:, :1]
+    normals = _sum(np.cross(spokes[:, :-1], spokes[:, 1:]))
+    normals /= np.sqrt(_dots(normals, normals))[:, None]
+    lengths = np.sqrt(_dots(edges, edges))  # (n, k)
+    if faces.shape[1] == 4:
+        first, second, third = edges[:, 0], edges[:, 1], edges[:, 2]
+        is_square = np.abs(_dots(first, second)) <= SQUARE * lengths[:, 0] * lengths[:, 1]
+        uneven = first + third
+        is_slab = is_square & (np.sqrt(_dots(uneven, uneven)) <= SQUARE * lengths[:, 0])
+    else:
+        is_slab = np.zeros(len(faces), bool)
+    along = edges[:, 0] / np.where(is_slab, lengths[:, 0], 1.0)[:, None]
+    turns = np.stack([along, np.cross(normals, along), normals], axis=2)  # body_from_shape
+    middles = _sum(faces) / faces.shape[1] - 0.5 * depth * normals
+    prisms = np.concatenate([faces, faces - (depth * normals)[:, None]], axis=1)
+    for n in range(len(faces)):
+        if is_slab[n]:
+            half = (0.5 * float(lengths[n, 0]), 0.5 * float(lengths[n, 1]), 0.5 * depth)
+            place = Pose(middles[n], turns[n])
+            yield CollisionShape(kind="box", body_from_shape=place, size=half)
+        else:
+            place = Pose.identity()
+            yield CollisionShape(kind="hull", body_from_shape=place, corners=prisms[n])
+
+
+def _sum(vectors: Array) -> Array:
+    """Sums of vectors (n, k, 3), first to last, (n, 3)."""
+    total: Array = vectors[:, 0]
+    for i in range(1, vectors.shape[1]):
+        total = total + vectors[:, i]
+    return total
+
+
+def _dots(left: Array, right: Array) -> Array:
+    """Scalar products of vectors (..., 3)."""
+    products = left * right
+    found: Array = products[..., 0] + products[..., 1] + products[..., 2]
+    return found
 
 
 def bounds(shapes: Sequence[CollisionShape]) -> CollisionShape:
