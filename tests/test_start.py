@@ -6,6 +6,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 LEFT_OUT = (
     *("cv2", "glfw", "lark", "matplotlib", "PIL"),
     *("pandas", "rosbags", "scipy.linalg", "trimesh"),
@@ -40,6 +42,7 @@ print(*(name for name in sys.argv[2:] if name in sys.modules))
 """
 
 
+@pytest.mark.slow
 def test_a_second_start_without_cameras_imports_no_library_that_it_does_not_use(
     tmp_path: Path,
 ) -> None:

@@ -178,7 +178,7 @@ def test_a_breaking_point_is_one_number_with_its_bound_and_its_runs_are_used_aga
 def test_two_workers_find_the_same_bytes_as_one(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    search = ["--until", "strain > 5", "--repeat", "3", "--tolerance", "0.1"]
+    search = ["--until", "strain > 5", "--repeat", "3", "--tolerance", "0.1", "--in-process"]
     assert envelope(capsys, *search)[0] == 0
     assert envelope(capsys, *search, "--out", "two", "--workers", "2")[0] == 0
     for name in ("envelope.json", "units"):
@@ -260,7 +260,7 @@ def test_a_second_updater_needs_a_chosen_value(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     call = ["envelope", "nested.xml", "--plugin", "own.py", "--over", "load"]
-    call += ["--until", "strain > 5", "--repeat", "1", "--tolerance", "0.5"]
+    call += ["--until", "strain > 5", "--repeat", "1", "--tolerance", "0.5", "--in-process"]
     assert main(call) == 2
     assert "also sweeps fog (3 levels); choose one, as --level fog=0" in capsys.readouterr().err
     assert main([*call, "--level", "fog=0.7"]) == 0

@@ -47,6 +47,7 @@ def test_contacts_that_find_no_room_are_reported(
     assert capfd.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 def test_a_run_that_diverges_leaves_no_file_in_a_worker_either(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:

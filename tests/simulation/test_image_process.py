@@ -61,7 +61,11 @@ def elsewhere(scene: str, topic: str) -> Iterator[tuple[Seen, ImageProcess, list
 
 @pytest.mark.parametrize(
     ("scene", "topic"),
-    [("cirs", "/uwsim/camera1"), ("structured-light-scene", "/camera"), ("dredging-scene", "")],
+    [
+        ("cirs", "/uwsim/camera1"),
+        pytest.param("structured-light-scene", "/camera", marks=pytest.mark.slow),
+        pytest.param("dredging-scene", "", marks=pytest.mark.slow),
+    ],
 )
 def test_images_are_the_same_bytes_with_the_stamps_of_their_samples(scene: str, topic: str) -> None:
     if topic not in (found := read_images(scene)):
@@ -90,6 +94,7 @@ def read_images(scene: str) -> list[str]:
         return sorted(simulation.images)
 
 
+@pytest.mark.slow
 def test_a_sample_that_is_due_too_soon_is_left_out_and_the_next_is_the_right_one() -> None:
     here = Seen("cirs", "/uwsim/camera1")
     with elsewhere("cirs", "/uwsim/camera1") as (there, process, _):
@@ -111,6 +116,7 @@ def test_a_sample_that_is_due_too_soon_is_left_out_and_the_next_is_the_right_one
         assert here.images[stamp] == pixels
 
 
+@pytest.mark.slow
 def test_a_process_that_is_killed_is_reported_and_images_are_drawn_here() -> None:
     here = Seen("cirs", "/uwsim/camera1")
     with elsewhere("cirs", "/uwsim/camera1") as (there, process, said):

@@ -180,6 +180,7 @@ def test_a_field_is_read_by_a_check_but_the_users_function_only_looked_for(
     assert "u:pythonFunction" in text.splitlines()[(diagnostic.line or 0) - 1]
 
 
+@pytest.mark.slow
 def test_the_bundled_scenes_have_no_such_error() -> None:
     for path in sorted(SCENE.parent.glob("*scene.xml")):
         assert [

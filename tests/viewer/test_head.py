@@ -68,7 +68,7 @@ def test_a_camera_is_where_the_simulation_has_it(described: Any) -> None:
 @pytest.mark.parametrize(
     ("scene", "key", "n"),
     [
-        ("shipwreck-scene", "lamps", 1),
+        pytest.param("shipwreck-scene", "lamps", 1, marks=pytest.mark.slow),
         ("structured-light-scene", "projector", 4),
         ("currents-scene", "vehicles", 1),
     ],

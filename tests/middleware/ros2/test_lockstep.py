@@ -53,6 +53,7 @@ class FakeNode:
         self.barrier = callback
 
 
+@pytest.mark.slow
 def test_each_image_is_answered_in_its_step_and_two_simulations_have_a_node_each() -> None:
     with running() as first, peer(NODE, first.domain, prelude="") as node:
         answers_of(first, 10)

@@ -64,6 +64,7 @@ def test_what_it_was_asked_is_done_here_if_it_dies(tmp_path: Path) -> None:
     assert all((tmp_path / name / "report.html").is_file() for name in ("before", "after"))
 
 
+@pytest.mark.slow
 def test_a_control_whose_process_died_on_the_way_has_the_same_bytes(tmp_path: Path) -> None:
     benchmark = write_benchmark(tmp_path, "0.2")
     run(benchmark, tmp_path / "whole", algorithm="frozen")
@@ -88,6 +89,7 @@ with BackgroundProcess(load_reporter) as background:
 """
 
 
+@pytest.mark.slow
 def test_does_not_outlive_a_parent_that_was_killed() -> None:
     parent = subprocess.Popen([sys.executable, "-c", PARENT], stdout=subprocess.PIPE, text=True)
     assert parent.stdout is not None

@@ -6,13 +6,18 @@ import json
 
 import pytest
 
+from tests.short_trial import DATA
 from tests.simulation.test_lamp import LAMP, night
-from uwsim import load
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.errors import ResultError
 from uwsim.runs.trial.pilot_inputs import PilotInputs, read_inputs
 from uwsim.runs.trial.pilot_topics import pilot_topics
+from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
+
+
+def opened(scene: str) -> Simulation:
+    return Simulation(read_scene(DATA / "scenes" / f"{scene}.xml"), is_blind=True)
 
 
 def inputs(axes: list[str], *values: list[float]) -> bytes:
@@ -24,7 +29,7 @@ def inputs(axes: list[str], *values: list[float]) -> bytes:
 def test_inputs_of_an_earlier_version_are_sent_and_kept_as_they_were() -> None:
     first = inputs(list(AXES[:13]), [0.5] + [0.0] * 12)
     stored = read_inputs(first)
-    with load("currents-scene") as simulation:
+    with opened("currents-scene") as simulation:
         kept = PilotInputs(simulation, lambda: None, stored)
         simulation.advance(0.1)
         assert kept.data() == first
@@ -54,7 +59,7 @@ def thrust(simulation: Simulation) -> list[float]:
 
 
 def test_a_pilot_drives_the_propeller_of_a_vehicle_that_takes_no_twist() -> None:
-    with load("remus-scene") as simulation:
+    with opened("remus-scene") as simulation:
         piloted(simulation, thruster1=0.8)
         before = simulation.pose("remus", "W").position
         simulation.advance(2.0)
@@ -64,7 +69,7 @@ def test_a_pilot_drives_the_propeller_of_a_vehicle_that_takes_no_twist() -> None
 
 
 def test_a_pilot_drives_a_single_thruster_of_a_vehicle_that_takes_twists_too() -> None:
-    with load("grasp-scene") as simulation:
+    with opened("grasp-scene") as simulation:
         names = simulation.world.vehicle("girona500").thrusters
         piloted(simulation, thruster2=-0.5)
         simulation.advance(1.0)
