@@ -13,13 +13,16 @@ ROOT = Path(__file__).parent.parent
 SITE = ROOT / "scripts" / "site"
 sys.path.insert(0, str(SITE))
 
+NOT_THERE = "the site's tools are not installed: scripts/setup docs"
+pytest.importorskip("latex2mathml", reason=NOT_THERE)
+
 from formulas import with_mathml  # noqa: E402
 from links import broken_links, loaded_from_elsewhere  # noqa: E402
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    pytest.importorskip("zensical", reason="the site's tools are not installed: scripts/setup docs")
+    pytest.importorskip("zensical", reason=NOT_THERE)
     out = tmp_path_factory.mktemp("docs") / "site"
     command = [sys.executable, str(SITE / "build.py"), str(out)]
     done = subprocess.run(command, capture_output=True, text=True)

@@ -173,6 +173,7 @@ def test_a_callback_limit_is_a_time(limit: str) -> None:
         executor_of("1", float(limit))
 
 
+@pytest.mark.slow
 def test_a_clock_that_is_set_back_does_not_change_how_long_a_run_took(
     benchmark: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

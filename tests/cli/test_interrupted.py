@@ -79,6 +79,7 @@ def test_ctrl_c_while_libraries_are_loaded_ends_a_command_with_one_line(tmp_path
     assert (process.returncode, said) == (130, "uwsim: interrupted.\n")
 
 
+@pytest.mark.slow
 def test_ctrl_c_while_the_interpreter_leaves_keeps_the_exit_status() -> None:
     late = """
 import os, signal, sys

@@ -13,6 +13,7 @@ from uwsim.cli.replay import opened, show_page
 from uwsim.errors import BadSetting
 
 
+@pytest.mark.slow
 def test_the_rows_of_a_report_link_to_a_replay_that_is_there(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

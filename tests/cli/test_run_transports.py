@@ -13,7 +13,7 @@ def test_a_scene_is_a_node_of_ros_1_and_starts_a_master(
 ) -> None:
     port = free_port()
     monkeypatch.setenv("ROS_MASTER_URI", f"http://127.0.0.1:{port}")
-    assert main(["run", "shapes-scene", "--ros1", "--speed", "0", "--for", "0.1s"]) == 0
+    assert main(["run", "currents-scene", "--ros1", "--speed", "0", "--for", "0.1s"]) == 0
     assert (
         f"no master answers; one was started at http://127.0.0.1:{port}/" in capfd.readouterr().err
     )
@@ -30,7 +30,7 @@ def test_a_wrong_master_is_one_clean_line(
     capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, uri: str, error: str
 ) -> None:
     monkeypatch.setenv("ROS_MASTER_URI", uri)
-    assert main(["run", "shapes-scene", "--ros1", "--for", "0.1s"]) == 2
+    assert main(["run", "currents-scene", "--ros1", "--for", "0.1s"]) == 2
     printed = capfd.readouterr().err
     assert error in printed
     assert "Traceback" not in printed

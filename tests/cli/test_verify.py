@@ -197,6 +197,7 @@ def test_every_altered_value_in_the_head_of_a_unit_is_named(
     assert text.count("units/00001.jsonl: ") == 1
 
 
+@pytest.mark.slow
 def test_where_no_result_is_the_error_says_what_is_there_and_how_to_go_on(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -24,6 +24,7 @@ ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 SCENES = sorted(DATA.glob("*.xml")) + sorted(
     Path(ORIGINALS).glob("scenes/*.xml") if ORIGINALS else ()
 )
+QUICK = ("cirs", "currents-scene", "dredging-scene", "grasp-scene", "visibility-scene")
 STATES = "/states/{}"
 
 
@@ -69,7 +70,11 @@ def check_joints(scene: SceneSpec, n_steps: int = 0) -> None:
                 assert np.allclose(found.rotation, base_from_link.rotation, atol=1e-9), link
 
 
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: f"{path.parents[1].name}-{path.stem}")
+@pytest.mark.parametrize(
+    "path",
+    [path if path.stem in QUICK else pytest.param(path, marks=pytest.mark.slow) for path in SCENES],
+    ids=lambda path: f"{path.parents[1].name}-{path.stem}",
+)
 def test_every_joint_begins_where_the_file_says(path: Path) -> None:
     check_joints(read_scene(path))
 

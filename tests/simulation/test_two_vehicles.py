@@ -38,6 +38,7 @@ def collected() -> tuple[dict[str, list[tuple[float, Any]]], dict[str, str]]:
         return heard, simulation.topics
 
 
+@pytest.mark.slow
 def test_every_topic_has_its_type_its_rate_and_sound_values() -> None:
     heard, types = collected()
     assert {name: (types[name], len(found)) for name, found in heard.items()} == PUBLISHED

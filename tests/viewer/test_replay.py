@@ -1,7 +1,9 @@
 from __future__ import annotations
 
 import re
+from html import unescape
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -14,14 +16,25 @@ from uwsim.viewer.pack import from_text, numbers, unpacked
 from uwsim.viewer.replay import Replay
 
 
-def test_the_same_result_gives_the_same_bytes(stored: Path, tmp_path: Path) -> None:
-    first, second = (Replay(stored).save(tmp_path / name) for name in ("a.html", "b.html"))
-    assert first.read_bytes() == second.read_bytes()
-    assert first.stat().st_size < 2_000_000
+@pytest.fixture(scope="module")
+def page(stored: Path) -> str:
+    return Replay(stored).html()
 
 
-def test_levels_and_curves_are_those_of_the_result(stored: Path) -> None:
-    head, data = unpacked(Replay(stored).pack())
+def pack_of(page: str) -> tuple[dict[str, Any], bytes]:
+    found = re.search(r'id="pack">([^<]+)<', page)
+    assert found is not None
+    return unpacked(from_text(found[1]))
+
+
+def test_the_same_result_gives_the_same_bytes(stored: Path, page: str, tmp_path: Path) -> None:
+    saved = Replay(stored).save(tmp_path / "a.html")
+    assert saved.read_bytes() == page.encode()
+    assert saved.stat().st_size < 2_000_000
+
+
+def test_levels_and_curves_are_those_of_the_result(stored: Path, page: str) -> None:
+    head, data = pack_of(page)
     (trial,) = head["trials"]
     assert [level["values"] for level in trial["levels"]] == [{"fog": f} for f in (0.0, 0.4, 0.8)]
     assert trial["levels"][0]["status"] == "ok"
@@ -33,8 +46,7 @@ def test_levels_and_curves_are_those_of_the_result(stored: Path) -> None:
     assert found == pytest.approx([v for v in logged if v is not None], rel=1e-6)
 
 
-def test_the_page_loads_nothing_and_may_not(stored: Path) -> None:
-    page = Replay(stored).html()
+def test_the_page_loads_nothing_and_may_not(page: str) -> None:
     assert "connect-src 'none'" in page
     assert not re.search(r"""(src|href)=["'](?!data:)""", page.split('id="pack"')[0])
     assert page.count("</script>") == 2
@@ -50,9 +62,7 @@ def test_a_title_is_text(tmp_path: Path) -> None:
 def test_a_notebook_shows_it_in_a_frame(stored: Path) -> None:
     shown = Replay(stored)._repr_html_()
     assert shown.startswith('<iframe srcdoc="&lt;!doctype html&gt;')
-    pack = re.search(r"id=&quot;pack&quot;&gt;([^&]+)&lt;", shown)
-    assert pack is not None
-    assert unpacked(from_text(pack[1]))[0]["uwsim_head"] == 1
+    assert pack_of(unescape(shown))[0]["uwsim_head"] == 1
 
 
 def test_another_suffix_is_refused(stored: Path, tmp_path: Path) -> None:
@@ -72,6 +82,7 @@ def test_the_script_is_small_and_names_its_licences() -> None:
     assert "The MIT License" in script.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_what_a_seed_puts_elsewhere_is_there(tmp_path: Path) -> None:
     scene = (DATA / "scenes" / "visibility-scene.xml").read_text(encoding="utf-8")
     drawn = "<u:path>object[blackbox].position.x</u:path><u:low>1.9</u:low><u:high>2.1</u:high>"

@@ -80,6 +80,7 @@ def test_a_recording_of_a_run_is_seen_in_3d_panels(tmp_path: Path, more: str) ->
     assert "<robot" in found["/robot_description"][0].data
 
 
+@pytest.mark.slow
 def test_shapes_are_where_the_renderer_has_them(tmp_path: Path) -> None:
     path = tmp_path / "run.mcap"
     assert main(["run", "shapes-scene", "--for", "100ms", "--record", str(path)]) == 0

@@ -519,6 +519,7 @@ def test_the_page_holds_everything_loads_nothing_and_runs_nothing(written: Path)
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_plots_have_the_same_bytes_every_time(
     three: Comparison, written: Path, tmp_path: Path
 ) -> None:
@@ -599,7 +600,16 @@ def test_a_level_named_like_a_number_of_the_comparison_does_not_replace_it_in_th
     assert (line["n (level)"], line["n"]) == ("0.0", "3")
 
 
-@pytest.mark.parametrize("make", [visibility, nothing_measured, one_level, nested, frozen])
+@pytest.mark.parametrize(
+    "make",
+    [
+        visibility,
+        *(
+            pytest.param(make, marks=pytest.mark.slow)
+            for make in (nothing_measured, one_level, nested, frozen)
+        ),
+    ],
+)
 def test_any_results_can_be_compared(make: Callable[[], Result], tmp_path: Path) -> None:
     first = make()
     second = replace(first, run=replace(first.run, algorithm="other"))

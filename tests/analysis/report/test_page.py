@@ -463,6 +463,7 @@ def test_where_a_body_is_in_the_image_has_no_floor(tmp_path: Path) -> None:
     assert "floor of the ground truth" not in page_of(replace(base, columns=columns), tmp_path).text
 
 
+@pytest.mark.slow
 def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
     base = visibility()
     rows = tuple((0.001 * i, *base.rows[26][1:]) for i in range(5_000))

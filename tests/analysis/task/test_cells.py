@@ -86,6 +86,7 @@ def test_the_mean_time_in_each_phase() -> None:
     assert phase_means(result, task_cells(result)[0]) == {"search": 10.0, "lift": 15.0}
 
 
+@pytest.mark.slow
 def test_the_figures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
     first = draw_task_figures(grasping(), tmp_path / "a")
     again = draw_task_figures(grasping(), tmp_path / "b")

@@ -184,6 +184,7 @@ def test_rows_carry_lengths_and_the_column_its_unit(tmp_path: Path) -> None:
     assert str(plan.levels()[3]) == "attenuationLength=1"
 
 
+@pytest.mark.slow
 def test_the_result_has_a_column_in_metres_by_which_levels_are_chosen(tmp_path: Path) -> None:
     make_plan(tmp_path, Idle, UPDATER)
     file, out = tmp_path / "benchmark.xml", tmp_path / "out"

@@ -156,6 +156,7 @@ def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
     until(lambda: not sim.bus.has_readers("camera"), graph.step)
 
 
+@pytest.mark.slow
 def test_a_flood_of_messages_is_bounded(graph: Graph) -> None:
     sim = graph.node()
     found: list[Float64] = []
@@ -206,7 +207,10 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
         (b"\x10\x00", "in the middle of a length"),
     ],
 )
-def test_a_publisher_that_breaks_off_is_tried_again(graph: Graph, sent: bytes, said: str) -> None:
+def test_a_publisher_that_breaks_off_is_tried_again(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, sent: bytes, said: str
+) -> None:
+    monkeypatch.setattr("uwsim.middleware.ros1.subscription.RETRY", 0.05)  # [s]
     sim = graph.node()
     found: list[Float64] = []
     sim.bus.subscribe("cmd", Float64, found.append)

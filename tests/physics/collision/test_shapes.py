@@ -129,9 +129,10 @@ def holds(shape: CollisionShape, point: tuple[float, float, float]) -> bool:
     return bool(np.all((local >= low) & (local <= high)))
 
 
-def test_a_mesh_with_too_many_faces_says_what_to_do() -> None:
+def test_a_mesh_with_too_many_faces_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("uwsim.physics.collision.shapes.MAX_PIECES", 100)
     rng = np.random.Generator(np.random.Philox(1))
-    points = rng.uniform(size=(3 * MAX_PIECES + 3, 3))
+    points = rng.uniform(size=(3 * 100 + 3, 3))
     soup = mesh_of(points.tolist(), np.arange(len(points)).reshape(-1, 3).tolist())
     with pytest.raises(UwsimError, match="<collisionShape>"):
         shapes_of(soup, SAME, "trimesh", is_fixed=True)

@@ -104,7 +104,7 @@ def test_under_rk4_a_free_vehicle_agrees_with_scipy_to_1e_8(damped: bool) -> Non
     assert attitude < 1e-8
 
 
-@pytest.mark.parametrize("theta", [0.0, 0.5])
+@pytest.mark.parametrize("theta", [pytest.param(0.0, marks=pytest.mark.slow), 0.5])
 def test_implicitfast_at_2_ms_stays_within_5_mm_when_everything_acts(theta: float) -> None:
     built = model(damped=True, integrator="implicitfast", timestep=0.002, theta=theta)
     water, data, start = begin(built)

@@ -58,6 +58,7 @@ def thrust(simulation: Simulation) -> list[float]:
     return commanded
 
 
+@pytest.mark.slow
 def test_a_pilot_drives_the_propeller_of_a_vehicle_that_takes_no_twist() -> None:
     with opened("remus-scene") as simulation:
         piloted(simulation, thruster1=0.8)
@@ -89,7 +90,7 @@ def test_a_pilot_dims_the_lamps_of_the_scene() -> None:
 
 
 def test_a_change_is_published_in_the_step_in_which_it_comes_unless_one_has_just_been() -> None:
-    with load("remus-scene") as simulation:
+    with opened("remus-scene") as simulation:
         held = [0.0] * len(AXES)
         kept = PilotInputs(simulation, lambda: tuple(held))
         simulation.advance(0.1)

@@ -182,6 +182,7 @@ def test_the_report_says_what_the_seed_changes(played: Path) -> None:
     assert "uniform 1.95 to 2.05 m" in page
 
 
+@pytest.mark.slow
 def test_render_shows_the_scene_of_the_seed(tmp_path: Path) -> None:
     images = []
     for seed, *others in ((1,), (2,), (1, "--set", "object[blackbox].position.x=2.4")):

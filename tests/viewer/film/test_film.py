@@ -181,6 +181,7 @@ def test_a_smooth_view_is_the_mean_of_a_larger_one(trial: RecordedTrial) -> None
     assert (off > 1.0).mean() < 0.01  # pixels at edges
 
 
+@pytest.mark.slow
 def test_a_webp_is_written_twice_with_the_same_bytes(
     result: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
