@@ -217,6 +217,12 @@ class _Folders:
 
         return has_model(name, named_by=named_by, data_path=self._data_path)
 
+    def doubtful_size(self, name: str, scale: tuple[float, float, float], named_by: Path) -> str:
+        """Return why a robot's mesh is likely not in metres; empty if it may be."""
+        from ..assets.doubtful_size import doubtful_size
+
+        return doubtful_size(name, scale, named_by=named_by, data_path=self._data_path)
+
     def searched(self, named_by: Path) -> str:
         """Return the folders that were searched, those that exist."""
         from ..assets import folders_searched

@@ -135,6 +135,8 @@ def check_robot(
                 diagnostics.warning(
                     shape, f"there is no model {name!r}, nor a stand-in: a labelled box"
                 )
+            elif why := library.doubtful_size(name, shape.scale, path):
+                diagnostics.warning(shape, why)
     return diagnostics.all()
 
 

@@ -31,6 +31,9 @@ class Library(Protocol):
     def unreadable(self, name: str, named_by: Path) -> str:
         """Why the file of a model cannot be read here; empty if it can, or is not there."""
 
+    def doubtful_size(self, name: str, scale: tuple[float, float, float], named_by: Path) -> str:
+        """Why a robot's mesh is likely not in metres; empty if it may be."""
+
     def searched(self, named_by: Path) -> str:
         """The folders that were searched."""
 
