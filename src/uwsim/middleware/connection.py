@@ -55,11 +55,12 @@ class ConnectionSpec:
             stack.callback(connection.close)
             yield connection.bridge
         if self.ros2:
+            from .log import Log
             from .ros2.adapter import Ros2
-            from .ros2.settings import settings_from
+            from .ros2.choice import open_node
 
-            more = os.environ.get("CYCLONEDDS_URI", "")
-            ros2 = Ros2(bus, clock, settings_from(os.environ, self.domain), more=more)
+            log = Log("ros2")
+            ros2 = Ros2(bus, clock, open_node(os.environ, self.domain, log), log)
             stack.callback(ros2.close)
             yield ros2
         if self.web is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -9,7 +10,7 @@ from tests.ros2_peers import free_domain
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros2.adapter import Ros2
-from uwsim.middleware.ros2.settings import Ros2Settings
+from uwsim.middleware.ros2.choice import open_node
 
 
 class Simulator:
@@ -18,9 +19,10 @@ class Simulator:
     def __init__(self, domain: int) -> None:
         self.bus, self.time, self.domain = Bus(), 0.0, domain
         self.lines: list[str] = []
-        self.bridge = Ros2(
-            self.bus, lambda: self.time, Ros2Settings(domain=domain), log=Log("", self.lines.append)
-        )
+        log = Log("", self.lines.append)
+        node = open_node(os.environ, domain, log)
+        self.lines.clear()  # which node it is
+        self.bridge = Ros2(self.bus, lambda: self.time, node, log)
 
     def step(self) -> None:
         """Pass one step boundary."""

@@ -26,7 +26,7 @@ from tests.middleware.ros2.simulator import Simulator, running
 from uwsim.middleware.encodings import from_cdr, to_cdr
 from uwsim.middleware.ros2.participant import Participant, Writer
 from uwsim.middleware.ros2.quality import Quality
-from uwsim.middleware.ros2.raw_types import RawSample, raw_type
+from uwsim.middleware.ros2.raw_types import raw_type
 from uwsim.middleware.ros2.settings import Ros2Settings
 from uwsim.middleware.types import ros2_store
 
@@ -128,8 +128,8 @@ def test_a_sample_that_is_no_message_is_refused_and_reported(simulator: Simulato
     inbox = simulator.bus.inbox("text", String)
     receive = partial(simulator.bridge._receive, "text", String)
     for garbage in (b"", b"\x00\x01\x00\x00", b"\x00\x01\x00\x00" + b"\xff" * 40):
-        receive(RawSample(garbage))
-    receive(RawSample(text("good")))
+        receive(garbage)
+    receive(text("good"))
     simulator.step()
     assert [each.data for each in inbox.take()] == ["good"]
     assert sum("/text: a message was refused" in line for line in simulator.lines) == 3

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
-from ...errors import AllErrors, BadSetting, MissingExtra, RunFailed
+from ...errors import AllErrors, BadSetting, RunFailed
 from .help_texts import CONNECTED, in_group
 from .web_options import (
     CLIENT_LIMIT,
@@ -143,20 +142,13 @@ class ConnectionOptions:
                 raise BadSetting("--max-lag is of a run in real time; give its --speed.")
         with wrong.kept():
             if self.ros2:
-                self._check_ros2()
+                from ...middleware.ros2.choice import check
+
+                check(os.environ, self.domain)
         with wrong.kept():
             self.web_options()
         with wrong.kept():
             check_clients(self.client or (), self.client_limit, self.transports)
-
-    def _check_ros2(self) -> None:
-        if importlib.util.find_spec("cyclonedds") is None:
-            raise MissingExtra(
-                "--ros2: Cyclone DDS is not installed. Install it with: pip install uwsim[ros2]"
-            )
-        from ...middleware.ros2.settings import settings_from
-
-        settings_from(os.environ, self.domain)
 
     def spec(self) -> ConnectionSpec:
         """Return what is opened; raises BadSetting."""

@@ -1,7 +1,7 @@
-"""The simulator as a node of ROS 2, on DDS (`uwsim run --ros2`).
+"""The simulator as a node of ROS 2 (`uwsim run --ros2`).
 
-It needs the extra ``ros2`` (Cyclone DDS), and no ROS 2. `adapter` connects a bus; `participant` and
-`presence` make a node that ROS 2 knows as one of its own.
+`adapter` connects a bus to a node, of which there are two (`choice`): `rclpy_node` is one of rclpy,
+where ROS 2 is installed; `dds_node` needs the extra ``ros2`` (Cyclone DDS), and no ROS 2.
 """
 
 from __future__ import annotations

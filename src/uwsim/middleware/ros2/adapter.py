@@ -1,4 +1,4 @@
-"""The bus as a node of a ROS 2 graph, without an installation of ROS 2.
+"""The bus as a node of a ROS 2 graph.
 
 Endpoints follow the bus: what is published there has a writer, what is read there has a reader, and
 services are offered. A camera renders while a reader matches its writer. Messages are encoded
@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping
+from concurrent.futures import Future
 from functools import partial
-from typing import Any
 
 from ...bus import Bus, TopicEnds
 from ...errors import BadMessage, UwsimError
@@ -21,19 +21,10 @@ from ..encodings import from_cdr, to_cdr
 from ..log import Log
 from ..queues import MAX_ITEMS, LatestQueue
 from ..stamps import clock_time, inward, outward
-from ..types import message_class, ros2_store, wire_service, wire_type
-from .names import topic_name, type_hash_data
-from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
-from .presence import Presence
+from ..types import message_class, wire_service
+from .node import BytesReader, BytesWriter, Endpoint, Ros2Node
 from .quality import CLOCK, Quality, quality_of
-from .raw_types import RawSample, raw_type
-from .service_server import ServiceServer
-from .settings import Ros2Settings
 
-NODE = "uwsim"
-"""Name of the node."""
-LEASE_S = 10.0
-"""How long a node may be silent before it counts as gone, as Cyclone DDS has it [s]."""
 CLOSE_S = 5.0
 """How long the last messages may take at the end [s]."""
 
@@ -44,38 +35,25 @@ class Ros2(Bridge):
     Args:
         bus: of the simulation.
         clock: returns the simulation time [s].
-        settings: which domain, and on which network.
-        more: configuration of Cyclone DDS by the user, which overrides ours (``CYCLONEDDS_URI``).
+        node: in the graph; `close` closes it.
         log: where events are reported.
-
-    Raises:
-        UwsimError: the domain cannot be joined.
     """
 
     must_meet = invites = True
 
-    def __init__(
-        self,
-        bus: Bus,
-        clock: Callable[[], float],
-        settings: Ros2Settings,
-        *,
-        more: str = "",
-        log: Log | None = None,
-    ) -> None:
-        super().__init__(bus, clock, log or Log("ros2"))
-        self._participant = Participant(settings.domain, settings.configuration(more))
-        self._presence = Presence(self._participant, NODE)
-        self._writers: dict[str, Writer] = {}
-        self._readers: dict[str, Any] = {}
-        self._servers: dict[str, ServiceServer] = {}
+    def __init__(self, bus: Bus, clock: Callable[[], float], node: Ros2Node, log: Log) -> None:
+        super().__init__(bus, clock, log)
+        self._node = node
+        self._writers: dict[str, BytesWriter] = {}
+        self._readers: dict[str, BytesReader] = {}
+        self._servers: dict[str, Endpoint] = {}
         self._whole: set[str] = set()
         self._outgoing: LatestQueue[tuple[str, object]] = LatestQueue()
-        self._types: dict[type, type[RawSample]] = {}
         self._clock_class = message_class("rosgraph_msgs/Clock")
         self._n_clocks = 0
         self._add_writer(CLOCK, self._clock_class, self._on_clocks)
-        self._presence.tell()
+        node.tell()
+        self._stop_elsewhere = bus.services.serve_elsewhere(node.offers, self._ask)
         self._thread = threading.Thread(target=self._write, name="uwsim-ros2-out", daemon=True)
         self._thread.start()
 
@@ -84,30 +62,23 @@ class Ros2(Bridge):
         published = {name: ends for name, ends in topics.items() if ends.is_published}
         read = {name: ends for name, ends in topics.items() if ends.is_read}
         for name in sorted(set(self._writers) - set(published) - {CLOCK}):
-            self._drop(self._writers.pop(name).entity)
+            self._writers.pop(name).close()
         for name in sorted(set(self._readers) - set(read)):
-            self._drop(self._readers.pop(name))
+            self._readers.pop(name).close()
         for name in sorted(set(published) - set(self._writers)):
-            self._add_writer(name, published[name].type, _Demand(self, name))
+            self._add_writer(name, published[name].type, _Demand(self, name, self._node.lease))
         for name in sorted(set(read) - set(self._readers)):
             self._add_reader(name, read[name].type)
-        self._presence.tell()
+        self._node.tell()
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Offer the services of the bus."""
         for name in sorted(set(self._servers) - set(services)):
-            server = self._servers.pop(name)
-            self._presence.remove(server.reader)
-            self._presence.remove(server.writer.entity)
-            server.close()
+            self._servers.pop(name).close()
         for name in sorted(set(services) - set(self._servers)):
             kind = wire_service(services[name])
-            server = ServiceServer(
-                self._participant, name, kind, partial(self.request, name), self.log
-            )
-            self._servers[name] = server
-            self._presence.add(readers=(server.reader,), writers=(server.writer.entity,))
-        self._presence.tell()
+            self._servers[name] = self._node.server(name, kind, partial(self.request, name))
+        self._node.tell()
 
     def send(self, topic: str, message: object) -> None:
         """Queue a message; the oldest are dropped while readers are too slow."""
@@ -125,13 +96,13 @@ class Ros2(Bridge):
         name = topic.lstrip("/")
         self._whole.add(name)
         if name in self._readers:
-            self._drop(self._readers.pop(name))
+            self._readers.pop(name).close()
             self._add_reader(name, self._topics[name].type)
 
     def tick(self) -> None:
-        """Tell the time when it is due, and whether the thread of DDS has ended."""
-        if self._participant.error is not None:
-            self.log.say(f"stopped: {self._participant.error}", kind="stopped")
+        """Tell the time when it is due, and whether the thread of the node has ended."""
+        if self._node.error is not None:
+            self.log.say(f"stopped: {self._node.error}", kind="stopped")
         super().tick()
 
     def publish_clock(self) -> None:
@@ -147,65 +118,42 @@ class Ros2(Bridge):
     def is_fed(self, topic: str) -> bool:
         """Whether a writer outside matches the reader of ``topic``."""
         reader = self._readers.get(topic)
-        return reader is not None and len(reader.get_matched_publications()) > 0
+        return reader is not None and reader.n_writers > 0
 
     def close(self) -> None:
         """Send what waits, and leave the graph."""
         self.send("", None)
         self._thread.join(timeout=CLOSE_S)
         self._outgoing.close()
-        self._participant.close()
+        self._stop_elsewhere()
+        self._node.close()
         super().close()
 
-    def _on_clocks(self, writer: Any) -> None:
-        self._n_clocks = len(writer.get_matched_subscriptions())
+    def call_outside(self, name: str, request: object) -> Future[object]:
+        """Call a service that another node offers."""
+        return self._node.call(name, request)
+
+    def _on_clocks(self, n_readers: int) -> None:
+        self._n_clocks = n_readers
         self._next_clock = 0.0
 
-    def _add_writer(self, name: str, type: type, on_readers: Callable[[Any], None]) -> None:
-        wire = wire_type(type)
-        assert wire is not None
-        writer = self._participant.writer(
-            topic_name(name),
-            self._raw(type),
-            quality_of(name),
-            user_data=type_hash_data(wire.type_hash),
-            events={READERS_CHANGED: on_readers},
-        )
-        self._writers[name] = writer
-        self._presence.add(writers=(writer.entity,))
+    def _add_writer(self, name: str, type: type, on_readers: Callable[[int], None]) -> None:
+        self._writers[name] = self._node.writer(name, type, quality_of(name), on_readers)
 
     def _add_reader(self, name: str, type: type) -> None:
-        wire = wire_type(type)
-        assert wire is not None
-        reader = self._participant.reader(
-            topic_name(name),
-            self._raw(type),
-            Quality(depth=MAX_ITEMS, is_latched=name in (*LATCHED, *self._whole), ignores_own=True),
-            partial(self._receive, name, type),
-            user_data=type_hash_data(wire.type_hash),
-            events={WRITER_REFUSED: partial(self._refuse, name)},
+        is_latched = name in (*LATCHED, *self._whole)
+        quality = Quality(depth=MAX_ITEMS, is_latched=is_latched, ignores_own=True)
+        self._readers[name] = self._node.reader(
+            name, type, quality, partial(self._receive, name, type), partial(self._refuse, name)
         )
-        self._readers[name] = reader
-        self._presence.add(readers=(reader,))
 
-    def _raw(self, type: type) -> type[RawSample]:
-        if type not in self._types:
-            wire = wire_type(type)
-            assert wire is not None
-            self._types[type] = raw_type(ros2_store(), wire.ros2_name)
-        return self._types[type]
-
-    def _drop(self, entity: Any) -> None:
-        self._presence.remove(entity)
-        self._participant.forget(entity)
-
-    def _receive(self, name: str, type: type, sample: RawSample) -> None:
+    def _receive(self, name: str, type: type, data: bytes) -> None:
         try:
-            self.put(name, inward(from_cdr(type, sample.data)))
+            self.put(name, inward(from_cdr(type, data)))
         except BadMessage as error:
             self.log.say(f"/{name}: a message was refused: {error}", kind=f"refused {name}")
 
-    def _refuse(self, name: str, _reader: Any) -> None:
+    def _refuse(self, name: str) -> None:
         self.log.say(
             f"/{name}: a publisher offers best effort only; it is not read, as commands must not "
             "be lost: set its reliability to RELIABLE",
@@ -236,18 +184,17 @@ class Ros2(Bridge):
 class _Demand:
     """Tells a bridge how many outside read a topic, from their changing number."""
 
-    def __init__(self, bridge: Bridge, topic: str) -> None:
-        self._bridge, self._topic, self._n = bridge, topic, 0
+    def __init__(self, bridge: Bridge, topic: str, lease: str) -> None:
+        self._bridge, self._topic, self._lease, self._n = bridge, topic, lease, 0
 
-    def __call__(self, writer: Any) -> None:
-        n_readers = len(writer.get_matched_subscriptions())
+    def __call__(self, n_readers: int) -> None:
         for _ in range(n_readers - self._n):
             self._bridge.want(self._topic)
         for _ in range(self._n - n_readers):
             self._bridge.unwant(self._topic)
         if n_readers < self._n:
             self._bridge.log.say(
-                f"/{self._topic}: a reader has left, or was not heard of for {LEASE_S:g} s",
+                f"/{self._topic}: a reader has left, or was not heard of {self._lease}",
                 kind=f"left {self._topic}",
             )
         self._n = n_readers

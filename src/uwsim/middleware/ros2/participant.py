@@ -32,6 +32,7 @@ from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
 from ...errors import UwsimError
+from .policies import policies
 from .quality import Quality
 from .raw_types import RawSample
 
@@ -133,7 +134,7 @@ class Participant:
     ) -> Writer:
         """Make a writer; ``events`` are called in the thread, as `READERS_CHANGED`."""
         with self._lock:
-            entity = DataWriter(self._entity, self._topic(name, type), quality.policies(user_data))
+            entity = DataWriter(self._entity, self._topic(name, type), policies(quality, user_data))
             self._watch(entity, events)
         return Writer(entity, type)
 
@@ -149,7 +150,7 @@ class Participant:
     ) -> Any:
         """Make a reader; ``callback(sample)`` and ``events`` are called in the thread."""
         with self._lock:
-            entity = DataReader(self._entity, self._topic(name, type), quality.policies(user_data))
+            entity = DataReader(self._entity, self._topic(name, type), policies(quality, user_data))
             fresh = ViewState.Any | SampleState.NotRead | InstanceState.Any
             condition = ReadCondition(entity, fresh)
             self._readers[condition] = (entity, callback)

@@ -8,7 +8,6 @@ answered. Such a call is reported, once for each service.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable
 from concurrent.futures import Future
 from functools import partial
 from typing import Any
@@ -20,6 +19,7 @@ from ..encodings import from_cdr, to_cdr
 from ..log import Log
 from ..types import WireService, ros2_store
 from .names import reply_name, request_name, type_hash_data
+from .node import Call
 from .participant import WRITERS_CHANGED, Participant
 from .quality import Quality
 from .raw_types import CDR_HEADER, RawSample, raw_type
@@ -30,7 +30,6 @@ CALL_FIELDS = {"client": types.uint64, "sequence": types.int64}
 CYCLONE = b"\x01\x10"
 """First two bytes of the identity of every endpoint of Cyclone DDS."""
 VENDORS = {b"\x01\x0f": "Fast DDS", b"\x01\x01": "Connext", b"\x01\x03": "OpenDDS"}
-Call = Callable[[object], "Future[object]"]
 
 
 class ServiceServer:

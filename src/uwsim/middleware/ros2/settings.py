@@ -14,6 +14,8 @@ from xml.sax.saxutils import quoteattr
 
 from ...errors import BadSetting, did_you_mean
 
+NODE = "uwsim"
+"""Name of the node."""
 MAX_DOMAIN = 232
 """The largest domain whose UDP ports are below 65536."""
 RANGES = ("LOCALHOST", "SUBNET")
@@ -40,6 +42,11 @@ class Ros2Settings:
     """Whether only the loopback interface is used."""
     static_peers: tuple[str, ...] = ()
     """Addresses at which to look for participants besides."""
+
+    @property
+    def variables(self) -> dict[str, str]:
+        """Variables of ROS 2 by which rclpy looks there, too, where the user has set none."""
+        return {"ROS_AUTOMATIC_DISCOVERY_RANGE": RANGES[0] if self.is_local else RANGES[1]}
 
     def configuration(self, more: str = "") -> str:
         """Return the configuration of Cyclone DDS; ``more`` (``CYCLONEDDS_URI``) overrides it."""

@@ -1,0 +1,164 @@
+"""A node of ROS 2 without an installation of ROS 2: on Cyclone DDS (the extra ``ros2``).
+
+`participant` and `presence` make a participant of a domain that ROS 2 knows as one of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import Future
+from typing import Any, ClassVar
+
+from ...errors import UwsimError
+from ..log import Log
+from ..types import WireService, ros2_store, wire_type
+from .names import topic_name, type_hash_data
+from .node import Call
+from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
+from .presence import Presence
+from .quality import Quality
+from .raw_types import RawSample, raw_type
+from .service_server import ServiceServer
+from .settings import NODE, Ros2Settings
+
+
+class DdsNode:
+    """A node on Cyclone DDS.
+
+    Args:
+        settings: which domain, and on which network.
+        log: where events are reported.
+        more: configuration of Cyclone DDS by the user, which overrides ours (``CYCLONEDDS_URI``).
+
+    Raises:
+        UwsimError: the domain cannot be joined.
+    """
+
+    lease: ClassVar[str] = "for 10 s"
+    """What Cyclone DDS has by default."""
+
+    def __init__(self, settings: Ros2Settings, log: Log, *, more: str = "") -> None:
+        self._log = log
+        self._participant = Participant(settings.domain, settings.configuration(more))
+        self._presence = Presence(self._participant, NODE)
+        self._types: dict[type, type[RawSample]] = {}
+
+    @property
+    def error(self) -> BaseException | None:
+        """What ended its thread, if anything did."""
+        return self._participant.error
+
+    def writer(
+        self, topic: str, type: type, quality: Quality, on_readers: Callable[[int], None]
+    ) -> DdsWriter:
+        """Make a writer."""
+
+        def look(entity: Any) -> None:
+            on_readers(len(entity.get_matched_subscriptions()))
+
+        raw, user_data = self._raw(type)
+        made = self._participant.writer(
+            topic_name(topic), raw, quality, user_data=user_data, events={READERS_CHANGED: look}
+        )
+        self._presence.add(writers=(made.entity,))
+        return DdsWriter(self, made)
+
+    def reader(
+        self,
+        topic: str,
+        type: type,
+        quality: Quality,
+        receive: Callable[[bytes], None],
+        on_refused: Callable[[], None],
+    ) -> DdsReader:
+        """Make a reader."""
+        raw, user_data = self._raw(type)
+        entity = self._participant.reader(
+            topic_name(topic),
+            raw,
+            quality,
+            lambda sample: receive(sample.data),
+            user_data=user_data,
+            events={WRITER_REFUSED: lambda _: on_refused()},
+        )
+        self._presence.add(readers=(entity,))
+        return DdsReader(self, entity)
+
+    def server(self, name: str, kind: WireService, call: Call) -> DdsServer:
+        """Offer a service to nodes of Cyclone DDS."""
+        made = ServiceServer(self._participant, name, kind, call, self._log)
+        self._presence.add(readers=(made.reader,), writers=(made.writer.entity,))
+        return DdsServer(self._presence, made)
+
+    def tell(self) -> None:
+        """Make known which endpoints there are."""
+        self._presence.tell()
+
+    def offers(self, name: str) -> bool:
+        """Services of others are not called: each vendor of DDS has a way of its own."""
+        return False
+
+    def call(self, name: str, request: object) -> Future[object]:
+        """Raise UwsimError: services of others are not called."""
+        raise UwsimError(f"Service /{name}: without rclpy, services of nodes are not called.")
+
+    def close(self) -> None:
+        """Leave the domain."""
+        self._participant.close()
+
+    def drop(self, entity: Any) -> None:
+        """Take an endpoint off the graph."""
+        self._presence.remove(entity)
+        self._participant.forget(entity)
+
+    def _raw(self, type: type) -> tuple[type[RawSample], bytes]:
+        """The type of the samples, and what tells its hash."""
+        wire = wire_type(type)
+        assert wire is not None
+        if type not in self._types:
+            self._types[type] = raw_type(ros2_store(), wire.ros2_name)
+        return self._types[type], type_hash_data(wire.type_hash)
+
+
+class DdsReader:
+    """A reader on the graph."""
+
+    def __init__(self, node: DdsNode, entity: Any) -> None:
+        self._node, self._entity = node, entity
+
+    @property
+    def n_writers(self) -> int:
+        """How many writers it reads."""
+        return len(self._entity.get_matched_publications())
+
+    def close(self) -> None:
+        """Take it off the graph."""
+        self._node.drop(self._entity)
+
+
+class DdsWriter:
+    """A writer on the graph."""
+
+    def __init__(self, node: DdsNode, writer: Writer) -> None:
+        self._node, self._writer = node, writer
+
+    def write(self, data: bytes) -> bool:
+        """Write a message; whether it was accepted."""
+        return self._writer.write(data)
+
+    def close(self) -> None:
+        """Take it off the graph."""
+        self._node.drop(self._writer.entity)
+
+
+class DdsServer:
+    """A service on the graph."""
+
+    def __init__(self, presence: Presence, server: ServiceServer) -> None:
+        self._presence, self._server = presence, server
+
+    def close(self) -> None:
+        """Offer it no more."""
+        self._presence.remove(self._server.reader)
+        self._presence.remove(self._server.writer.entity)
+        self._server.close()
