@@ -83,8 +83,10 @@ def ours():
     ) >= 2 and node.get_subscriber_names_and_types_by_node("uwsim", "/")
 spin_until(ours)
 (info,) = node.get_publishers_info_by_topic("/rov/odom")
+published = dict(node.get_publisher_names_and_types_by_node("uwsim", "/"))
+published.pop("/parameter_events", None)  # every node of rclpy has it
 say(
-    published=node.get_publisher_names_and_types_by_node("uwsim", "/"),
+    published=sorted(published.items()),
     read=node.get_subscriber_names_and_types_by_node("uwsim", "/"),
     hash=str(info.topic_type_hash),
     reliability=info.qos_profile.reliability.name,

@@ -238,8 +238,7 @@ class RclpyNode:
         end = time.monotonic() + LINGER_S
         for writer in self._writers:
             writer.wait(end - time.monotonic())
-        self._is_open = False
-        self._executor.wake()
+        self._executor.create_task(self._stop)
         self._thread.join()
         self._node.destroy_node()
         self._executor.shutdown()
@@ -271,6 +270,9 @@ class RclpyNode:
         for writer in self._writers:
             if writer.echoes is self._echoes_of(topic):
                 writer.look()
+
+    def _stop(self) -> None:
+        self._is_open = False
 
     def _spin(self) -> None:
         """Call callbacks until `close`."""
