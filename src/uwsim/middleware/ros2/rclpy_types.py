@@ -6,7 +6,6 @@ is taken only if it has the same fields. What is not there is collected, and tol
 
 from __future__ import annotations
 
-import functools
 import importlib
 from collections import defaultdict
 from typing import Any
@@ -75,7 +74,6 @@ def how_to_get(package: str) -> str:
     return f"{get}; or UWSIM_ROS2=dds, which does without rclpy"
 
 
-@functools.cache
 def has_our_fields(name: str) -> bool:
     """Whether the class of rclpy has the fields of uwsim's definition, those inside included."""
     found = _class_of(name)
@@ -92,7 +90,6 @@ def has_our_fields(name: str) -> bool:
     return all(has_our_fields(each) for each in inside if each)
 
 
-@functools.cache
 def _class_of(name: str) -> Any | None:
     """Return the class of rclpy of ``package/msg/Name``, or ``package/srv/Name_Request``."""
     package, kind, base = name.split("/")

@@ -1,0 +1,195 @@
+"""A bus as a node of rclpy, in the environment of rclpy: `test_with_rclpy` runs this file there."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from types import ModuleType
+
+import pytest
+
+from tests.middleware.ros2.simulator import Simulator, running
+from tests.ros2_peers import peer, until
+from uwsim.errors import UwsimError
+from uwsim.messages import Float32MultiArray, Odometry, TwistStamped
+from uwsim.messages.services import Empty, EmptyResponse, GTpublish, SpawnMarker
+from uwsim.messages.underwater import DVL
+from uwsim.middleware.types import SERVICES, ros2_store, service, wire_service
+
+pytest.importorskip("rclpy", reason="rclpy cannot be imported here; test_with_rclpy has it")
+
+from uwsim.middleware.ros2.rclpy_types import RclpyTypes, has_our_fields
+
+
+@pytest.fixture
+def simulator() -> Iterator[Simulator]:
+    with running() as found:
+        yield found
+
+
+CALLER = """
+from std_srvs.srv import Empty
+client = node.create_client(Empty, "/start")
+spin_until(client.service_is_ready)
+n = 0
+while n < 3:
+    future = client.call_async(Empty.Request())
+    rclpy.spin_until_future_complete(node, future, timeout_sec=60.0)
+    assert future.done()
+    n += 1
+    say(answered=n)
+"""
+
+
+def test_a_node_of_fast_dds_calls_a_service_of_the_simulation(simulator: Simulator) -> None:
+    asked: list[Empty] = []
+
+    def start(request: Empty) -> EmptyResponse:
+        asked.append(request)
+        return EmptyResponse()
+
+    simulator.bus.services.serve("start", Empty, start)
+    with peer(CALLER, simulator.domain) as node:
+        answers: list[dict[str, int]] = []
+        until(lambda: len(answers) == 3, lambda: (simulator.step(), answers.extend(node.answers())))
+    assert asked == [Empty()] * 3
+    assert simulator.lines == []
+
+
+def test_a_call_that_fails_is_reported_and_the_next_is_answered(simulator: Simulator) -> None:
+    n_calls = 0
+
+    def start(request: Empty) -> EmptyResponse:
+        nonlocal n_calls
+        n_calls += 1
+        if n_calls == 1:
+            raise UwsimError("not yet")
+        return EmptyResponse()
+
+    simulator.bus.services.serve("start", Empty, start)
+    source = CALLER.replace("timeout_sec=60.0)", "timeout_sec=0.5)").replace(
+        "    assert future.done()\n", "    if not future.done():\n        continue\n"
+    )
+    with peer(source, simulator.domain) as node:
+        answers: list[dict[str, int]] = []
+        until(lambda: len(answers) == 3, lambda: (simulator.step(), answers.extend(node.answers())))
+    assert [line.removeprefix("uwsim: : ") for line in simulator.lines] == [
+        "service /start: no answer: not yet"
+    ]
+
+
+def test_the_simulation_calls_a_service_of_a_node(simulator: Simulator) -> None:
+    source = """
+from std_srvs.srv import Empty
+def answer(request, response):
+    say(asked=True)
+    return response
+node.create_service(Empty, "/home", answer)
+spin_until(lambda: False)
+"""
+    services = simulator.bus.services
+    assert not services.serves("home")
+    with peer(source, simulator.domain) as node:
+        until(lambda: services.serves("home"), simulator.step)
+        assert [services.call("home", Empty()) for _ in range(3)] == [EmptyResponse()] * 3
+        answers: list[dict[str, bool]] = []
+        until(lambda: len(answers) == 3, lambda: answers.extend(node.answers()))
+
+
+def test_what_is_published_and_read_in_the_simulation_comes_back_to_it_once(
+    simulator: Simulator,
+) -> None:
+    publish = simulator.bus.publisher("rov/twist", TwistStamped)
+    inbox = simulator.bus.inbox("rov/twist", TwistStamped)
+    source = """
+from geometry_msgs.msg import TwistStamped
+out = node.create_publisher(TwistStamped, "/rov/twist", 10)
+got = []
+node.create_subscription(TwistStamped, "/rov/twist", lambda m: got.append(m.twist.linear.x), 10)
+spin_until(lambda: 3.0 in got)
+out.publish(TwistStamped())
+spin_until(lambda: False)
+"""
+    got: list[float] = []
+    n = 0
+
+    def step() -> None:
+        nonlocal n
+        n += 1
+        message = TwistStamped()
+        message.twist.linear.x = 3.0 + n
+        publish(message)
+        simulator.step()
+        got.extend(each.twist.linear.x for each in inbox.take())
+
+    step()
+    assert not simulator.bridge._n_wanted["rov/twist"], "the simulation's own reader is no demand"
+    with peer(source.replace("3.0 in got", "len(got) > 20"), simulator.domain):
+        until(lambda: 0.0 in got, step)
+        for _ in range(20):
+            step()
+    assert sorted(got) == [0.0, *(3.0 + each for each in range(1, n + 1))]
+
+
+def test_types_that_rclpy_lacks_are_told_a_package_a_line_and_the_rest_goes_on(
+    simulator: Simulator,
+) -> None:
+    bus = simulator.bus
+    bus.publisher("rov/dvl", DVL)
+    bus.publisher("rov/second_dvl", DVL)
+    bus.services.serve("SpawnMarker", SpawnMarker, lambda request: None)
+    publish = bus.publisher("rov/odom", Odometry)
+    simulator.step()
+    topics, services = (line.removeprefix("uwsim: : ") for line in simulator.lines)
+    assert topics.startswith("not on the graph: /rov/dvl, /rov/second_dvl. rclpy has no ")
+    assert services.startswith("not on the graph: /SpawnMarker. rclpy has no ")
+    assert "underwater_sensor_msgs: colcon build" in topics
+    assert "UWSIM_ROS2=dds" in topics
+    simulator.step()
+    assert len(simulator.lines) == 2, "once"
+    source = """
+from nav_msgs.msg import Odometry
+node.create_subscription(Odometry, "/rov/odom", lambda m: say(x=1), 10)
+spin_until(lambda: False)
+"""
+    with peer(source, simulator.domain) as node:
+        until(node.answers, lambda: (publish(Odometry()), simulator.step()))
+
+
+def test_a_service_outside_whose_type_rclpy_lacks_is_an_error_that_names_it(
+    simulator: Simulator,
+) -> None:
+    node = simulator.bridge._node
+    with pytest.raises(UwsimError, match="rclpy has no type underwater_sensor_msgs/srv/GTpublish"):
+        node.call("autoInit", GTpublish(groundTruth=Float32MultiArray().data))
+
+
+def test_a_type_with_other_fields_than_ours_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    class SpawnMarkerHalf:
+        @classmethod
+        def get_fields_and_field_types(cls) -> dict[str, str]:
+            return {"marker": "visualization_msgs/Marker", "lifetime": "double"}
+
+    class Type:
+        Request = Response = SpawnMarkerHalf
+
+    module = ModuleType("other_msgs.srv")
+    module.GTpublish = Type  # type: ignore[attr-defined]
+    monkeypatch.setitem(sys.modules, "underwater_sensor_msgs", ModuleType("underwater_sensor_msgs"))
+    monkeypatch.setitem(sys.modules, "underwater_sensor_msgs.srv", module)
+    types = RclpyTypes()
+    kind = wire_service(service("underwater_sensor_msgs/GTpublish"))
+    assert types.service(kind, "autoInit") is None
+    assert "other fields" in types.faults()[0]
+
+
+def test_all_types_of_the_packages_that_rclpy_has_have_our_fields() -> None:
+    here = ("std_msgs", "sensor_msgs", "geometry_msgs", "nav_msgs", "std_srvs", "rosgraph_msgs")
+    names = [
+        name
+        for name in ros2_store().fielddefs
+        if name.startswith(here) and "_Event" not in name and name.count("/") == 2
+    ]
+    wrong = [name for name in names if name not in SERVICES and not has_our_fields(name)]
+    assert len(names) > 90
+    assert wrong == []
