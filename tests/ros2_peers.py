@@ -26,6 +26,17 @@ needs_rclpy = pytest.mark.skipif(
     not (PYTHON.parents[1] / "installed").is_file(),
     reason="rclpy is not installed; scripts/ros2_peers installs it",
 )
+of_one_version = pytest.mark.skipif(
+    not (PYTHON.parents[1] / "lib" / f"python3.{sys.version_info.minor}").is_dir(),
+    reason="rclpy is installed for another version of Python than uwsim",
+)
+
+
+def beside_rclpy() -> dict[str, str]:
+    """Variables by which `PYTHON` has uwsim and all that this process has, before its rclpy."""
+    ours = [str(Path(path).resolve()) for path in sys.path if path and Path(path).is_dir()]
+    kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "ROS_", "CYCLONE"))}
+    return kept | {"PYTHONPATH": os.pathsep.join(ours)}
 
 
 @contextmanager

@@ -20,9 +20,11 @@ from tests.ros2_peers import (
     BOUND_S,
     PYTHON,
     ROOT,
+    beside_rclpy,
     environment,
     free_domain,
     needs_rclpy,
+    of_one_version,
     peer,
 )
 from tests.short_benchmark import BENCHMARK, write_benchmark
@@ -46,15 +48,30 @@ SCENE = """<UWSimScene>
 """
 
 
+def simulator(way: str) -> tuple[str | Path, dict[str, str]]:
+    """Return Python and variables by which uwsim is a node of rclpy, or one on Cyclone DDS."""
+    if way == "rclpy":
+        return PYTHON, beside_rclpy() | {"UWSIM_ROS2": "rclpy"}
+    kept = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "CYCLONE"))}
+    return sys.executable, kept | {"UWSIM_ROS2": "dds"}
+
+
+BOTH = pytest.mark.parametrize(
+    "way", [pytest.param("dds"), pytest.param("rclpy", marks=of_one_version)]
+)
+"""As a node on Cyclone DDS, and as one of rclpy."""
+
+
 @contextmanager
-def uwsim(*arguments: str) -> Iterator[subprocess.Popen[str]]:
+def uwsim(*arguments: str, way: str = "dds") -> Iterator[subprocess.Popen[str]]:
     """Run a command while the block lasts; it ends by Ctrl-C."""
+    python, variables = simulator(way)
     process = subprocess.Popen(
-        [sys.executable, "-m", "uwsim", *arguments],
+        [python, "-m", "uwsim", *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        env={k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "CYCLONE"))},
+        env=variables,
     )
     try:
         yield process
@@ -80,11 +97,13 @@ def example(name: str, *arguments: str, domain: int) -> str:
     return done.stdout
 
 
+@BOTH
 @pytest.mark.slow
-def test_a_node_of_ros_2_drives_the_vehicle_to_its_goal(tmp_path: Path) -> None:
+def test_a_node_of_ros_2_drives_the_vehicle_to_its_goal(tmp_path: Path, way: str) -> None:
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE)
-    with free_domain() as domain, uwsim("run", str(scene), "--ros2", "--domain", str(domain)):
+    arguments = ("run", str(scene), "--ros2", "--domain")
+    with free_domain() as domain, uwsim(*arguments, str(domain), way=way):
         goal = ["--goal", "0.3", "0.2", "2.1"]
         topics = ["--odometry", "/odom", "--command", "/twist"]
         told = example("goto_position.py", *goal, *topics, domain=domain)
@@ -152,20 +171,16 @@ import run_algorithm
 run_algorithm.main()
 """
 """The example, in the environment of rclpy with that of uwsim before it."""
-of_one_version = pytest.mark.skipif(
-    not (PYTHON.parents[1] / "lib" / f"python3.{sys.version_info.minor}").is_dir(),
-    reason="rclpy is installed for another version of Python than uwsim",
-)
-
-
 MEASURED = ("rows", "columns", "missing", "image_streams", "pictures")
 """What a client outside may not change; facts of its own parameters are not known of it."""
 
 
-def scored(benchmark: Path, out: Path, *options: str) -> dict[str, Any]:
+def scored(benchmark: Path, out: Path, *options: str, way: str = "dds") -> dict[str, Any]:
     """Run a benchmark; returns what is in result.json."""
+    python, variables = simulator(way)
     done = subprocess.run(
-        [sys.executable, "-m", "uwsim", "bench", str(benchmark), *options, "--out", str(out)],
+        [python, "-m", "uwsim", "bench", str(benchmark), *options, "--out", str(out)],
+        env=variables,
         timeout=BOUND_S,
         capture_output=True,
         text=True,
@@ -177,7 +192,7 @@ def scored(benchmark: Path, out: Path, *options: str) -> dict[str, Any]:
 
 
 def scored_by_a_node(
-    benchmark: Path, out: Path, algorithm: str, delay: str, *options: str
+    benchmark: Path, out: Path, algorithm: str, delay: str, *options: str, way: str
 ) -> dict[str, Any]:
     """Run a benchmark with a bundled algorithm as a node of rclpy, which dawdles [ms]."""
     ours = [path for path in sys.path if path and Path(path).is_dir()]
@@ -185,29 +200,34 @@ def scored_by_a_node(
     node = BUNDLED.format(ours=ours, arguments=arguments)
     with free_domain() as domain, peer(node, domain, prelude=""):
         client = ["--ros2", "--domain", str(domain), "--client", "outside", "--client-limit", "120"]
-        return scored(benchmark, out, *options, *client)
+        return scored(benchmark, out, *options, *client, way=way)
 
 
 @of_one_version
 @pytest.mark.slow
-@pytest.mark.parametrize("delay", ["0", "20"])
+@pytest.mark.parametrize(("way", "delay"), [("dds", "0"), ("dds", "20"), ("rclpy", "20")])
 def test_the_bundled_tracker_as_a_node_scores_the_rows_of_the_process(
-    tmp_path: Path, delay: str
+    tmp_path: Path, way: str, delay: str
 ) -> None:
     benchmark = write_benchmark(tmp_path, "0.5")
     inside = scored(benchmark, tmp_path / "inside", "--algorithm", "esm")
-    outside = scored_by_a_node(benchmark, tmp_path / "outside", "uwsim.algorithms:Esm", delay)
+    outside = scored_by_a_node(
+        benchmark, tmp_path / "outside", "uwsim.algorithms:Esm", delay, way=way
+    )
     assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}
     assert outside["run"]["clients"] == [["outside", "lock-step, ros2, grade (a)"]]
 
 
 @of_one_version
+@BOTH
 @pytest.mark.slow
-def test_the_bundled_controller_as_a_node_scores_the_rows_of_the_process(tmp_path: Path) -> None:
+def test_the_bundled_controller_as_a_node_scores_the_rows_of_the_process(
+    tmp_path: Path, way: str
+) -> None:
     benchmark = short_currents(tmp_path)
     level = ("--level", "current=0.2")
     inside = scored(benchmark, tmp_path / "inside", "--algorithm", "p", *level)
     outside = scored_by_a_node(
-        benchmark, tmp_path / "outside", "uwsim.algorithms.control:P", "20", *level
+        benchmark, tmp_path / "outside", "uwsim.algorithms.control:P", "20", *level, way=way
     )
     assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}

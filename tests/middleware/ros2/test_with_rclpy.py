@@ -1,0 +1,30 @@
+"""The tests of this folder once more, in the environment of rclpy: the simulator is its node."""
+
+from __future__ import annotations
+
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.ros2_peers import BOUND_S, PYTHON, ROOT, beside_rclpy, needs_rclpy, of_one_version
+
+HERE = Path(__file__).parent
+FILES = ("test_adapter.py", "test_lockstep.py", "test_rclpy_node.py")
+
+
+@needs_rclpy
+@of_one_version
+@pytest.mark.slow
+@pytest.mark.parametrize("file", FILES)
+def test_it_holds_for_a_node_of_rclpy(file: str) -> None:
+    done = subprocess.run(
+        [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", HERE / file],
+        cwd=ROOT,
+        env=beside_rclpy(),
+        capture_output=True,
+        text=True,
+        timeout=2 * BOUND_S,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
