@@ -175,7 +175,8 @@ def test_a_type_with_other_fields_than_ours_is_not_taken(monkeypatch: pytest.Mon
 
     module = ModuleType("other_msgs.srv")
     module.GTpublish = Type  # type: ignore[attr-defined]
-    monkeypatch.setitem(sys.modules, "underwater_sensor_msgs", ModuleType("underwater_sensor_msgs"))
+    package = ModuleType("underwater_sensor_msgs")
+    monkeypatch.setitem(sys.modules, "underwater_sensor_msgs", package)
     monkeypatch.setitem(sys.modules, "underwater_sensor_msgs.srv", module)
     types = RclpyTypes()
     kind = wire_service(service("underwater_sensor_msgs/GTpublish"))

@@ -1,12 +1,12 @@
 """The types of the bus among those that rclpy has: packages that somebody compiled.
 
 A message goes to rclpy as CDR bytes, in the layout of uwsim's own definition. So a class of rclpy
-is taken only if it has the same fields. What is not there is collected, and told by the package.
+is taken only if it has the same fields. What is not there is collected, and told a package a line.
 """
 
 from __future__ import annotations
 
-import importlib
+import importlib.util
 from collections import defaultdict
 from typing import Any
 
@@ -25,8 +25,7 @@ class RclpyTypes:
     """Finds classes of rclpy, and keeps what is not to be found."""
 
     def __init__(self) -> None:
-        self._absent: defaultdict[str, set[str]] = defaultdict(set)
-        self._other: defaultdict[str, set[str]] = defaultdict(set)
+        self._absent: defaultdict[str, set[str]] = defaultdict(set)  # why -> topics and services
 
     def message(self, type: type, place: str) -> Any | None:
         """Return the class of a message for a topic, ``place``; None if there is none."""
@@ -40,38 +39,34 @@ class RclpyTypes:
         return self._found(kind.ros2_name, halves, place)
 
     def faults(self) -> list[str]:
-        """Return a line for each package that lacks something since the last call."""
+        """Return a line for each package, or type, that is lacking since the last call."""
         absent, self._absent = self._absent, defaultdict(set)
-        other, self._other = self._other, defaultdict(set)
-        lines = [
-            f"not on the graph: {_list(places)}. rclpy has no {package}: {how_to_get(package)}"
-            for package, places in sorted(absent.items())
+        return [
+            f"not on the graph: {', '.join(f'/{place}' for place in sorted(places))}. {why}; or "
+            "UWSIM_ROS2=dds, which does without rclpy"
+            for why, places in sorted(absent.items())
         ]
-        lines += [
-            f"not on the graph: {_list(places)}. {name} has other fields in rclpy's "
-            f"{name.partition('/')[0]} than in uwsim; UWSIM_ROS2=dds does without rclpy"
-            for name, places in sorted(other.items())
-        ]
-        return lines
 
     def _found(self, name: str, layouts: tuple[str, ...], place: str) -> Any | None:
+        package = name.partition("/")[0]
         found = _class_of(name)
-        if found is None:
-            self._absent[name.partition("/")[0]].add(place)
-            return None
-        if not all(has_our_fields(each) for each in layouts):
-            self._other[name].add(place)
-            return None
-        return found
+        if found is not None and all(has_our_fields(each) for each in layouts):
+            return found
+        if found is not None:
+            why = f"{name} has other fields in rclpy's {package} than in uwsim"
+        elif importlib.util.find_spec(package) is not None:
+            why = f"rclpy's {package} has no {name}"
+        else:
+            why = f"rclpy has no {package}: {how_to_get(package)}"
+        self._absent[why].add(place)
+        return None
 
 
 def how_to_get(package: str) -> str:
     """Return what to do about a package that rclpy lacks."""
     if package == OURS:
-        get = f"colcon build --base-paths {FOLDER / OURS}"
-    else:
-        get = f"apt install ros-$ROS_DISTRO-{package.replace('_', '-')}"
-    return f"{get}; or UWSIM_ROS2=dds, which does without rclpy"
+        return f"colcon build --base-paths {FOLDER / OURS}"
+    return f"apt install ros-$ROS_DISTRO-{package.replace('_', '-')}"
 
 
 def has_our_fields(name: str) -> bool:
@@ -124,7 +119,3 @@ def _type_text(description: Any) -> str:
     if kind == Nodetype.ARRAY:
         return f"{item}[{length}]"
     return f"sequence<{item}, {length}>" if length else f"sequence<{item}>"
-
-
-def _list(places: set[str]) -> str:
-    return ", ".join(f"/{place}" for place in sorted(places))
