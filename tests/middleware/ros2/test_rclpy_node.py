@@ -156,6 +156,28 @@ spin_until(lambda: False)
         until(node.answers, lambda: (publish(Odometry()), simulator.step()))
 
 
+def test_a_topic_whose_name_ros_2_refuses_is_left_out(simulator: Simulator) -> None:
+    simulator.bus.publisher("3d-cam", Odometry)
+    simulator.step()
+    assert len(simulator.lines) == 1
+    assert "not on the graph: /3d-cam. " in simulator.lines[0]
+
+
+def test_a_reader_knows_whether_a_node_outside_feeds_it(simulator: Simulator) -> None:
+    simulator.bus.publisher("rov/twist", TwistStamped)
+    simulator.bus.inbox("rov/twist", TwistStamped)
+    for _ in range(3):
+        simulator.step()
+    assert not simulator.bridge.is_fed("rov/twist"), "the simulation's own writer is none"
+    source = """
+from geometry_msgs.msg import TwistStamped
+out = node.create_publisher(TwistStamped, "/rov/twist", 10)
+spin_until(lambda: False)
+"""
+    with peer(source, simulator.domain):
+        until(lambda: simulator.bridge.is_fed("rov/twist"), simulator.step)
+
+
 def test_a_service_outside_whose_type_rclpy_lacks_is_an_error_that_names_it(
     simulator: Simulator,
 ) -> None:
