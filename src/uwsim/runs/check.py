@@ -177,11 +177,10 @@ def _unknown_names(
         diagnostics.error(benchmark if scene is None else None, str(error))
     else:
         try:
-            return [
-                *diagnostics.all(),
-                *names.unknown_names(benchmark, simulation.world, is_whole=is_whole),
-                *arm_warnings(benchmark, simulation.world.vehicles, simulation.world.robots),
-            ]
+            world = simulation.world
+            arms = arm_warnings(benchmark, world.vehicles, world.robots) if is_whole else ()
+            found = names.unknown_names(benchmark, world, is_whole=is_whole)
+            return [*diagnostics.all(), *found, *arms]
         finally:
             simulation.close()
     return diagnostics.all()
