@@ -128,6 +128,7 @@ def test_a_branch_that_is_not_taken_may_divide_by_zero() -> None:
         ("sin(1, 2)", 0, "sin takes 1 argument"),
         ("1 + max()", 4, "max takes at least 1 argument, not 0"),
         ("2*sqr(4)", 2, "Did you mean 'sqrt'"),
+        ("mod(5, 3)", 0, r"no function is called 'mod'\. Known: .*rint"),
         ("sin + 1", 0, "sin is a function"),
         ("corners = 2", 8, "'=' is not allowed here"),
         ("1 ? 2", 5, "ends too early"),

@@ -274,7 +274,8 @@ NEAR = b'<?xml version="1.0"?>\n'
 @pytest.mark.parametrize(
     ("data", "said"),
     [
-        (b"", "not well-formed"),
+        (b"", "the file is empty"),
+        (b" \r\n", "the file is empty"),
         (b"<a>", "not well-formed"),
         (b"<a/><b/>", "not well-formed"),
         (BOMB, "<!ENTITY> declarations are not read"),
@@ -286,6 +287,7 @@ NEAR = b'<?xml version="1.0"?>\n'
         (b"\0\0", "zero bytes"),
         (b'<?xml version="1.0" encoding="ebcdic-us"?><a/>', "encoding 'ebcdic-us' is not read"),
         (b"<a>\xff</a>", "not well-formed"),
+        (b"<a>\n<!-- posici\xf3n --></a>", ":2: not well-formed XML: the byte 0xf3 is not UTF-8"),
     ],
 )
 def test_hostile_files_are_refused_with_a_clean_error(

@@ -290,7 +290,7 @@ def _operation(kind: str, tokens: list[Any], count: int, column: int, text: str)
         return _Step(tokens[0].start_pos or 0, 2, OPERATORS[str(tokens[0])])
     name = str(tokens[0])
     if name not in FUNCTIONS:
-        near = did_you_mean(name, FUNCTIONS)
+        near = did_you_mean(name, FUNCTIONS) or f" Known: {', '.join(FUNCTIONS)}"
         raise ScoreError(text, column, f"no function is called {name!r}.{near}")
     wanted, function = FUNCTIONS[name]
     if count != wanted if wanted is not None else count == 0:

@@ -120,6 +120,8 @@ def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
     except (OSError, ValueError) as problem:
         diagnostics.error(None, f"cannot be read: {getattr(problem, 'strerror', None) or problem}")
         return b""
+    if not data.strip():
+        diagnostics.error(None, "not well-formed XML: the file is empty")
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", errors="replace").encode("utf-8")
         data = re.sub(rb"^\s*<\?xml.*?\?>", b"", data, count=1, flags=re.S)
@@ -130,6 +132,8 @@ def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
             diagnostics.error(1, f"the encoding {name!r} is not read; write the file as UTF-8")
     if declared and _NICKNAME.fullmatch(declared[1].decode("ascii")):  # unknown to the parser
         data = data[: declared.start(1)] + b"ISO-8859-1" + data[declared.end(1) :]
+    if declared is None:
+        _check_utf_8(data, diagnostics)
     if b"\0" in data:
         diagnostics.error(None, "holds zero bytes; not a text file in UTF-8")
     if declaration := _DECLARATION.search(data):
@@ -142,6 +146,19 @@ def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
         if data.count(mark) > 2 * MAX_NODES:
             diagnostics.error(None, f"has more than {MAX_NODES} {what}; no scene or benchmark has")
     return data
+
+
+def _check_utf_8(data: bytes, diagnostics: Diagnostics) -> None:
+    """Report the first byte that is not UTF-8; so is what old editors wrote for an accent."""
+    try:
+        data.decode("utf-8")
+    except UnicodeDecodeError as problem:
+        line = data.count(b"\n", 0, problem.start) + 1
+        diagnostics.error(
+            line,
+            f"not well-formed XML: the byte {data[problem.start]:#04x} is not UTF-8; save the file "
+            'as UTF-8, or declare what it is: <?xml version="1.0" encoding="ISO-8859-1"?>',
+        )
 
 
 def check_head(document: Document, root: str, diagnostics: Diagnostics) -> None:
