@@ -199,6 +199,23 @@ def test_a_material_that_one_visual_defines_another_may_name(tmp_path: Path) -> 
     assert colours == [(1, 0.5, 0, 1), (1, 0.5, 0, 1), (0, 0, 1, 1)]
 
 
+def test_a_material_that_nothing_defines_is_warned_of_once(tmp_path: Path) -> None:
+    box = '<visual><geometry><box size="1 1 1"/></geometry><material name="{}"/></visual>'
+    uses = "".join(map(box.format, ("Gazebo/Grey", "hul", "hull", "skin", "", "Gazebo/Grey")))
+    file = tmp_path / "robot.urdf"
+    file.write_text(
+        f'<robot name="r"><link name="a">{uses}</link>'
+        '<material name="hull"><color rgba="1 0 0 1"/></material>'
+        '<material name="skin"><texture filename="skin.png"/></material></robot>'
+    )
+    diagnostics = Diagnostics(file)
+    assert read_robot(file, diagnostics) is not None
+    assert [each.message for each in diagnostics.all()] == [
+        "no material is called 'Gazebo/Grey': it gives no colour.",
+        "no material is called 'hul': it gives no colour. Did you mean hull?",
+    ]
+
+
 def test_what_other_programs_wrote_is_passed_over(tmp_path: Path) -> None:
     robot = robot_of('<gazebo><plugin/></gazebo><link name="a"/><transmission/>', tmp_path)
     assert robot.root == "a"

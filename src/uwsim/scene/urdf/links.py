@@ -44,12 +44,21 @@ def read_link(
 def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, Colour]:
     """The colours that have names: those of the robot, then those that visuals define."""
     found: dict[str, Colour] = {}
+    uses: dict[str, etree._Element] = {}  # the first of each name, of what nothing defines
     quiet = Diagnostics(diagnostics.file)  # a visual reports its own errors
     for path, sink in (("material", diagnostics), ("link/visual/material", quiet)):
         for node in root.findall(path):
             colour = colour_of(node, sink)
             if colour is not None and name_of(node):
                 found.setdefault(name_of(node), colour)
+            if path != "material" and next(elements_of(node), None) is None:
+                uses.setdefault(name_of(node), node)
+    textured = {name_of(node) for node in root.iter("material") if node.find("texture") is not None}
+    for name in [name for name in uses if name and name not in found and name not in textured]:
+        near = diagnostics.near(name, found, "warning")
+        diagnostics.warning(
+            uses[name], f"no material is called {name!r}: it gives no colour.{near}"
+        )
     return found
 
 
