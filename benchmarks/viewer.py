@@ -39,7 +39,7 @@ DRAW = """async ([n, isShown]) => {
   }
 }"""
 SIZE = "#image, #overlay { width: 640px !important; height: 480px !important; position: absolute }"
-FLAGS = ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist"]
+FLAGS = ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist", "--disable-gpu-watchdog"]
 
 
 def measure() -> dict[str, object]:

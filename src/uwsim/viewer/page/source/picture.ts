@@ -11,6 +11,7 @@ import { inside, type Sight, type Views } from "./views";
 import type { Lens } from "./geometry";
 
 const PICTURE_HEIGHT = 150;
+const LONGEST_DRAWING = 2000; // of an image; who takes longer has ended without a word [ms]
 const LONGEST_REST = 100; // between two images that software draws [ms]
 
 export interface Switches extends Shown {
@@ -55,7 +56,8 @@ class Pace {
   /** Whether the last image is there, and as much time again has passed. */
   isReady(now: number): boolean {
     const { gl, fence } = this;
-    if (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED) {
+    const isLost = gl.isContextLost() || now - this.began > LONGEST_DRAWING;
+    if (fence && (isLost || gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED)) {
       gl.deleteSync(fence);
       this.fence = null;
       this.rests = Math.min(2 * now - this.began, now + LONGEST_REST);
