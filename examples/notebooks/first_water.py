@@ -16,6 +16,9 @@
 # This notebook renders a scene, makes its water foggy, drives a vehicle, and scores a tracker.
 
 # %%
+import tempfile
+from pathlib import Path
+
 from IPython.display import display
 from PIL import Image
 
@@ -68,8 +71,17 @@ simulation.close()
 # Two levels of fog of the benchmark `visibility`, tracked by ESM. The score is an error in pixels.
 
 # %%
-result = uwsim.bench("visibility", algorithm="esm", levels={"fog": [0.0, 1.0]}, seeds=(1,))
+folder = Path(tempfile.mkdtemp()) / "visibility.result"
+result = uwsim.bench(
+    "visibility", algorithm="esm", levels={"fog": [0.0, 1.0]}, seeds=(1,), out=folder
+)
 for fog, total, status in zip(
     result.values("fog"), result.values("total"), result.values("status"), strict=True
 ):
     print(f"fog {fog} 1/m: {total:.2f} px, {status}")
+
+# %% [markdown]
+# The run again, as a page that plays here: views, levels, and the curves of all measures.
+
+# %%
+uwsim.Replay(folder)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from ..viewer.recorded import RecordedTrial
     from ..viewer.replay import Replay
 
+MIN_SIDE, MAX_SIDE = 160, 7680
+"""Least and greatest width and height of a film [px]."""
 MAX_RATE = 120.0
 """Most images a second of a film [Hz]."""
 WEBP_RATE = 10.0
@@ -233,7 +235,7 @@ def replay(
     if out.suffix.lower() == RECORDING:
         typer.echo(write_mcap(recorded(result, part.trial, scene, folders)[0], out, overwrite))
         return
-    check_film_path(out, overwrite=overwrite)
+    check_film_path(out, overwrite=overwrite, others=(SUFFIXES[0], RECORDING))
     spec = look.spec(part, out)
     trials = recorded(result, part.trial, scene, folders)
     typer.echo(write_film(trials, spec, out))
@@ -272,8 +274,11 @@ def show_page(replay: Replay, out: Path | None, *, overwrite: bool, port: int) -
         typer.echo(f"{replay.title}: {page.url} (Ctrl-C ends)")
         page.wait()
         return
+    if out.is_dir():
+        raise BadSetting(f"-o {out}: is a folder.")
     if out.exists() and not overwrite:
-        raise BadSetting(f"--out {out}: exists. Use --overwrite to replace it.")
+        raise BadSetting(f"-o {out}: exists; --overwrite replaces it.")
+    out.parent.mkdir(parents=True, exist_ok=True)
     replay.save(out)
     typer.echo(f"{replay.title}: written: {out}")
     if out.resolve() == (replay.directory / REPLAY).resolve():
@@ -314,9 +319,10 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
 
 
 def even(size: tuple[int, int]) -> tuple[int, int]:
-    """Refuse an odd width or height, which films cannot have; raises BadSetting."""
-    if size[0] % 2 or size[1] % 2 or min(size) < 160:
+    """Refuse an odd width or height, which films cannot have, or a huge one; raises BadSetting."""
+    if size[0] % 2 or size[1] % 2 or min(size) < MIN_SIDE or max(size) > MAX_SIDE:
         raise BadSetting(
-            f"--size {size[0]}x{size[1]}: expected even numbers from 160, as in 960x720."
+            f"--size {size[0]}x{size[1]}: expected even numbers from {MIN_SIDE} to {MAX_SIDE}, "
+            "as in 960x720."
         )
     return size

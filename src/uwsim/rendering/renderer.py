@@ -199,7 +199,7 @@ class Renderer:
         rows = self._instances.without(hidden)
         clip = clip_from_camera(view.intrinsics)
         seen = in_view(self._instances, rows, world_from_camera, frustum(clip))
-        switches: Switches = water.switches
+        switches: Switches = water.switches + light.switches
         in_shadow = [False] * len(seen)
         if "colour" in view.wanted and light.shadows:
             in_shadow = self._cast(rows, seen, view, world_from_camera, clip)

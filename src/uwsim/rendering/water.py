@@ -108,6 +108,13 @@ class Light:
     """Which sky: direction and colour of the sun."""
     shadows: bool = True
     """Whether vehicles and objects cast the sun's shadow."""
+    is_polished: bool = False
+    """Whether it pleases people: wet surfaces gleam, shadows are soft and have the water's hue."""
+
+    @property
+    def switches(self) -> tuple[tuple[str, int], ...]:
+        """The switches with which the shaders are compiled."""
+        return (("POLISHED", 1), ("SOFT", 1)) if self.is_polished else ()
 
 
 def sun_direction(sun: Sun) -> npt.NDArray[np.float64]:

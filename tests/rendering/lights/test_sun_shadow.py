@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -44,14 +46,50 @@ def test_the_shadow_falls_opposite_the_sun(renderer: Renderer, sun: str) -> None
     assert change[round(aside[1]), round(aside[0])] == 0.0
 
 
-def test_a_lit_body_has_no_acne(renderer: Renderer) -> None:
+def test_shadows_for_people_are_soft_and_have_the_hue_of_the_water(renderer: Renderer) -> None:
+    renderer.place(renderer.add(plate(60.0, 60.0, (0.8, 0.8, 0.8)), 1), placed())
+    renderer.place(renderer.add(block((0.8, 0.8, 0.02)), 2), placed(z=1.0))
+    towards = sun_direction("clear")
+    edge = np.array([0.4, 0.0, 1.0]) - towards / towards[2]  # of the shadow on the floor
+    eye = look_from(edge + np.array([0.02, 0.02, 0.15]), edge)
+    steps, shade = [], []  # from a pixel to the next; colour of the darkest
+    for light in (Light(), Light(is_polished=True)):
+        colour = renderer.draw(eye, CAMERA, CLEAR, light, targets={"colour"}).colour
+        assert colour is not None
+        red = colour[..., 0].astype(float)
+        steps.append(np.abs(np.diff(red, axis=1)).max())
+        shade.append(colour[np.unravel_index(red.argmin(), red.shape)].astype(float))
+    assert 2.0 * steps[1] < steps[0]
+    plain, blue = shade
+    assert plain[2] == pytest.approx(plain[0], abs=1.0)
+    assert blue[2] > 1.3 * blue[0]  # the colour of the water is (0, 0.05, 0.3)
+
+
+def test_what_is_wet_gleams_for_people_where_it_mirrors_the_sun_and_there_alone(
+    renderer: Renderer,
+) -> None:
+    renderer.place(renderer.add(plate(60.0, 60.0, (0.3, 0.3, 0.3)), 1), placed())
+    mirrored = sun_direction("clear") * [-1.0, -1.0, 1.0]
+    gains = []
+    for direction in (mirrored, sun_direction("clear")):
+        eye = look_from(3.0 * direction, np.zeros(3))
+        plain, polished = (
+            brightness(renderer, eye, Light(shadows=False, is_polished=on)) for on in (False, True)
+        )
+        gains.append(polished[60, 80] - plain[60, 80])
+    assert gains[0] > 25.0
+    assert gains[1] <= 0.0
+
+
+@pytest.mark.parametrize("light", [Light(), Light(is_polished=True)])
+def test_a_lit_body_has_no_acne(renderer: Renderer, light: Light) -> None:
     renderer.place(renderer.add(block((1.0, 0.6, 0.4)), 1), placed())
     renderer.place(renderer.add(ball(0.4), 2), placed(x=2.0))
     towards = sun_direction("clear")
     for target in (np.zeros(3), np.array([2.0, 0.0, 0.0])):
         eye = look_from(target + 2.0 * towards, target)  # all that is seen from the sun is lit
-        dry = brightness(renderer, eye, Light(shadows=False))
-        change = dry - brightness(renderer, eye, Light())
+        dry = brightness(renderer, eye, replace(light, shadows=False))
+        change = dry - brightness(renderer, eye, light)
         assert (change > 8.0).mean() < 0.002
 
 

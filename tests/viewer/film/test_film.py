@@ -221,10 +221,11 @@ def test_what_cannot_be_filmed_is_said_in_a_line(
 ) -> None:
     out = str(tmp_path / "x.webp")
     for arguments, said in [
-        (["-o", str(tmp_path / "x.avi")], "expected one of .mp4, .webm, .webp"),
+        (["-o", str(tmp_path / "x.avi")], "expected one of .mp4, .webm, .webp, .html, .mcap"),
         (["-o", out, "--trial", "7"], "no motion of trial 7; expected one of 0"),
         (["-o", out, "--view", "orbitt"], "Did you mean 'orbit'?"),
         (["-o", out, "--size", "161x160"], "expected even numbers"),
+        (["-o", out, "--size", "16000x160"], "from 160 to 7680"),
         (["-o", out, "--begin", "9"], "Nothing to show from 9 s"),
         (["-o", out, "--curve", "corner"], "Did you mean 'corners'?"),
         (["-o", out, "--camera", "bowtech"], "No virtual camera is called 'bowtech'"),

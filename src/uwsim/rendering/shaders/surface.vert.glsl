@@ -43,7 +43,12 @@ void main() {
     v_camera_depth = -up.w;
 #endif
 #ifdef SHADOWS
-    vec3 lifted = v_position + v_normal * (sun.w * inversesqrt(max(dot(v_normal, v_normal), 1e-12)));
+#ifdef SOFT
+    float lift = 2.5 * sun.w;  // wider look-ups
+#else
+    float lift = sun.w;
+#endif
+    vec3 lifted = v_position + v_normal * (lift * inversesqrt(max(dot(v_normal, v_normal), 1e-12)));
     v_shadow_uv = (shadow_from_camera * vec4(lifted, 1.0)).xyz;
 #endif
 #ifdef LAMPS

@@ -18,7 +18,7 @@ from ..stand_ins import warn_of_stand_ins
 from ..tables import read_plugins
 from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
-from .stored_pilot import with_stored_pilot
+from .stored_pilot import PREFIX, with_stored_pilot
 
 if TYPE_CHECKING:
     from ...benchmark.plugin import Plugin
@@ -73,7 +73,8 @@ def make_plan(request: PlanRequest) -> Plan:
         if scene is not None and request.no_code:
             refuse_code(scene)
     with wrong.kept():
-        kind = _algorithm(request, read)
+        if not (request.algorithm or "").startswith(PREFIX):  # else it has been said what is wrong
+            kind = _algorithm(request, read)
     with wrong.kept():
         check_client(request, parameters)
     check_parameters(kind, parameters, wrong)

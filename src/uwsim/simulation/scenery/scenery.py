@@ -164,7 +164,7 @@ class Scenery:
         fog: float | None = None,
         samples: int = 1,
     ) -> RenderedImage:
-        """Render the view of an observer: with ghosts, and with air above the water.
+        """Render the view of an observer: with ghosts, and with air above the water; polished.
 
         Args:
             world_from_camera: where the viewer is; OpenGL axes.
@@ -182,6 +182,7 @@ class Scenery:
             world_from_camera,
             intrinsics.resized(*size) if many else intrinsics,
             replace(self.water, fog=density, has_air=True, fog_distance="ray"),
+            light=replace(self.light, is_polished=True),
             targets=frozenset({"colour"} if many else targets),
             hidden=hidden,
         )
@@ -193,11 +194,15 @@ class Scenery:
         intrinsics: Intrinsics,
         water: Water,
         *,
+        light: Light | None = None,
         targets: frozenset[str] = ALL_TARGETS,
         colour: str = "uint8",
         hidden: frozenset[int] | None = None,
     ) -> RenderedImage:
-        """Render an image without the parts ``hidden``; None: without ghosts."""
+        """Render an image in the scene's light, unless in another; without the parts ``hidden``.
+
+        ``hidden`` None: without ghosts.
+        """
         renderer = self._open()
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
@@ -213,7 +218,7 @@ class Scenery:
             world_from_camera,
             intrinsics,
             water,
-            self.light,
+            self.light if light is None else light,
             targets=targets,
             colour=colour,
             hidden=self._hidden if hidden is None else hidden,

@@ -56,12 +56,19 @@ class Encoder(Protocol):
         """Finish the file, or leave nothing where the film is not whole."""
 
 
-def check_film_path(path: Path, *, overwrite: bool) -> None:
-    """Refuse a path that cannot be written; raises BadSetting or MissingExtra."""
+def check_film_path(path: Path, *, overwrite: bool, others: Sequence[str] = ()) -> None:
+    """Refuse a path that cannot be written; raises BadSetting or MissingExtra.
+
+    Args:
+        path: of the film.
+        overwrite: whether an earlier file is replaced.
+        others: suffixes of what is no film, but would have been right, too.
+    """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        near = did_you_mean(suffix, SUFFIXES)
-        raise BadSetting(f"-o {path}: expected one of {', '.join(SUFFIXES)}.{near}")
+        near = did_you_mean(suffix, (*SUFFIXES, *others))
+        right = ", ".join((*SUFFIXES, *others))
+        raise BadSetting(f"-o {path}: expected one of {right}.{near}")
     if path.is_dir():
         raise BadSetting(f"-o {path}: is a folder.")
     if path.exists() and not overwrite:

@@ -75,7 +75,8 @@ def read_mapping(path: Path) -> PilotMapping:
     try:
         read = tomllib.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        raise BadSetting(f"--pilot-mapping {path}: cannot be read: {error}.") from None
+        why = getattr(error, "strerror", None) or error
+        raise BadSetting(f"--pilot-mapping {path}: cannot be read: {why}.") from None
     known = [each.name for each in fields(PilotMapping)]
     for name, value in read.items():
         if name not in known:

@@ -6,7 +6,7 @@ import { drawOverlay, drawQuads, type Shown } from "./overlay";
 import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
 import type { Moment, Player } from "./player";
-import { Renderer } from "./renderer";
+import { isSoftware, Renderer } from "./renderer";
 import { inside, type Sight, type Views } from "./views";
 import type { Lens } from "./geometry";
 
@@ -20,12 +20,6 @@ export interface Switches extends Shown {
   sun: string;
   /** Trails begin at this point. */
   since: number;
-}
-
-export function isSoftware(gl: WebGL2RenderingContext): boolean {
-  const name = gl.getExtension("WEBGL_debug_renderer_info");
-  const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
-  return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
 }
 
 /** A WebGL2 context of the canvas, antialiased where a GPU does it; null without WebGL. */

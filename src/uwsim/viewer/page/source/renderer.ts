@@ -14,6 +14,13 @@ const MAX_CASTER_RADIUS = 5;
 const MAX_LAMPS = 4;
 const STRIDE = 256;
 
+/** Whether the processor draws, and no graphics processor. */
+export function isSoftware(gl: WebGL2RenderingContext): boolean {
+  const name = gl.getExtension("WEBGL_debug_renderer_info");
+  const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
+  return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
+}
+
 /** What an image depends on besides the poses. */
 export interface Look {
   worldFromCamera: Matrix;
@@ -60,6 +67,7 @@ export class Slots {
 }
 
 export class Renderer {
+  private readonly isSoftware: boolean;
   private readonly programs: Programs;
   private readonly slots: Slots;
   private readonly shadows: Shadows;
@@ -71,6 +79,7 @@ export class Renderer {
     private readonly head: Head,
     private readonly models: Models,
   ) {
+    this.isSoftware = isSoftware(gl);
     this.programs = new Programs(gl);
     this.slots = new Slots(gl, models);
     this.shadows = new Shadows(gl, this.programs, this.slots);
@@ -97,7 +106,8 @@ export class Renderer {
     const switches: Switches = { COLOUR: 0 };
     if (water.fog === 0) switches.NO_FOG = 1;
     else if (water.clip && !look.observer) switches.FOG_CLIP = 1;
-    if (look.observer) switches.AIR = 1;
+    if (look.observer) Object.assign(switches, { AIR: 1, POLISHED: 1 });
+    if (look.observer && !this.isSoftware) switches.SOFT = 1;
     const sun = unit(this.head.suns[water.sun].direction);
     const shaded = water.shadows && this.castSun(pieces, seen, sun, eye);
     if (shaded) switches.SHADOWS = 1;
