@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import textwrap
 from pathlib import Path
 from typing import Any
 
@@ -10,6 +11,7 @@ import cv2
 import numpy as np
 import pytest
 from rosbags.highlevel import AnyReader
+from rosbags.rosbag2 import Reader
 from rosbags.typesys import Stores, get_typestore
 
 from uwsim import messages
@@ -70,6 +72,37 @@ def test_mcap_ros2_support_reads_it(tmp_path: Path) -> None:
         found = {channel.topic: message for _, channel, _, message in decoded}
     assert found["/depth"].data == 3.0
     assert found["/sonar"].ping_info.frequency == 9e5
+
+
+def test_the_file_alone_is_a_rosbag2_to_rosbags(tmp_path: Path) -> None:
+    record(tmp_path / "run.mcap")
+    with Reader(tmp_path / "run.mcap") as reader:
+        assert reader.message_count == 6
+        assert reader.topics["/depth"].msgtype == "std_msgs/msg/Float64"
+        assert reader.topics["/depth"].msgcount == 4
+
+
+def test_the_metadata_in_the_file_is_the_metadata_yaml_of_its_folder(tmp_path: Path) -> None:
+    mcap = pytest.importorskip("mcap.reader")
+    record(tmp_path / "run.mcap")
+    with (tmp_path / "run.mcap").open("rb") as stream:
+        records = {each.name: each.metadata for each in mcap.make_reader(stream).iter_metadata()}
+    text = records["rosbag2"]["serialized_metadata"]
+    folder = tmp_path / "bag"
+    folder.mkdir()
+    (folder / "metadata.yaml").write_text(
+        "rosbag2_bagfile_information:\n" + textwrap.indent(text, "  ")
+    )
+    (tmp_path / "run.mcap").rename(folder / "recording.mcap")
+    with Reader(folder) as reader:
+        assert reader.message_count == 6
+        assert reader.duration == 3 * 10**8 + 1
+        hashes = {each.topic: each.digest for each in reader.connections}
+        depths = [time for connection, time, _ in reader.messages() if connection.topic == "/depth"]
+    assert depths == [0, 10**8, 2 * 10**8, 3 * 10**8]
+    number = wire_type(Float64)
+    assert number is not None
+    assert hashes["/depth"] == number.type_hash
 
 
 def latched_and_not(path: Path) -> dict[str, Any]:
