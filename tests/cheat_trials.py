@@ -27,7 +27,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.short_trial import DATA, make_plan
+from tests.short_trial import DATA, make_plan, with_algorithm
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, floats
@@ -224,7 +224,7 @@ def bench_of(folder: Path, algorithm: type[Holds], *, seed: int, length: float) 
         scene=read_scene(DATA / "scenes" / "visibility-moving-scene.xml"),
     )
     name = algorithm.__name__
-    plan = replace(plan, algorithm_name=name, seed=seed, is_blind=True)
+    plan = with_algorithm(replace(plan, seed=seed, is_blind=True), name=name)
     return Run(plan=plan, out=folder / name, inputs=Inputs(), renderer="none")
 
 
@@ -270,7 +270,7 @@ def main() -> int:
         ):
             print(f"{name}: {status}, {total if total is not None else result.why(row, 'total')}")
     for bench, error in outcome.failures:
-        print(f"{bench.plan.algorithm_name}: {error}")
+        print(f"{bench.plan.algorithm.name}: {error}")
     for error in (found := errors(results)):
         print("ERROR", error)
     return 1 if found else 0

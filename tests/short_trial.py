@@ -6,7 +6,7 @@ from pathlib import Path
 
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.bus import Algorithm
-from uwsim.runs.planning.plan import Mode, Plan
+from uwsim.runs.planning.plan import AlgorithmUnderTest, Mode, Plan
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene
@@ -47,11 +47,15 @@ def make_plan(
     return Plan(
         benchmark=read_benchmark(path),
         scene=tank() if scene is None else scene,
-        algorithm=algorithm,
-        algorithm_name="algorithm",
+        algorithm=AlgorithmUnderTest(cls=algorithm, name="algorithm"),
         mode=mode,
         compatibility=compatibility,
     )
+
+
+def with_algorithm(plan: Plan, **changed: object) -> Plan:
+    """The plan with its algorithm's fields changed."""
+    return replace(plan, algorithm=replace(plan.algorithm, **changed))  # type: ignore[arg-type]
 
 
 def rows_of(plan: Plan) -> list[LevelRow]:

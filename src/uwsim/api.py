@@ -114,7 +114,7 @@ def bench(
     plan = make_plan(request)
     if algorithm is not None and not isinstance(algorithm, str):
         name = f"{algorithm.__module__}:{algorithm.__qualname__}"
-        plan = replace(plan, algorithm=algorithm, algorithm_name=name)
+        plan = replace(plan, algorithm=replace(plan.algorithm, cls=algorithm, name=name))
     executor = executor_of(str(workers), CALLBACK_LIMIT)
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)

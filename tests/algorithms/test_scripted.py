@@ -11,7 +11,7 @@ from uwsim.algorithms.scripted import Scripted, twist_of
 from uwsim.assets.bundled import bundled
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, NeverStarted
-from uwsim.runs.planning.plan import Plan
+from uwsim.runs.planning.plan import AlgorithmUnderTest, Plan
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene
@@ -47,9 +47,11 @@ def rows(
     plan = Plan(
         benchmark=read_benchmark(file),
         scene=replace(scene, ros_interfaces=(twist, odometry)),
-        algorithm=Scripted,
-        algorithm_name="scripted",
-        parameters=given,  # type: ignore[arg-type]
+        algorithm=AlgorithmUnderTest(
+            cls=Scripted,
+            name="scripted",
+            parameters=given,  # type: ignore[arg-type]
+        ),
         is_blind=True,
     )
     return [

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.hostile import ATTACKS, TOPIC, Attacker, Dies, Hangs, Honest, Patches
-from tests.short_trial import INIT, TIME, make_plan, rows_of
+from tests.short_trial import INIT, TIME, make_plan, rows_of, with_algorithm
 from uwsim.bus import Node
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float32MultiArray, PoseStamped, floats, header
@@ -74,7 +73,7 @@ def test_messages_that_wait_for_their_latency_count(
 ) -> None:
     monkeypatch.setattr(undelivered, "MAX_MESSAGES", 100)
     plan = make_plan(tmp_path, Delayed, LEVELS, measures=MEASURES.split("<positionError>")[0])
-    [row, _] = rows_of(replace(plan, parameters={"latency_s": latency}))
+    [row, _] = rows_of(with_algorithm(plan, parameters={"latency_s": latency}))
     assert row.status == status
 
 
@@ -104,7 +103,7 @@ class FromTheFuture(Attacker):
 
 def test_a_stamp_in_the_future_changes_nothing(tmp_path: Path) -> None:
     plan = make_plan(tmp_path, FromTheFuture, LEVELS, measures=MEASURES)
-    rows = [rows_of(replace(plan, parameters={"ahead": ahead})) for ahead in (0.0, 1e6)]
+    rows = [rows_of(with_algorithm(plan, parameters={"ahead": ahead})) for ahead in (0.0, 1e6)]
     assert rows[0][0].measures["p"][0] is not None
     assert rows[0] == rows[1]
 
@@ -133,7 +132,7 @@ def bench_of(folder: Path, algorithm: type[Attacker]) -> Run:
         function="<function>e</function>",
     )
     name = algorithm.__name__
-    plan = replace(plan, algorithm_name=name, parameters={"immortal": str(folder / "immortal")})
+    plan = with_algorithm(plan, name=name, parameters={"immortal": str(folder / "immortal")})
     return Run(plan=plan, out=folder / name, inputs=Inputs(), renderer="none")
 
 

@@ -218,7 +218,8 @@ def test_a_plan_brings_its_plugins_to_a_process_that_has_never_seen_them(folder:
     (folder / "parts.py").unlink()
     code = (
         "import pickle; plan = pickle.load(open('plan.pickle', 'rb'))['what'][1]; "
-        "print(type(plan.benchmark.measures[0]).__name__, plan.algorithm.__name__, plan.plugins)"
+        "names = [type(plan.benchmark.measures[0]).__name__, plan.algorithm.cls.__name__]; "
+        "print(*names, plan.plugins)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.stdout.strip() == f"CountSpec Idle (Plugin(path='{folder}/parts.py'),)", done.stderr

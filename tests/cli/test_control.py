@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.short_benchmark import bench_of, write_benchmark
+from tests.short_trial import with_algorithm
 from uwsim.cli import main
 from uwsim.runs import control
 from uwsim.runs.control import control_of, image_topic
@@ -30,7 +31,7 @@ def test_the_control_waits_for_images_of_the_camera_of_the_truth(
     benchmark.write_text(benchmark.read_text().replace("visibility-scene.xml", "own.xml"))
     run = bench_of(benchmark, tmp_path / "out")
     assert image_topic(run.plan) == topic
-    assert control_of(run).plan.parameters == parameters
+    assert control_of(run).plan.algorithm.parameters == parameters
 
 
 def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
@@ -38,7 +39,7 @@ def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
 ) -> None:
     def bound_to_fail(run: Run) -> Run:
         found = control_of(run)
-        no_images = replace(found.plan, parameters={"image_topic": "/uwsim/camera1_info"})
+        no_images = with_algorithm(found.plan, parameters={"image_topic": "/uwsim/camera1_info"})
         return replace(found, plan=no_images)
 
     monkeypatch.setattr(control, "control_of", bound_to_fail)

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import shutil
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from tests.short_trial import INIT, make_plan
+from tests.short_trial import INIT, make_plan, with_algorithm
 from uwsim.bus import Node
 from uwsim.errors import RunFailed
 from uwsim.files.input_files import InputFile, hash_of
@@ -37,7 +36,7 @@ class Edits:
 def test_a_row_is_kept_only_while_all_files_are_as_they_were(tmp_path: Path) -> None:
     (tmp_path / "box.png").write_text("texture")
     plan = make_plan(tmp_path, Edits, LEVELS, start=INIT)
-    plan = replace(plan, parameters={"path": str(tmp_path / "box.png")})
+    plan = with_algorithm(plan, parameters={"path": str(tmp_path / "box.png")})
     files = watchable([file_of(tmp_path / "box.png")])
     bench = Run(plan=plan, out=tmp_path / "out", inputs=Inputs(), renderer="none", files=files)
     outcome = run_each([bench])

@@ -227,7 +227,7 @@ def check_live(options: BenchOptions, plans: Sequence[Plan]) -> None:
 
 def is_piloted(plan: Plan) -> bool:
     """Whether somebody is to pilot now: not where inputs of an earlier run are sent again."""
-    return bool(getattr(plan.algorithm, "IS_PILOTED", False)) and not plan.inputs
+    return bool(getattr(plan.algorithm.cls, "IS_PILOTED", False)) and not plan.inputs
 
 
 @contextmanager
@@ -281,7 +281,7 @@ def run_and_finish(
         for run, result in zip(runs, outcome.results, strict=True):
             if id(run) not in failed:
                 if len(runs) > 1:
-                    print(f"{run.plan.algorithm_name}:")
+                    print(f"{run.plan.algorithm.name}:")
                 finish(run, result, background, timing)
     if len(runs) > 1 and not failed:
         print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
@@ -311,7 +311,7 @@ def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> 
     """Run one benchmark with each algorithm, showing progress."""
     from ..runs.executors.executor import run_each
 
-    names = ", ".join(run.plan.algorithm_name for run in runs)
+    names = ", ".join(run.plan.algorithm.name for run in runs)
     title = f"{Path(runs[0].plan.benchmark.path).stem} ({names})"
     total = sum(len(trial.levels) for run in runs for trial in run.plan.trials())
     done = sum(run.n_finished() for run in runs)

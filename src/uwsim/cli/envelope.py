@@ -234,7 +234,7 @@ def search_and_write(
     with running(), prepared(directory, resume=options.resume, overwrite=options.overwrite):
         if message := save_beginning(command, directory):
             warn(message)
-        title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm_name}), at most"
+        title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm.name}), at most"
         most = most_runs(asked)
         with progress(title, most, of="runs", at_once=options.by.at_once) as on_run:
             envelope = find(run, request, asked, executor, on_run)

@@ -33,7 +33,7 @@ def collect(
     columns = _columns(plan, [record for _, record in records])
     began, simulated_s = _times(records)
     ends = [(trial, found.end) for trial, found in stored if found.end is not None]
-    first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.parameters)}
+    first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.algorithm.parameters)}
     result = Result(
         inputs=inputs,
         run=replace(

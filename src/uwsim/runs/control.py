@@ -7,7 +7,7 @@ from dataclasses import replace
 from ..benchmark.measures import EuclideanNormSpec
 from ..benchmark.updaters import chain
 from ..topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
-from .planning.plan import Plan
+from .planning.plan import AlgorithmUnderTest, Plan
 from .run import Run
 
 CONTROL = "frozen"
@@ -20,7 +20,7 @@ def wants_control(plan: Plan) -> bool:
     Where a current drives the vehicle the algorithm steers, and `frozen` is no control.
     """
     drifts = any(updater.name == "current" for updater in chain(plan.benchmark.scene_updater))
-    return plan.algorithm_name != CONTROL and not drifts and bool(_cameras(plan))
+    return plan.algorithm.name != CONTROL and not drifts and bool(_cameras(plan))
 
 
 def image_topic(plan: Plan) -> str | None:
@@ -52,12 +52,12 @@ def control_of(run: Run) -> Run:
     is_usual = topic is None or topic.strip("/") == usual.strip("/")
     plan = replace(
         run.plan,
-        algorithm=load_algorithm(CONTROL),
-        algorithm_name=CONTROL,
-        parameters={} if topic is None or is_usual else {"image_topic": topic},
+        algorithm=AlgorithmUnderTest(
+            cls=load_algorithm(CONTROL),
+            name=CONTROL,
+            parameters={} if topic is None or is_usual else {"image_topic": topic},
+        ),
         is_blind=True,
-        own_process=False,
-        client=None,
     )
     inputs = run.inputs.without_algorithm()
     return Run(plan=plan, out=run.out / FOLDER, inputs=inputs, renderer="none", files=run.files)

@@ -19,7 +19,7 @@ def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
         RunFailed: names the algorithms, and why the first row of each is as it is.
     """
     broke = [
-        f"{run.plan.algorithm_name} ({result.why(0, 'total')})"
+        f"{run.plan.algorithm.name} ({result.why(0, 'total')})"
         for run, result in zip(runs, results, strict=True)
         if result.rows and set(result.values("status")) == {ALGORITHM_ERROR}
     ]
@@ -36,7 +36,7 @@ def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) ->
     ended = []
     for run, result in zip(runs, results, strict=True):
         reasons = [result.why(row, "total") or "" for row in range(len(result.rows))]
-        name = run.plan.algorithm_name
+        name = run.plan.algorithm.name
         ended += [why for why in reasons if ended_its_process(name, why)][:1]
     if ended:
         raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")

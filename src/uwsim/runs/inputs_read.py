@@ -54,7 +54,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
 
 def of_algorithm(plan: Plan) -> dict[str, str] | None:
     """Hash and record the sources of a ``module:Class``; None if bundled or of a plugin."""
-    module, colon, _ = plan.algorithm_name.partition(":")
+    module, colon, _ = plan.algorithm.name.partition(":")
     if not colon:
         return None
     return by_name(_hashed(sources_of(module)))

@@ -59,7 +59,7 @@ class Run:
         """Make the directory, and return the trials that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self._forget_what_was_stopped()
-        if self.plan.client is not None and self.plan.client.sync == "none":
+        if self.plan.algorithm.client is not None and self.plan.algorithm.client.sync == "none":
             self._forget_what_cannot_be_repeated()
         self.n_resumed = self.n_finished()
         return self.unfinished()
@@ -70,7 +70,7 @@ class Run:
         Earlier levels are kept and compared with the repeated ones. A call that did not return is
         final; but a trial without an end is repeated anyhow, and may go better.
         """
-        name = self.plan.algorithm_name
+        name = self.plan.algorithm.name
         for trial in self.plan.trials():
             stored = self.stored(trial)
             is_to_go = ended_its_process if stored.end is not None else was_stopped

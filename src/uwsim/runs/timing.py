@@ -54,7 +54,7 @@ class Timing:
         names = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
         return {
             "began": datetime.datetime.fromtimestamp(self.began, datetime.UTC).isoformat(),
-            "algorithms": [each.plan.algorithm_name for each in self.runs],
+            "algorithms": [each.plan.algorithm.name for each in self.runs],
             "wall_s": self.wall,
             "simulated_s": simulated,
             "real_time_factor": simulated / self.wall if self.wall > 0.0 else None,

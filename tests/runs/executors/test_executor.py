@@ -97,7 +97,7 @@ def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
 
 def jobs(tmp_path: Path, *sizes: int) -> list[Job]:
     """Jobs of one benchmark with so many levels each."""
-    plan = SimpleNamespace(algorithm_name="esm")
+    plan = SimpleNamespace(algorithm=SimpleNamespace(name="esm"))
     bench = SimpleNamespace(n_rows=lambda trial: 0, n_lost=0, plan=plan)
     levels = [SimpleNamespace(values=(("fog", 0.5),))]
     return [

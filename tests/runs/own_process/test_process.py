@@ -5,13 +5,12 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.runs.own_process import programs
-from tests.short_trial import TIME, make_plan, rows_of
+from tests.short_trial import TIME, make_plan, rows_of, with_algorithm
 from tests.waiting import until
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage, BadSetting, NeverStarted, RunFailed
@@ -51,7 +50,7 @@ def plan_of(folder: Path, algorithm: type, *, own: bool = True) -> Plan:
     plan = make_plan(
         folder, algorithm, LEVELS, measures=MEASURES, function="<function>t+e</function>"
     )
-    return replace(plan, own_process=own)
+    return with_algorithm(plan, own_process=own)
 
 
 def rows(folder: Path, algorithm: type, *, own: bool = True) -> list[LevelRow]:

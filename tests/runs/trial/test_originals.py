@@ -25,7 +25,7 @@ from uwsim.benchmark.updaters import (
 from uwsim.cli import main
 from uwsim.compatibility import compatibility
 from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
-from uwsim.runs.planning.plan import Plan
+from uwsim.runs.planning.plan import AlgorithmUnderTest, Plan
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene
@@ -119,13 +119,15 @@ def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan
     return Plan(
         benchmark=replace(spec, scene_updater=updater),
         scene=scene,
-        algorithm=Scripted,
-        algorithm_name="scripted",
-        parameters={
-            "file": str(file),
-            "drive": twists[0].topic if twists else "",
-            "stop_after": 2.0,
-        },
+        algorithm=AlgorithmUnderTest(
+            cls=Scripted,
+            name="scripted",
+            parameters={
+                "file": str(file),
+                "drive": twists[0].topic if twists else "",
+                "stop_after": 2.0,
+            },
+        ),
         chosen=tuple(chosen),
         compatibility=compatibility,
         is_blind=True,

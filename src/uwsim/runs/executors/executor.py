@@ -49,7 +49,7 @@ class Job:
         levels = self.trial.levels
         which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
         levels_text = which if len(levels) == 1 else f"{len(levels)} levels"
-        name = self.run.plan.algorithm_name
+        name = self.run.plan.algorithm.name
         return f"trial {self.trial.index} ({name}, seed {self.trial.seed}, {levels_text})"
 
 

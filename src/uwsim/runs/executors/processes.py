@@ -129,12 +129,12 @@ class WorkerProcess:
 
     def may_play(self, job: Job) -> bool:
         """Whether it can be given a job: it is alive, and has run no other algorithm."""
-        name = job.run.plan.algorithm_name
+        name = job.run.plan.algorithm.name
         return self._process.is_alive() and self._algorithm in (None, name)
 
     def give(self, job: Job) -> None:
         """Give it a job; if it has ended, the next `report` reports that."""
-        self.job, self._algorithm = job, job.run.plan.algorithm_name
+        self.job, self._algorithm = job, job.run.plan.algorithm.name
         with suppress(OSError):
             self._pipe.send(job)
 
@@ -171,7 +171,7 @@ class WorkerProcess:
         call = open_call(count)
         if self.job is None or call is None:
             return
-        if self.job.run.plan.own_process:
+        if self.job.run.plan.algorithm.own_process:
             limit *= 2.0  # the worker itself looks at the clock
         if self._seen_for <= limit:
             return

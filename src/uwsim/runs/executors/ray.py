@@ -82,7 +82,7 @@ class RayExecutor:
             try:
                 while True:
                     while len(tasks) < n_workers and (job := queue.take()) is not None:
-                        name = job.run.plan.algorithm_name
+                        name = job.run.plan.algorithm.name
                         while idle and idle[-1][1] != name:  # no process sees two algorithms
                             ray.kill(idle.pop()[0])
                         task = AssignedJob(job, idle.pop()[0] if idle else remote.remote())
@@ -98,7 +98,7 @@ class RayExecutor:
                             task = tasks.pop(events)
                             task.writer.close()
                             if task.is_alive:
-                                idle.append((task.worker, task.job.run.plan.algorithm_name))
+                                idle.append((task.worker, task.job.run.plan.algorithm.name))
             finally:
                 for task in tasks.values():
                     task.writer.close()

@@ -29,19 +29,19 @@ def program_of(plan: Plan, limit: float | None = None) -> Iterator[Program]:
         limit: how long a callback in a process of its own may take [s of wall time].
     """
     with ExitStack() as stack:
-        if plan.client is not None:
-            yield partial(_client, plan.client, stack)
-        elif plan.own_process:
+        if plan.algorithm.client is not None:
+            yield partial(_client, plan.algorithm.client, stack)
+        elif plan.algorithm.own_process:
             yield partial(_in_own_process, plan, stack.enter_context(OwnProcess(limit)))
         else:
-            yield lambda simulation, parameters: plan.algorithm()
+            yield lambda simulation, parameters: plan.algorithm.cls()
 
 
 def _in_own_process(
     plan: Plan, process: OwnProcess, simulation: Simulation, parameters: Mapping[str, float | str]
 ) -> Algorithm:
     may_refuse = simulation.bus.may_refuse
-    return ProcessAlgorithm(process, plan.algorithm, plan.plugins, parameters, may_refuse)
+    return ProcessAlgorithm(process, plan.algorithm.cls, plan.plugins, parameters, may_refuse)
 
 
 def _client(
@@ -63,13 +63,13 @@ def _client(
 
 def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
     """Return who takes part, how, and its grade; None where only code of uwsim does."""
-    if plan.client is not None:
-        return ((plan.algorithm_name, plan.client.participation),)
-    if plan.own_process:
-        return ((plan.algorithm_name, OWN_PROCESS),)
-    if plan.algorithm.__module__.startswith("uwsim."):
+    if plan.algorithm.client is not None:
+        return ((plan.algorithm.name, plan.algorithm.client.participation),)
+    if plan.algorithm.own_process:
+        return ((plan.algorithm.name, OWN_PROCESS),)
+    if plan.algorithm.cls.__module__.startswith("uwsim."):
         return None
-    return ((plan.algorithm_name, IN_PROCESS),)
+    return ((plan.algorithm.name, IN_PROCESS),)
 
 
 def is_outside(how: str) -> bool:

@@ -53,7 +53,7 @@ def make_plan(request: PlanRequest) -> Plan:
     Raises:
         UwsimError: a file, a name or a setting that is wrong; or SeveralErrors, with all of them.
     """
-    from .plan import Plan
+    from .plan import AlgorithmUnderTest, Plan
 
     wrong = AllErrors()
     inputs: dict[int, bytes] = {}
@@ -93,9 +93,15 @@ def make_plan(request: PlanRequest) -> Plan:
     return Plan(
         benchmark=spec,
         scene=scene,
-        algorithm=kind,
-        algorithm_name=_wanted(request, spec),
-        parameters=parameters,
+        algorithm=AlgorithmUnderTest(
+            cls=kind,
+            name=_wanted(request, spec),
+            parameters=parameters,
+            own_process=request.client is None
+            and not request.in_process
+            and kind not in _bundled_algorithms(_wanted(request, spec)),
+            client=request.client,
+        ),
         settings=tuple(pairs),
         mode=mode,
         seed=request.seed,
@@ -106,10 +112,6 @@ def make_plan(request: PlanRequest) -> Plan:
         data_path=tuple(request.data_path),
         inputs=inputs,
         plugins=_with_program(read.plugins, _wanted(request, spec)),
-        client=request.client,
-        own_process=request.client is None
-        and not request.in_process
-        and kind not in _bundled_algorithms(_wanted(request, spec)),
     )
 
 

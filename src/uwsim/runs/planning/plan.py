@@ -53,6 +53,22 @@ class Trial:
 
 
 @dataclass(frozen=True, kw_only=True)
+class AlgorithmUnderTest:
+    """An algorithm, its parameters, and where it runs."""
+
+    cls: type[Algorithm]
+    """Its class."""
+    name: str
+    """The name that selected it."""
+    parameters: Mapping[str, float | str] = field(default_factory=dict)
+    """The values of ``--set algorithm.NAME=VALUE``."""
+    own_process: bool = False
+    """Whether it runs in a process of its own, in lock-step."""
+    client: ClientSpec | None = None
+    """The program outside that is the algorithm; None where ``cls`` is."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Plan:
     """A benchmark with scene, algorithm and options; an immutable value, sent to workers."""
 
@@ -60,12 +76,8 @@ class Plan:
     """The benchmark file."""
     scene: SceneSpec
     """The scene, with ``--set`` applied."""
-    algorithm: type[Algorithm]
-    """Class of the algorithm under test."""
-    algorithm_name: str
-    """The name that selected it."""
-    parameters: Mapping[str, float | str] = field(default_factory=dict)
-    """The values of ``--set algorithm.NAME=VALUE``."""
+    algorithm: AlgorithmUnderTest
+    """What is tested, and where it runs."""
     settings: tuple[tuple[str, str], ...] = ()
     """Every ``--set``, as given; those of scene and updaters are already in these."""
     mode: Mode = "sequential"
@@ -88,10 +100,6 @@ class Plan:
     """Number of a trial -> a pilot's inputs in an earlier run, which are sent again."""
     plugins: tuple[Plugin, ...] = ()
     """What was read with ``--plugin``."""
-    own_process: bool = False
-    """Whether the algorithm runs in a process of its own, in lock-step."""
-    client: ClientSpec | None = None
-    """The program outside that is the algorithm; None where ``algorithm`` is."""
 
     def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
         """Pickle the plugins first, because later fields may be of their classes."""
@@ -101,15 +109,16 @@ class Plan:
     @property
     def is_bundled(self) -> bool:
         """Whether only code of uwsim runs: a bundled algorithm without plugins."""
-        return self.algorithm.__module__.startswith("uwsim.") and not self.plugins
+        return self.algorithm.cls.__module__.startswith("uwsim.") and not self.plugins
 
     @property
     def patience(self) -> float:
         """How long a start is waited for [s of simulation time]."""
         if self.benchmark.patience is not None:
             return self.benchmark.patience
-        if self.client is not None and self.client.sync == "none":
-            return self.client.limit * self.client.speed  # somebody has yet to start the program
+        client = self.algorithm.client
+        if client is not None and client.sync == "none":
+            return client.limit * client.speed  # somebody has yet to start the program
         return PATIENCE
 
     def draws(self, seed: int) -> tuple[Draw, ...]:

@@ -33,7 +33,7 @@ def known_corners(plan: Plan) -> dict[str, str]:
     no eight constants for the topic of the corners, or when the algorithm has no such parameter.
     """
     norms = [each for each in plan.benchmark.measures if isinstance(each, EuclideanNormSpec)]
-    defaults: object = getattr(plan.algorithm, "PARAMETERS", None)
+    defaults: object = getattr(plan.algorithm.cls, "PARAMETERS", None)
     is_told = any(norm.ground_truth.publish_on is not None for norm in norms)
     if is_told or not isinstance(defaults, Mapping) or PARAMETER not in defaults:
         return {}

@@ -109,11 +109,11 @@ def pilot_inputs(
     plan: Plan, trial: Trial, simulation: Simulation, onlooker: Onlooker | None
 ) -> PilotInputs | None:
     """A pilot's inputs, live or stored; None where the algorithm takes none."""
-    if not getattr(plan.algorithm, "IS_PILOTED", False):
+    if not getattr(plan.algorithm.cls, "IS_PILOTED", False):
         return None
     stored = plan.inputs.get(trial.index)
     if stored is not None:
         return PilotInputs(simulation, lambda: None, read_inputs(stored))
     if onlooker is None:
-        raise RunFailed(f"{plan.algorithm_name} needs somebody who pilots: --view.")
+        raise RunFailed(f"{plan.algorithm.name} needs somebody who pilots: --view.")
     return PilotInputs(simulation, onlooker.pilot)

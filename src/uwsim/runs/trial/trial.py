@@ -153,11 +153,11 @@ class _Execution:
         self._onlooker = onlooker
         self._inputs = pilot_inputs(plan, trial, simulation, onlooker)
         found = {} if self._inputs is None else pilot_topics(simulation)
-        self._parameters = {**found, **known_corners(plan), **plan.parameters}
+        self._parameters = {**found, **known_corners(plan), **plan.algorithm.parameters}
         self._algorithm = _make(plan, partial(program, simulation), self._parameters, calls)
         self._node = simulation.attach(
             self._algorithm,
-            name=plan.algorithm_name,
+            name=plan.algorithm.name,
             parameters=self._parameters,
             raises=False,
             calls=calls,
@@ -225,7 +225,7 @@ class _Execution:
     def _title(self) -> str:
         """``currents, pi, seed 7``."""
         name = Path(self._plan.benchmark.path).stem
-        return f"{name}, {self._plan.algorithm_name}, seed {self._trial.seed}"
+        return f"{name}, {self._plan.algorithm.name}, seed {self._trial.seed}"
 
     def _parameters_said(self) -> dict[str, float | int | str]:
         """Return the parameters that the algorithm reports.
@@ -236,7 +236,7 @@ class _Execution:
         try:
             with self._calls:
                 return parameters_of(
-                    self._algorithm, self._parameters, name=self._plan.algorithm.__name__
+                    self._algorithm, self._parameters, name=self._plan.algorithm.cls.__name__
                 )
         except UwsimError:
             raise
@@ -244,9 +244,9 @@ class _Execution:
             if is_of_user(error):
                 raise
             plan = self._plan
-            message = legible(what_broke(error, plan.algorithm))
+            message = legible(what_broke(error, plan.algorithm.cls))
             raise RunFailed(
-                f"Algorithm {plan.algorithm_name!r} cannot report its parameters: {message}"
+                f"Algorithm {plan.algorithm.name!r} cannot report its parameters: {message}"
             ) from error
 
     def close(self) -> None:
@@ -429,8 +429,8 @@ def _make(
         if is_of_user(error):
             raise
         raise NeverStarted(
-            f"Algorithm {plan.algorithm_name!r} cannot be made: "
-            f"{legible(what_broke(error, plan.algorithm))}"
+            f"Algorithm {plan.algorithm.name!r} cannot be made: "
+            f"{legible(what_broke(error, plan.algorithm.cls))}"
         ) from error
 
 
