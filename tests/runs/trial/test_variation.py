@@ -78,7 +78,7 @@ def test_what_decides_the_levels_cannot_be_set_or_vary(tmp_path: Path) -> None:
     ):
         file = tmp_path / "b.xml"
         file.write_text(text.replace("currentForceUpdater.timeOffset", path))
-        [diagnostic] = [each for each in check_benchmark(file) if each.severity == "error"]
+        [diagnostic] = [each for each in check_benchmark(file)[0] if each.severity == "error"]
         assert said in diagnostic.message
         assert "<u:uniform>" in file.read_text().split("\n")[(diagnostic.line or 0) - 1]
 
