@@ -104,7 +104,7 @@ class Engine:
         model = self._model
         return (
             copy.copy(self._data),
-            model.jnt_limited.copy(),
+            model.jnt_range.copy(),
             model.actuator_gainprm.copy(),
             model.actuator_biasprm.copy(),
             model.opt.disableflags,
@@ -112,11 +112,11 @@ class Engine:
 
     @_engine.setter
     def _engine(self, kept: tuple[mujoco.MjData, Array, Array, Array, int]) -> None:
-        model, (data, limited, gains, biases, flags) = self._model, kept
+        model, (data, ranges, gains, biases, flags) = self._model, kept
         if (data.model.nq, data.nbuffer) != (model.nq, self._data.nbuffer):
             raise UwsimError("The saved simulation is not of this scene.")
         mujoco.mj_copyData(self._data, model, data)
-        model.jnt_limited[:] = limited
+        model.jnt_range[:] = ranges
         model.actuator_gainprm[:] = gains
         model.actuator_biasprm[:] = biases
         model.opt.disableflags = flags

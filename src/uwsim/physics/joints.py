@@ -17,6 +17,11 @@ STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 GEAR = (500.0, 10.0)
 """Stiffness [N m/rad or N/m] and damping between a joint and the one that it mimics; a constraint
 would bind them as well, and cost a solver at every step."""
+BEYOND = 0.02
+"""How far beyond its limits a joint that slides has its stops while a servo holds it, so that one
+that comes to a limit does not hit them [m]."""
+NOWHERE = 1e6
+"""As far are those of a joint that turns: it has none while a servo holds it [rad]."""
 ROTOR = 0.1
 """Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2 or kg]."""
 
@@ -24,17 +29,24 @@ ROTOR = 0.1
 def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: bool) -> None:
     """Let a link's body turn or slide; ``is_driven`` with rotor, damping and friction."""
     is_slide = joint.kind == "prismatic"
+    low, high = stops(joint, is_held=True)
     body.add_joint(
         name=name,
         type=mujoco.mjtJoint.mjJNT_SLIDE if is_slide else mujoco.mjtJoint.mjJNT_HINGE,
         axis=list(joint.axis),
-        range=[joint.lower, joint.upper],
-        limited=mujoco.mjtLimited.mjLIMITED_FALSE,  # the servo's targets are
+        range=[low, high],
+        limited=is_driven and joint.mimic is None and low < high,
         armature=ROTOR if is_driven else 0.0,
         damping=[joint.damping if is_driven else 0.0, 0.0, 0.0],  # the first of a joint of one
         frictionloss=joint.friction if is_driven else 0.0,
         solimp_friction=STIFF_FRICTION,
     )
+
+
+def stops(joint: JointSpec, *, is_held: bool) -> tuple[float, float]:
+    """Where a joint stops, whatever pushes it; ``is_held`` by a servo [rad or m]."""
+    beyond = (BEYOND if joint.kind == "prismatic" else NOWHERE) if is_held else 0.0
+    return joint.lower - beyond, joint.upper + beyond
 
 
 def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:

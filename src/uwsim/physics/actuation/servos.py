@@ -4,8 +4,9 @@ A servo pulls its joint to a target (`servo_kernel`), with a stiffness and dampi
 its strength, and carries what hangs on the joint. How strong it is and how fast its target moves at
 most is said by the URDF. A position sets where the target goes, a velocity moves it until the next
 command, both within the limits of the URDF. An effort switches the servo off and acts on the joint
-alone; its limits are then stops. Joints that mimic follow the targets, or where the leader has no
-servo, its position. Not modelled: play, friction of the gear.
+alone. The limits are stops where the servo is off, and those of a joint that slides also, a little
+beyond, where it holds. Joints that mimic follow the targets, or where the leader has no servo, its
+position. Not modelled: play, friction of the gear, stops of a joint that turns while it is held.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy.typing as npt
 from ...geometry import Array
 from ...scene.urdf.robot import JointSpec, RobotSpec
 from ..compile import vehicle_joint
-from ..joints import servo_gains
+from ..joints import servo_gains, stops
 from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 
 MAX_SPEED = 2.0
@@ -40,7 +41,7 @@ class Servos:
 
         self._take_aim = take_aim
         self._model, self._data = model, data
-        moving = [joint for joint in robot.joints if joint.moves]
+        self._specs = moving = [joint for joint in robot.joints if joint.moves]
         names = [joint.name for joint in moving]
         self._joints = [model.joint(vehicle_joint(index, name)).id for name in names]
         self._servos = [model.actuator(f"{vehicle_joint(index, name)}/servo").id for name in names]
@@ -119,7 +120,7 @@ class Servos:
         self._take_aim(self._records, self._state)
 
     def _switch(self, number: int, *, is_on: bool) -> None:
-        """Switch a servo on or off; one that is off is replaced by stops at the limits."""
+        """Switch a servo on or off; where it is off, the stops are at the limits."""
         place = self._vector[number]
         if is_on and self._state["is_on"][place]:
             return
@@ -128,7 +129,8 @@ class Servos:
         self._state["is_on"][place] = is_on
         self._model.actuator_gainprm[servo, 0] = stiffness
         self._model.actuator_biasprm[servo, 1:3] = -stiffness, -damping
-        self._model.jnt_limited[self._joints[place]] = not is_on
+        stop = stops(self._specs[place], is_held=is_on)
+        self._model.jnt_range[self._joints[place]] = stop
         self._data.qfrc_applied[self._dofs[number]] = 0.0
         self._state["target"][place] = self._data.qpos[self._places[number]]
         self._state["integral"][place] = 0.0

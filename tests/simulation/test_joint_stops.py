@@ -1,0 +1,82 @@
+"""Sliding joints stop at their limits whatever pushes them, also while a servo holds them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import uwsim
+from uwsim.messages import JointState
+from uwsim.physics.joints import BEYOND
+
+HULL = """
+  <body link="hull">
+    <mass>60</mass> <inertia>3 5 6 0 0 0</inertia> <volume>0.064</volume>
+    <centreOfBuoyancy> <x>0</x> <y>0</y> <z>0.08</z> </centreOfBuoyancy>
+    <addedMass>10 60 80 1 4 3</addedMass> <linearDamping>5 10 10 2 2 2</linearDamping>
+    <quadraticDamping>30 150 200 5 20 20</quadraticDamping>
+  </body>"""
+SET = f"""<hydrodynamics name="lifter">
+  <source>a test</source> <density>1000</density>{HULL}
+</hydrodynamics>
+"""
+ROBOT = """<robot name="lifter">
+  <link name="hull"> <visual> <geometry> <box size="1.2 0.4 0.3"/> </geometry> </visual> </link>
+  <joint name="lift" type="prismatic">
+    <parent link="hull"/> <child link="sled"/> <axis xyz="0 0 -1"/>
+    <limit lower="0" upper="0.5" effort="200" velocity="0.2"/>
+  </joint>
+  <link name="sled"> <inertial> <mass value="30"/>
+    <inertia ixx="0.2" iyy="0.2" izz="0.2" ixy="0" ixz="0" iyz="0"/> </inertial> </link>
+</robot>
+"""
+SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
+  <vehicle> <name>lifter</name> <file>lifter.urdf</file>
+    <jointValues> <joint>0.5</joint> </jointValues>
+    <position> <x>0</x> <y>0</y> <z>-3</z> </position>
+    <orientation> <r>0</r> <p>0</p> <y>0</y> </orientation>
+    <u:dynamics>lifter</u:dynamics> </vehicle>
+  <rosInterfaces> <ROSJointStateToArm> <topic>/arm</topic> <vehicleName>lifter</vehicleName>
+  </ROSJointStateToArm> </rosInterfaces>
+</UWSimScene>
+"""
+
+
+@pytest.fixture
+def simulation(tmp_path: Path) -> uwsim.Simulation:
+    (tmp_path / "lifter.xml").write_text(SET)
+    (tmp_path / "lifter.urdf").write_text(ROBOT)
+    (tmp_path / "scene.xml").write_text(SCENE)
+    return uwsim.load(tmp_path / "scene.xml")
+
+
+def pull_down(simulation: uwsim.Simulation, newtons: float, seconds: float) -> float:
+    """Pull the sled; how far it comes out [m]."""
+    data, farthest = simulation.world.state._data, 0.0
+    data.xfrc_applied[-1, 2] = -newtons
+    for _ in range(round(seconds / 0.01)):
+        simulation.advance(0.01)
+        farthest = max(farthest, float(simulation.world.joints("lifter")[0]))
+    return farthest
+
+
+def test_a_held_joint_stops_a_little_beyond_its_limit_when_more_pulls_than_its_servo_bears(
+    simulation: uwsim.Simulation,
+) -> None:
+    assert 0.5 < pull_down(simulation, 400.0, 2.0) < 0.5 + 1.5 * BEYOND
+
+
+def test_a_joint_that_is_let_go_stops_at_its_limit_and_a_saved_one_does_so_again(
+    simulation: uwsim.Simulation,
+) -> None:
+    simulation.publish("/arm", JointState(name=["lift"], effort=np.array([0.0])))
+    simulation.advance(0.1)
+    saved = simulation.save()
+    farthest = pull_down(simulation, 400.0, 2.0)
+    assert farthest < 0.5 + 0.5 * BEYOND
+    simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.2])))
+    simulation.advance(0.1)
+    simulation.restore(saved)
+    assert pull_down(simulation, 400.0, 2.0) == farthest
