@@ -22,6 +22,7 @@ from ..bus import Algorithm, Bus
 from ..errors import BadSetting, UnknownName, UwsimError
 from ..geometry import Array, Pose
 from ..inbox import Inbox
+from ..network import nanoseconds
 from ..physics.motion import Motion
 from ..rendering.rendered_image import RenderedImage
 from ..scene.spec import SceneSpec
@@ -113,7 +114,7 @@ class Simulation:
     def _advance(self, wanted: int = 1) -> int:
         """Take a step, and of those wanted after it all that nothing comes between; how many."""
         self.bus.step += 1
-        self.world.apply_commands()
+        self.world.schedule.apply_commands()
         self._step_devices()
         self._advect_kinematic()
         n = self._n_alone(wanted) if wanted > 1 else 1
@@ -143,7 +144,7 @@ class Simulation:
             or (self._drifting and not world.water.is_still)
         ):
             return 1
-        dues = [delivery, world.next_tick]
+        dues = [delivery, world.schedule.due if world.network.is_idle else now]
         dues += [each.timer.due for each in self.images.values()]
         dues += [node.next_tick for node in self._nodes]
         began = self.time - self.timestep
@@ -251,7 +252,8 @@ class Simulation:
         bus = self.bus
         for images in self.images.values():
             images.timer.tick(bus.step)
-        self.world.tick()
+        self.world.network.advance(nanoseconds(self.time))
+        self.world.schedule.tick(bus.step)
         bus.deliver()
         for node in self._nodes:
             node.tick()

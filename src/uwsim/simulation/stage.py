@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -18,8 +17,7 @@ from ..errors import AssetNotFound, SceneError, UnknownName
 from ..geodesy import Geodetic
 from ..geometry import Array
 from ..messages import SpawnMarker, String
-from ..network import Channel, Network, nanoseconds
-from ..sampling import SampleTimer
+from ..network import Channel, Network
 from ..scene.spec import SceneSpec
 from ..schema import diagnostic_at
 from ..sensors.sensor import Sensor
@@ -31,6 +29,7 @@ from .datagrams import Datagrams
 from .faulty_topic import FaultyTopic, faults_of
 from .frames import object_frames, vehicle_frames
 from .markers import SERVICE, Markers
+from .schedule import Schedule
 from .trajectories import RATE, Trajectory
 from .vehicles import SceneVehicle
 from .world import SceneWorld
@@ -50,7 +49,7 @@ class SceneStage(SceneWorld):
     """
 
     STATE = (
-        *("_bus", "state", "scenery", "touch", "_timers", "_due", "_pending"),
+        *("_bus", "state", "scenery", "touch", "schedule", "_pending"),
         *("_vehicles", "_sensors", "devices", "interfaces", "network"),
         *("markers", "trajectories", "_faulty_topics"),
     )
@@ -68,9 +67,8 @@ class SceneStage(SceneWorld):
             publish = self.bus.publisher(TRACE, String)
             self.network.trace = lambda line: publish(String(data=line))
         self._datagrams = Datagrams(udp_address)
-        self._timers: list[SampleTimer] = []
-        self._due = math.inf  # the step before which none of them is due
-        self._commands: list[tuple[Callable[[Any], None], Any]] = []
+        self.schedule = Schedule(self.timestep)
+        """What is to be done at a later step."""
         self._faulty_topics: list[FaultyTopic] = []
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
@@ -235,47 +233,22 @@ class SceneStage(SceneWorld):
 
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
-        timer = SampleTimer(self.step, rate, self.timestep, call)
-        self._timers.append(timer)
-        self._due = min(self._due, timer.due)
-        return lambda: self._timers.remove(timer) if timer in self._timers else None
+        return self.schedule.every(self.step, rate, call)
 
     def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
         """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
-        self._commands.append((obey, message))
-
-    def apply_commands(self) -> None:
-        """Carry out what arrived during the last step, in its order."""
-        commands, self._commands = self._commands, []
-        for obey, message in commands:
-            obey(message)
+        self.schedule.at_next_step(obey, message)
 
     @property
     def _pending(self) -> list[tuple[int, Any]]:
         """The number of the interface, and the message that it obeys at the next step."""
         owners = [id(each) for each in self.interfaces]
-        return [(owners.index(id(obey.__self__)), m) for obey, m in self._commands]  # type: ignore[attr-defined]
+        return [(owners.index(id(obey.__self__)), m) for obey, m in self.schedule.commands]  # type: ignore[attr-defined]
 
     @_pending.setter
     def _pending(self, pending: list[tuple[int, Any]]) -> None:
         interfaces: list[Any] = list(self.interfaces)
-        self._commands = [(interfaces[number].obey, message) for number, message in pending]
-
-    @property
-    def next_tick(self) -> float:
-        """The step at which `tick` calls something; inf where nothing waits."""
-        if not self.network.is_idle:
-            return self.step
-        return self._due
-
-    def tick(self) -> None:
-        """Let packets arrive, and call what is due at the current step."""
-        self.network.advance(nanoseconds(self.time))
-        if self.step < self._due:
-            return
-        for timer in self._timers:
-            timer.tick(self.step)
-        self._due = min((timer.due for timer in self._timers), default=math.inf)
+        self.schedule.commands = [(interfaces[number].obey, message) for number, message in pending]
 
 
 def _channels(scene: SceneSpec) -> dict[str, Channel]:

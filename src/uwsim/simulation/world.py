@@ -233,10 +233,6 @@ class SceneWorld:
             raise UnknownName("vehicle", name, self.vehicles)
         return self._vehicles[self.vehicles.index(name)]
 
-    def is_touchable(self, name: str) -> bool:
-        """Whether there is a vehicle or object of that name, with a shape that others touch."""
-        return self.touch.is_possible(name)
-
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""
         return stream(self._seed, self._prefix + name)

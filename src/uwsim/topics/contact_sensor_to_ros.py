@@ -27,7 +27,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
 
     def bind(self, world: TopicWorld) -> ContactPublisher:
         """Publish from now on; raises UnknownName if there is nothing of that name to touch."""
-        if not world.is_touchable(self.name):
+        if not world.touch.is_possible(self.name):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
         world.every(sample_rate(self.rate, world), publisher.publish)

@@ -22,6 +22,13 @@ MIN_RATE = 0.001
 """Nor less often [Hz]."""
 
 
+class Touch(Protocol):
+    """Contacts between bodies, as an interface sees them."""
+
+    def is_possible(self, name: str) -> bool:
+        """Whether there is a vehicle or object of that name, with a shape that others touch."""
+
+
 class TopicWorld(World, Protocol):
     """The world as an interface sees it: vehicles, sensors, frames, timers and commands."""
 
@@ -41,8 +48,9 @@ class TopicWorld(World, Protocol):
     def sensor_publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
         """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""
 
-    def is_touchable(self, name: str) -> bool:
-        """Whether there is a vehicle or object of that name, with a shape that others touch."""
+    @property
+    def touch(self) -> Touch:
+        """Contacts between bodies."""
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
