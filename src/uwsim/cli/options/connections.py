@@ -55,8 +55,8 @@ Ros2Option = Annotated[
     in_group(
         CONNECTED,
         "--ros2",
-        help="Be a node of ROS 2: topics, services, /clock. By rclpy where it can be imported, else "
-        "by DDS (UWSIM_ROS2=rclpy|dds chooses). On this computer only, unless "
+        help="Be a node of ROS 2: topics, services, /clock. By rclpy where it can be imported, "
+        "else by DDS (UWSIM_ROS2=rclpy|dds chooses). On this computer only, unless "
         "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET.",
     ),
 ]
