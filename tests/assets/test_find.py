@@ -35,6 +35,29 @@ def test_every_data_path_is_searched_under_the_known_folders(tmp_path: Path, und
     assert find("thing.obj", data_path=(tmp_path,)) == mesh
 
 
+def test_a_robot_next_to_its_scene_is_found_by_the_folders_of_the_original(tmp_path: Path) -> None:
+    """A scene of UWSim names ``data/scenes/x.urdf`` next to it; whoever has it copied both."""
+    scene = touch(tmp_path / "mine" / "a.xml")
+    robot = touch(scene.parent / "x.urdf")
+    assert find("data/scenes/x.urdf", named_by=scene) == robot
+    assert find("package://uwsim/data/scenes/x.urdf", named_by=scene) == robot
+    assert find("data/scenes/x.urdf", named_by=tmp_path / "b.xml") is None
+    assert find("data/scenes/x.urdf", named_by=tmp_path / "b.xml", data_path=(scene.parent,)) == (
+        robot
+    )
+    mesh = touch(tmp_path / "meshes" / "objects" / "m.obj")
+    assert find("data/objects/m.obj", named_by=scene, data_path=(tmp_path / "meshes",)) == mesh
+
+
+def test_a_robot_next_to_its_scene_comes_before_the_bundled_one(tmp_path: Path) -> None:
+    scene = touch(tmp_path / "a.xml")
+    robot = touch(tmp_path / "g500ARM5.urdf")
+    assert find("data/scenes/g500ARM5.urdf", named_by=scene) == robot
+    bundled = find("data/scenes/g500ARM5.urdf", named_by=tmp_path / "elsewhere" / "a.xml")
+    assert bundled not in (None, robot)
+    assert find("data/scenes/g500ARM5.urdf", named_by=bundled, data_path=(tmp_path,)) == bundled
+
+
 def test_an_earlier_data_path_wins(tmp_path: Path) -> None:
     first = touch(tmp_path / "a" / "robot" / "x.stl")
     touch(tmp_path / "b" / "x.stl")

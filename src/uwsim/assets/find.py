@@ -3,7 +3,9 @@
 A name is looked for as given; next to the file that names it and in each of that file's parent
 folders, but the home folder and what is above it; in every data path; in ``~/.uwsim/data`` and
 ``~/.uwsim``; in the package. Each of these also under ``data``, ``data/scenes``, ``data/vehicles``,
-``objects``, ``terrain``, ``robot`` and ``textures``.
+``objects``, ``terrain``, ``robot`` and ``textures``. Before the package the name is looked for
+without its first folders, too, next to the file that names it and in every data path: what
+``data/scenes/x.urdf`` names lies next to its scene, wherever that was copied to.
 
 What a file names lies under one of these folders, links followed: a path that leads elsewhere is an
 error, wherever it leads.
@@ -95,7 +97,7 @@ def candidates(
     """
     allowed = roots(named_by=named_by, data_path=data_path)
     elsewhere, found = "", False
-    for name, path in _paths(names, folders_searched(named_by=named_by, data_path=data_path)):
+    for name, path in _paths(names, allowed, _near(named_by, data_path)):
         if named_by is None or is_inside(path, allowed):
             found = True
             yield path
@@ -109,20 +111,38 @@ def candidates(
         )
 
 
-def _paths(names: Sequence[str], searched: Sequence[Path]) -> Iterator[tuple[str, Path]]:
+def _near(named_by: Path | None, data_path: tuple[Path, ...]) -> list[Path]:
+    """The folders in which a name is looked for without its first folders."""
+    if named_by is None:
+        return list(data_path)
+    return [named_by if named_by.is_dir() else named_by.parent, *data_path]
+
+
+def _paths(
+    names: Sequence[str], roots: Sequence[Path], near: Sequence[Path]
+) -> Iterator[tuple[str, Path]]:
     """Name and path of every file there is."""
-    present: dict[Path, list[Path]] = {}  # by the folder within the name: where there is one
+    present: dict[Path, bool] = {}  # whether there is such a folder
+
+    def files(name: Path, folders: Sequence[Path]) -> Iterator[Path]:
+        for place in (folder / under / name.parent for folder in folders for under in UNDER):
+            if place not in present:
+                present[place] = _is(place, Path.is_dir)
+            if present[place] and _is(place / name.name, Path.is_file):
+                yield place / name.name
+
+    own = len(roots) - (roots[-1] == PACKAGE)  # where a bundled file names it, it is found there
     for name in names:
         wanted = Path(plain_name(name)).expanduser()
         if wanted.is_absolute():
             yield from ((name, path) for path in [wanted] if _is(path, Path.is_file))
             continue
-        if wanted.parent not in present:
-            places = (folder / wanted.parent for folder in searched)
-            present[wanted.parent] = [place for place in places if _is(place, Path.is_dir)]
-        for place in present[wanted.parent]:
-            if _is(place / wanted.name, Path.is_file):
-                yield name, place / wanted.name
+        yield from ((name, path) for path in files(wanted, roots[:own]))
+        if ".." not in wanted.parts:
+            for n in range(1, len(wanted.parts)):
+                tail = Path(*wanted.parts[n:])
+                yield from ((name, path) for path in files(tail, near))
+        yield from ((name, path) for path in files(wanted, roots[own:]))
 
 
 def _is(path: Path, kind: Callable[[Path], bool]) -> bool:
