@@ -16,6 +16,7 @@ from typing import Any
 import pytest
 
 from tests.byte_hashes import short_currents
+from tests.keep_station import LEVELS, scored_in_process, short_benchmark
 from tests.ros2_peers import (
     BOUND_S,
     PYTHON,
@@ -231,3 +232,29 @@ def test_the_bundled_controller_as_a_node_scores_the_rows_of_the_process(
         benchmark, tmp_path / "outside", "uwsim.algorithms.control:P", "20", *level, way=way
     )
     assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}
+
+
+@of_one_version
+@pytest.mark.slow
+def test_a_node_that_knows_nothing_of_lock_step_is_waited_for(tmp_path: Path) -> None:
+    benchmark = short_benchmark(tmp_path)
+    inside = scored_in_process(benchmark, tmp_path / "inside")
+    words = [ROOT / "examples" / "ros2" / "keep_station.py", "--ros-args", "-p"]
+    how = ("--client", "station", "--sync", "output", "--output", "/g500/twist=10Hz")
+    with free_domain() as domain, tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as logs:
+        variables = environment(domain, logs)
+        node = subprocess.Popen([PYTHON, *words, "use_sim_time:=true"], env=variables)
+        try:
+            outside = scored(
+                benchmark,
+                tmp_path / "outside",
+                *LEVELS,
+                *("--ros2", "--domain", str(domain), "--settle", "0.05", *how),
+                way="rclpy",
+            )
+        finally:
+            node.kill()
+            node.wait(BOUND_S)
+    assert outside["rows"] == inside["rows"]
+    said = "lock-step, ros2, grade (c), not guaranteed"
+    assert outside["run"]["clients"] == [["station", said]]
