@@ -19,7 +19,7 @@ BELOW = re.compile(r"^(?:Below the last \w+ of|In) `(src/[\w/.]+)`[:,]")
 
 def copy_of_the_package(folder: Path) -> None:
     """Links to everything: a file that is changed becomes one of its own."""
-    ignored = shutil.ignore_patterns("__pycache__")
+    ignored = shutil.ignore_patterns("*.pyc")  # what numba has compiled is taken along
     shutil.copytree(ROOT / "src", folder / "src", ignore=ignored, copy_function=os.symlink)
 
 
