@@ -49,9 +49,9 @@ def test_each_topic_of_a_bundled_scene_for_five_seconds(name: str) -> None:
 @pytest.mark.parametrize(
     ("name", "sensors"),
     [
-        ("survey-scene", ("multibeam",)),
+        pytest.param("survey-scene", ("multibeam",), marks=pytest.mark.slow),
         ("shapes-scene", ("altimeter",)),
-        ("shipwreck-scene", ("altimeter",)),
+        pytest.param("shipwreck-scene", ("altimeter",), marks=pytest.mark.slow),
     ],
 )
 def test_what_looks_down_sees_the_bottom_and_not_its_vehicle(
@@ -65,6 +65,7 @@ def test_what_looks_down_sees_the_bottom_and_not_its_vehicle(
             assert 1.0 < nearest < 20.0
 
 
+@pytest.mark.slow
 def test_the_side_scan_of_the_survey_hears_no_echo_of_its_vehicle() -> None:
     with Simulation(read_scene(SCENES["survey-scene"]), is_blind=True) as simulation:
         message: Any = simulation.world.sensor("sidescan", ("u:sideScanSonar",)).sample(0.0)

@@ -178,6 +178,7 @@ def test_views_round_the_scene_are_clear_unless_fog_is_asked_for(tmp_path: Path)
     assert (thick == [0, 0, 255]).all()
 
 
+@pytest.mark.slow
 def test_another_size_keeps_how_high_a_camera_sees(tmp_path: Path) -> None:
     quiet = ["--set", "vehicle.virtualCamera.std=0", "--segmentation"]
     draw("visibility-scene", tmp_path / "a.png", *quiet)

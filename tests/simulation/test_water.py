@@ -144,8 +144,14 @@ SAID: dict[str, tuple[Callable[[Path], str], Law]] = {
 }
 
 
+SLOW = ("csv from its fifth second", "two at once", "power profile")
+
+
 @pytest.mark.parametrize("dynamics", ["<u:dynamics>neutral</u:dynamics>", ""])
-@pytest.mark.parametrize("said", SAID)
+@pytest.mark.parametrize(
+    "said",
+    [pytest.param(name, marks=pytest.mark.slow) if name in SLOW else name for name in SAID],
+)
 def test_what_floats_goes_where_the_water_goes(
     said: str, dynamics: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -69,7 +69,7 @@ def test_a_camera_is_where_the_simulation_has_it(described: Any) -> None:
     ("scene", "key", "n"),
     [
         pytest.param("shipwreck-scene", "lamps", 1, marks=pytest.mark.slow),
-        ("structured-light-scene", "projector", 4),
+        pytest.param("structured-light-scene", "projector", 4, marks=pytest.mark.slow),
         ("currents-scene", "vehicles", 1),
     ],
 )

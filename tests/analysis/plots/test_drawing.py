@@ -225,6 +225,7 @@ def test_any_result_can_be_drawn(make: Callable[[], Result], tmp_path: Path) -> 
     assert all(f.read_bytes().startswith(b"\x89PNG") for f in files)
 
 
+@pytest.mark.slow
 def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
     base = visibility()
     kept = [base.index(name) for name in ("fog", "total", "status")]

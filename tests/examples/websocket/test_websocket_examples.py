@@ -112,6 +112,7 @@ def test_a_program_that_takes_the_steps_itself_scores_the_rows_of_the_class(tmp_
     assert outside["run"]["clients"] == [["outside", "lock-step, web, grade (b)"]]
 
 
+@pytest.mark.slow
 def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
     with load("shapes-scene") as simulation:
         log = Log("test", lambda line: None)

@@ -94,6 +94,7 @@ def lagrange(q: np.ndarray, v: np.ndarray, torque: np.ndarray) -> np.ndarray:
     return found
 
 
+@pytest.mark.slow
 def test_five_links_with_full_added_mass_obey_lagrange_to_1e_8() -> None:
     model = arm(free=False)
     install(model)

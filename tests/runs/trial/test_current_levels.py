@@ -127,6 +127,7 @@ def test_a_file_may_ask_that_the_tracker_gets_the_target_in_the_first_level_only
     assert [time for time, _ in told(tmp_path, 'u:autoInit="once"')] == [0.0]
 
 
+@pytest.mark.slow
 def test_in_an_independent_level_once_is_in_its_prelude(tmp_path: Path) -> None:
     once = told(tmp_path, 'u:autoInit="once"', mode="independent")
     always = told(tmp_path, mode="independent")

@@ -10,7 +10,10 @@ from uwsim.runs.executors.executor import run_all
 
 @pytest.mark.parametrize(
     ("scene", "least", "most"),
-    [("visibility-scene.xml", 0.0, 0.05), ("visibility-moving-scene.xml", 1.0, 200.0)],
+    [
+        pytest.param("visibility-scene.xml", 0.0, 0.05, marks=pytest.mark.slow),
+        ("visibility-moving-scene.xml", 1.0, 200.0),
+    ],
 )
 def test_the_result_says_how_far_the_target_moved(
     scene: str, least: float, most: float, tmp_path: Path

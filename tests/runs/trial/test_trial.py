@@ -69,6 +69,7 @@ def test_a_benchmark_has_a_row_for_each_level_with_all_cells(esm: Path) -> None:
     assert result.values("corners.n") == (6.0, 6.0, 6.0)
 
 
+@pytest.mark.slow
 def test_repeats_have_a_summary_and_pair_with_those_of_another_algorithm(
     benchmark: Path, tmp_path: Path
 ) -> None:
@@ -87,6 +88,7 @@ def test_repeats_have_a_summary_and_pair_with_those_of_another_algorithm(
     assert versus.same_images == (2, 2)
 
 
+@pytest.mark.slow
 def test_a_level_alone_is_the_level_within_the_sweep(benchmark: Path, tmp_path: Path) -> None:
     sweep = run(benchmark, tmp_path / "a", mode="independent")
     alone = run(benchmark, tmp_path / "b", mode="independent", levels=["fog=0.8"])
@@ -216,6 +218,7 @@ def test_an_algorithm_that_calls_exit_fails_alone(benchmark: Path, tmp_path: Pat
     assert "SystemExit" in str(result.why(0, "corners"))
 
 
+@pytest.mark.slow
 def test_a_level_alone_ends_when_the_algorithm_has_failed(benchmark: Path, tmp_path: Path) -> None:
     result = run(benchmark, tmp_path / "a", algorithm=f"{ALGORITHMS}:Leaves", mode="independent")
     assert result.values("status") == ("algorithm error",) * 3

@@ -152,6 +152,7 @@ def test_a_ball_touches_with_its_lowest_point(tmp_path: Path) -> None:
     assert middle[2] == pytest.approx(-4.0 + 0.5 * EDGES.max(), abs=1e-3)
 
 
+@pytest.mark.slow
 def test_what_is_loose_stays_where_it_was_set(tmp_path: Path) -> None:
     file = grid(tmp_path, dunes)
     stands = thing(

@@ -197,7 +197,7 @@ def test_a_webp_is_written_twice_with_the_same_bytes(
     assert "exists; --overwrite replaces it" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("suffix", [".mp4", ".webm"])
+@pytest.mark.parametrize("suffix", [".mp4", pytest.param(".webm", marks=pytest.mark.slow)])
 def test_a_film_has_its_frames_its_chapters_and_the_same_bytes_twice(
     trial: RecordedTrial, tmp_path: Path, suffix: str
 ) -> None:
