@@ -30,6 +30,7 @@ from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from ..world import GRAVITY
 from .bodies import find_file
+from .inertias import inertias_refused
 
 Severity = Literal["error", "warning"]
 U = f"{{{NAMESPACE}}}"
@@ -85,6 +86,7 @@ class Search:
                 self._read(index, vehicle.dynamics, robots[index])
                 self._refuse_scale(index, vehicle)
             self._follow_thrusters(index, vehicle)
+        self.found += inertias_refused(scene, robots, self.dynamics)
         self._settle_density()
         self._follow_interfaces()
         self._follow_currents(is_thorough)

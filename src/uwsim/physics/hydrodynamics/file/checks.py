@@ -63,7 +63,7 @@ def body_errors(body: BodyHydrodynamics) -> list[str]:
     elif not body.size and body.shape != "sphere":
         errors.append(f"{who}: a {body.shape} needs its {SIZES[body.shape]} lengths (size) [m]")
     if body.inertia is not None:
-        errors += _inertia_errors(who, body.inertia)
+        errors += inertia_errors(who, body.inertia)
     return errors + beyond_limits(who, body)
 
 
@@ -257,7 +257,8 @@ def _thrust_errors(who: str, thruster: ThrusterSpec) -> list[str]:
     return errors
 
 
-def _inertia_errors(who: str, inertia: Numbers) -> list[str]:
+def inertia_errors(who: str, inertia: Numbers) -> list[str]:
+    """Return what is wrong with the inertia xx yy zz xy xz yz of ``who`` [kg m2]."""
     if len(inertia) != 6:
         return [f"{who}: inertia has {len(inertia)} numbers; expected xx yy zz xy xz yz"]
     xx, yy, zz, xy, xz, yz = inertia

@@ -1,0 +1,44 @@
+"""Refuses inertias that no body can have, of links and of objects, before the engine does.
+
+Those of hydrodynamics files are checked as these are read.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from ..errors import Diagnostic
+from ..physics.hydrodynamics.file.checks import inertia_errors
+from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
+from ..scene.spec import SceneSpec
+from ..scene.urdf.robot import RobotSpec
+from ..schema import diagnostic_at
+
+
+def inertias_refused(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+) -> Iterator[Diagnostic]:
+    """Report every inertia that cannot be simulated.
+
+    Args:
+        scene: spec of the scene.
+        robots: the robot of each vehicle that has one, by its number.
+        dynamics: of each vehicle that is simulated, by its number.
+    """
+    for index, vehicle in dynamics.items():
+        theirs = {body.link for body in vehicle.bodies if body.inertia is not None}
+        for link in robots[index].links:
+            if link.name in theirs or not (link.mass > 0.0 and min(link.inertia[:3]) > 0.0):
+                continue  # what the URDF says of it is not used
+            for said in inertia_errors(f"link {link.name!r}", link.inertia):
+                yield diagnostic_at(link, said)
+    if not (dynamics or scene.has_uwsim_physics):
+        return
+    for thing in scene.objects:
+        moments = thing.solid.inertia
+        if not thing.solid.is_loose or not any(moments):
+            continue
+        for said in inertia_errors(f"object {thing.name!r}", (*moments, 0.0, 0.0, 0.0)):
+            yield diagnostic_at(thing.solid, said, "inertia", file=scene.path)
