@@ -15,5 +15,5 @@ demo: install
 test:
 	@scripts/setup dev docs ray ros2
 	@scripts/ros1_peers --if-possible
-	@scripts/ros2_peers --if-possible
+	@scripts/ros2_messages --if-possible
 	scripts/check --all

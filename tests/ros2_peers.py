@@ -26,6 +26,10 @@ needs_rclpy = pytest.mark.skipif(
     not (PYTHON.parents[1] / "installed").is_file(),
     reason="rclpy is not installed; scripts/ros2_peers installs it",
 )
+needs_messages = pytest.mark.skipif(
+    not (PYTHON.parents[1] / "messages").is_file(),
+    reason="message packages are not compiled for rclpy; scripts/ros2_messages does it",
+)
 of_one_version = pytest.mark.skipif(
     not (PYTHON.parents[1] / "lib" / f"python3.{sys.version_info.minor}").is_dir(),
     reason="rclpy is installed for another version of Python than uwsim",

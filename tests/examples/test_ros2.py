@@ -24,9 +24,11 @@ from tests.ros2_peers import (
     beside_rclpy,
     environment,
     free_domain,
+    needs_messages,
     needs_rclpy,
     of_one_version,
     peer,
+    until,
 )
 from tests.short_benchmark import BENCHMARK, write_benchmark
 
@@ -109,6 +111,80 @@ def test_a_node_of_ros_2_drives_the_vehicle_to_its_goal(tmp_path: Path, way: str
         topics = ["--odometry", "/odom", "--command", "/twist"]
         told = example("goto_position.py", *goal, *topics, domain=domain)
     assert told.startswith("reached [0.3, 0.2, 2.1]: 0.")
+
+
+CONTROL = """
+import time
+from nav_msgs.msg import Odometry
+from simulation_interfaces.msg import SimulationState
+from simulation_interfaces.srv import (
+    GetEntities, GetEntityState, GetSimulationState, SetSimulationState, StepSimulation
+)
+from tf2_msgs.msg import TFMessage
+from underwater_sensor_msgs.srv import SpawnMarker
+times, frames = [], set()
+def look(message):
+    stamp = message.header.stamp
+    times.append(round(stamp.sec + 1e-9 * stamp.nanosec, 6))
+node.create_subscription(Odometry, "/odom", look, 10)
+late = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+for topic, quality in (("/tf", QoSProfile(depth=10)), ("/tf_static", late)):
+    node.create_subscription(
+        TFMessage, topic, lambda m: frames.update(t.child_frame_id for t in m.transforms), quality
+    )
+def call(kind, name, **request):
+    client = node.create_client(kind, name)
+    spin_until(client.service_is_ready)
+    future = client.call_async(kind.Request(**request))
+    spin_until(future.done)
+    return future.result()
+def state(code):
+    assert call(
+        SetSimulationState, "/set_simulation_state", state=SimulationState(state=code)
+    ).result.result == 1
+def rest():
+    n = -1
+    while n != len(times):
+        n, end = len(times), time.monotonic() + 0.5
+        spin_until(lambda: time.monotonic() > end)
+STOPPED, PLAYING, PAUSED, QUITTING = range(4)
+spin_until(lambda: times and frames)
+state(PAUSED)
+before = call(GetSimulationState, "/get_simulation_state").state.state
+rest()
+began = times[-1]
+stepped = call(StepSimulation, "/step_simulation", steps=500).result.result
+rest()
+say(
+    paused=before == PAUSED,
+    stepped=stepped,
+    seconds=round(times[-1] - began, 3),
+    entities=call(GetEntities, "/get_entities").entities,
+    z=round(call(GetEntityState, "/get_entity_state", entity="rov").state.pose.position.z, 1),
+    spawned=call(SpawnMarker, "/SpawnMarker") is not None,
+)
+state(QUITTING)
+"""
+
+
+@needs_messages
+@of_one_version
+@pytest.mark.slow
+def test_a_node_of_fast_dds_pauses_steps_and_ends_a_simulation_that_is_a_node_of_rclpy(
+    tmp_path: Path,
+) -> None:
+    scene = tmp_path / "scene.xml"
+    scene.write_text(SCENE)
+    arguments = ("run", str(scene), "--ros2", "--domain")
+    with free_domain() as domain, uwsim(*arguments, str(domain), way="rclpy") as simulation:
+        with peer(CONTROL, domain) as node:
+            answers: list[dict[str, Any]] = []
+            until(lambda: answers, lambda: answers.extend(node.answers()))
+            simulation.wait(timeout=BOUND_S)
+        assert simulation.returncode == 0
+    (told,) = answers
+    assert told.pop("entities") == ["rov"]
+    assert told == {"paused": True, "stepped": 1, "seconds": 1.0, "z": 2.0, "spawned": True}
 
 
 LATE = """

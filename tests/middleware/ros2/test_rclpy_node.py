@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -11,14 +12,13 @@ import pytest
 from tests.middleware.ros2.simulator import Simulator, running
 from tests.ros2_peers import peer, until
 from uwsim.errors import UwsimError
-from uwsim.messages import Float32MultiArray, Odometry, TwistStamped
-from uwsim.messages.services import Empty, EmptyResponse, GTpublish, SpawnMarker
-from uwsim.messages.underwater import DVL
+from uwsim.messages import Float32MultiArray, Odometry, ProjectedSonarImage, TwistStamped
+from uwsim.messages.services import Empty, EmptyResponse, GTpublish
 from uwsim.middleware.types import SERVICES, ros2_store, service, wire_service
 
 pytest.importorskip("rclpy", reason="rclpy cannot be imported here; test_with_rclpy has it")
 
-from uwsim.middleware.ros2.rclpy_types import RclpyTypes, has_our_fields
+from uwsim.middleware.ros2.rclpy_types import RclpyTypes, has_our_fields, how_to_get
 
 
 @pytest.fixture
@@ -135,16 +135,18 @@ def test_types_that_rclpy_lacks_are_told_a_package_a_line_and_the_rest_goes_on(
     simulator: Simulator,
 ) -> None:
     bus = simulator.bus
-    bus.publisher("rov/dvl", DVL)
-    bus.publisher("rov/second_dvl", DVL)
-    bus.services.serve("SpawnMarker", SpawnMarker, lambda request: None)
+    bus.publisher("rov/sonar", ProjectedSonarImage)
+    bus.publisher("rov/second_sonar", ProjectedSonarImage)
+    bus.services.serve("autoInit", GTpublish, lambda request: None)
     publish = bus.publisher("rov/odom", Odometry)
     simulator.step()
     topics, services = (line.removeprefix("uwsim: : ") for line in simulator.lines)
-    assert topics.startswith("not on the graph: /rov/dvl, /rov/second_dvl. rclpy has no ")
-    assert services.startswith("not on the graph: /SpawnMarker. rclpy has no ")
-    assert "underwater_sensor_msgs: colcon build" in topics
-    assert "UWSIM_ROS2=dds" in topics
+    assert topics == (
+        "not on the graph: /rov/second_sonar, /rov/sonar. rclpy has no marine_acoustic_msgs: "
+        "apt install ros-$ROS_DISTRO-marine-acoustic-msgs; or UWSIM_ROS2=dds, which does without "
+        "rclpy"
+    )
+    assert services.startswith("not on the graph: /autoInit. rclpy")
     simulator.step()
     assert len(simulator.lines) == 2, "once"
     source = """
@@ -184,6 +186,12 @@ def test_a_service_outside_whose_type_rclpy_lacks_is_an_error_that_names_it(
     node = simulator.bridge._node
     with pytest.raises(UwsimError, match="rclpy has no type underwater_sensor_msgs/srv/GTpublish"):
         node.call("autoInit", GTpublish(groundTruth=Float32MultiArray().data))
+
+
+def test_how_to_get_the_package_of_uwsim_is_to_build_its_folder() -> None:
+    command, _, folder = how_to_get("underwater_sensor_msgs").rpartition(" ")
+    assert command == "colcon build --base-paths"
+    assert (Path(folder) / "package.xml").is_file()
 
 
 def test_a_type_with_other_fields_than_ours_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
