@@ -77,3 +77,14 @@ def test_lamps_projectors_and_vehicles_are_described(scene: str, key: str, n: in
     with uwsim.load(scene) as simulation:
         head = scene_head(simulation, scene, Blob())
     assert len(head[key]) >= n
+
+
+def test_the_first_view_is_that_of_the_camera_of_the_file(described: Any) -> None:
+    head, _, simulation = described
+    camera = simulation.world.scene.camera
+    first = pose(head["view"]["pose"])
+    assert head["view"]["fovy"] == pytest.approx(np.radians(camera.fov))
+    assert first.position == pytest.approx(camera.position)
+    assert head["view"]["at"] == pytest.approx(camera.look_at, abs=1e-6)
+    ahead = np.subtract(camera.look_at, camera.position)
+    assert -first.rotation[:, 2] == pytest.approx(ahead / np.linalg.norm(ahead), abs=1e-6)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,6 +15,7 @@ from ..numerics.linear import length, product
 from ..scene.mounts import camera_axes
 from ..scene.object import TERRAIN
 from ..scene.sim_params import ViewerCameraSpec
+from .parts import Part
 from .simulation import Simulation
 
 Size = tuple[int, int]
@@ -23,6 +25,8 @@ FILLED = 0.8
 """What matters fills so much of an image, in width or height [1]."""
 NEARBY = 6.0
 """Objects within so many metres of the vehicles' middle matter, too, or 3 times their size [m]."""
+COMPANY = 30.0
+"""A vehicle farther from the first one than this would make both of them dots [m]."""
 MAX_RADIUS = 10.0
 """A larger object is a landscape, whatever it is called; half its diagonal [m]."""
 WELL_SEEN = 0.98
@@ -124,11 +128,14 @@ def orbit_view(simulation: Simulation, size: Size) -> View:
 
 
 def focus_of(simulation: Simulation) -> Focus:
-    """Find the focus: the vehicles and what is near them; else the objects; else the ground."""
+    """Find the focus: the vehicles and what is near them; else the objects; else the ground.
+
+    Of several vehicles those in the company of the first one.
+    """
     shown = [
         (part, simulation.world.scenery.corners(part)) for part in simulation.world.scenery.parts
     ]
-    vehicles = [(part.id, corners) for part, corners in shown if part.vehicle is not None]
+    vehicles = _in_company([each for each in shown if each[0].vehicle is not None])
     things = [
         (part.id, corners)
         for part, corners in shown
@@ -154,6 +161,18 @@ def focus_of(simulation: Simulation) -> Focus:
         np.concatenate([corners for _, corners in chosen]),
         level / size if size > 0.1 else np.array([1.0, 0.0, 0.0]),
     )
+
+
+def _in_company(shown: Sequence[tuple[Part, Array]]) -> list[tuple[int, Array]]:
+    """Numbers and corners of the vehicles' parts, of those that are not far from the first one."""
+    if not shown:
+        return []
+    first = np.concatenate(
+        [corners for part, corners in shown if part.vehicle == shown[0][0].vehicle]
+    )
+    middle = 0.5 * (first.min(axis=0) + first.max(axis=0))
+    near = {part.vehicle for part, corners in shown if _distance(corners, middle) <= COMPANY}
+    return [(part.id, corners) for part, corners in shown if part.vehicle in near]
 
 
 def _share_seen(simulation: Simulation, focus: Focus, world_from_camera: Pose) -> float:

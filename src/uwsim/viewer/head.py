@@ -118,7 +118,7 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Pose
-from ..numerics.linear import product
+from ..numerics.linear import length, product
 from ..rendering.water import AMBIENT, SPECULAR, SUN_COLOURS, SUN_DIRECTIONS
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import MountedSensor
@@ -129,7 +129,7 @@ from ..simulation import Simulation
 from ..simulation.parts import Part
 from ..simulation.stage import SceneStage
 from ..simulation.tracked_bodies import leaders
-from ..simulation.views import FIELD, focus_of, orbit_view
+from ..simulation.views import FIELD, focus_of, orbit_view, viewer_view
 from .models import Models
 from .pack import Blob
 
@@ -355,12 +355,15 @@ def _vehicles(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
 
 
 def _first_view(simulation: Simulation) -> Json:
-    view = orbit_view(simulation, SIZE)
-    return {
-        "pose": _row(view.world_from_camera),
-        "fovy": FIELD,
-        "at": focus_of(simulation).middle.tolist(),
-    }
+    """The viewer's camera of the file, or else a view around the vehicles."""
+    camera = simulation.world.scene.camera
+    view, fovy, at = orbit_view(simulation, SIZE), FIELD, focus_of(simulation).middle
+    if camera is not None and camera.position != camera.look_at:
+        view, fovy = viewer_view(simulation, camera, SIZE), math.radians(camera.fov)
+        eye = view.world_from_camera
+        away = length(np.subtract(camera.position, camera.look_at))
+        at = eye.position - away * eye.rotation[:, 2]
+    return {"pose": _row(view.world_from_camera), "fovy": fovy, "at": at.tolist()}
 
 
 def _mounted(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:
