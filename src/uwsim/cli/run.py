@@ -135,7 +135,7 @@ def viewed(
 
     title, is_piloted = Path(spec.path).stem, wanted.program is None
     speed = 1.0 if connections.speed is None else connections.speed
-    with live.opened(title, speed=speed, is_piloted=is_piloted) as view:
+    with live.opened(title, speed=speed, is_piloted=is_piloted, resets=is_piloted) as view:
         if view is not None:
             if is_piloted:
                 from ..algorithms.pilot import Pilot

@@ -88,7 +88,7 @@ uint32 step, float64 time [s]::
 
 and text messages, JSON::
 
-    {"type": "state", "paused": false, "speed": 1.0, "pilot": false, "real_time_factor": 1.0,
+    {"type": "state", "paused": false, "speed": 1.0, "pilot": false, "resets": false,
      "mapping": {"w": "+surge", ...}}
     {"type": "levels", "levels": [...]}                        as above, all so far
     {"type": "samples", "samples": [[name, unit, time, value or null], ...]}    for the curves
@@ -96,7 +96,7 @@ and text messages, JSON::
 
 Page to server, JSON text of at most 4 kB::
 
-    {"type": "control", "action": "pause" | "play" | "step" | "speed", "speed": 2.0}
+    {"type": "control", "action": "pause" | "play" | "step" | "speed" | "reset", "speed": 2.0}
     {"type": "images", "cameras": ["bowtech1"], "rate": 10}    which JPEGs it wants
     {"type": "view", "camera": "bowtech1" or null, "pose": [7], "width": 640, "height": 480}
                                                                without WebGL: draw kind 3 so

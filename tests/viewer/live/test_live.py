@@ -17,11 +17,14 @@ from websockets.sync.client import ClientConnection, connect
 
 import uwsim
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
-from uwsim.algorithms.pilot import AXES
+from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.errors import BadSetting
+from uwsim.geometry import Pose
 from uwsim.results import journal
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import SerialExecutor, run_all
+from uwsim.runs.trial.pilot_inputs import PilotInputs
+from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.viewer.live.clock import Clock
 from uwsim.viewer.live.mapping import KEYS, PilotMapping, merged, read_mapping
 from uwsim.viewer.live.server import LiveServer
@@ -310,6 +313,44 @@ def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_c
             desk.said.append((1, {"type": "input", "keys": ["w"] if k % 2 else []}))
             pass_by(1)
         assert 10 <= len(rows) - n <= 25
+
+
+@pytest.mark.parametrize("scene", ["currents-scene", "grasp-scene", "two-vehicles-scene", "cirs"])
+def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str) -> None:
+    desk = Desk()
+    view = LiveView(desk, speed=0.0, mapping=PilotMapping(), resets=True)  # type: ignore[arg-type]
+    with uwsim.load(scene) as simulation:
+        PilotInputs(simulation, view.pilot)
+        simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
+        view.open(simulation, "scene")
+        name = simulation.world.vehicles[0]
+        began = simulation.pose(name).position.copy()
+        desk.said.append((1, {"type": "input", "keys": ["w", "q", "t"]}))
+        simulation.advance(2.0)
+        assert np.abs(simulation.pose(name).position - began).max() > 0.1
+        desk.said += [
+            (1, {"type": "input", "keys": []}),
+            (1, {"type": "control", "action": "reset"}),
+        ]
+        simulation.advance()
+        back = simulation.pose(name).position
+        assert simulation.time == pytest.approx(2.002)
+        assert np.abs(back - began).max() < 0.01
+        simulation.advance(1.0)
+        again = np.abs(simulation.pose(name).position - began).max()
+        assert again < 0.3
+
+
+def test_nobody_resets_a_benchmark() -> None:
+    desk = Desk()
+    view = LiveView(desk, speed=0.0)  # type: ignore[arg-type]
+    with uwsim.load("cirs") as simulation:
+        view.open(simulation, "scene")
+        world_from_elsewhere = Pose.from_rpy((1.0, 2.0, -3.0), (0.0, 0.0, 0.0))
+        simulation.world.state.place_vehicle(0, world_from_elsewhere)
+        desk.said.append((1, {"type": "control", "action": "reset"}))
+        simulation.advance(0.01)
+        assert simulation.pose("girona500", "W").position == pytest.approx([1.0, 2.0, -3.0])
 
 
 class Scribble:

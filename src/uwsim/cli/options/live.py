@@ -58,7 +58,13 @@ class LiveOptions:
 
     @contextmanager
     def opened(
-        self, title: str, *, speed: float, is_piloted: bool, waits: bool = False
+        self,
+        title: str,
+        *,
+        speed: float,
+        is_piloted: bool,
+        waits: bool = False,
+        resets: bool = False,
     ) -> Iterator[LiveView | None]:
         """Open the port and print the address; None where nobody may look.
 
@@ -67,6 +73,7 @@ class LiveOptions:
             speed: simulation time a second; 0: as fast as it can.
             is_piloted: whether viewers pilot.
             waits: whether nothing begins before somebody looks.
+            resets: whether viewers may put everything back where it began.
         """
         if not self.view:
             yield None
@@ -80,7 +87,7 @@ class LiveOptions:
         if is_piloted:
             mapping = read_mapping(self.pilot_mapping) if self.pilot_mapping else PilotMapping()
         server = LiveServer(lambda: document(title, None), self.port or 0)
-        view = LiveView(server, speed=speed, mapping=mapping, waits=waits)
+        view = LiveView(server, speed=speed, mapping=mapping, waits=waits, resets=resets)
         typer.echo(f"view: {server.url}", err=True)
         try:
             yield view

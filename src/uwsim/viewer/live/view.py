@@ -24,6 +24,7 @@ from ...geometry import Pose, rotation_from_quaternion
 from ...runs.trial.level_row import LevelRow
 from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
+from ...simulation.snapshot import packed, put_state, state_of, unpacked
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import view_from_pose
 from .clock import NAP, Clock
@@ -35,6 +36,8 @@ RATE = 30.0
 """Rows a second of the wall clock [Hz]."""
 PROMPT = 0.01
 """A row goes out so long after an input has changed, when its vehicle has begun to move [s]."""
+MOVED = ("state", "scenery", "devices", "_vehicles")
+"""What of a world goes back to its beginning at a reset."""
 IMAGE_RATE = 10.0
 """Images a second of the wall clock [Hz]."""
 SAMPLE_RATE = 2.0
@@ -58,6 +61,8 @@ class LiveView:
         speed: simulation time a second of the wall clock; 0: as fast as it can.
         mapping: what keys and sticks do; None: nobody pilots.
         waits: whether a simulation does not begin before somebody looks.
+        resets: whether viewers may put vehicles and objects back where they began; not where
+            anything is scored.
         wall: returns the wall time [s].
     """
 
@@ -68,6 +73,7 @@ class LiveView:
         speed: float = 1.0,
         mapping: PilotMapping | None = None,
         waits: bool = False,
+        resets: bool = False,
         wall: Callable[[], float] = time.monotonic,
     ) -> None:
         self._server, self._wall = server, wall
@@ -81,6 +87,7 @@ class LiveView:
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
         self._views: dict[int, Message] = {}
         self._mapping, self._waits = mapping, waits
+        self._resets, self._first = resets, b""
         self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
         self._prompt = math.inf  # when a row that follows an input is due
 
@@ -88,6 +95,7 @@ class LiveView:
         """Show a simulation from now on; it is at step 0."""
         self._simulation, self._state = simulation, TrackedState(simulation.world)
         self._levels, self._measures = [], ()
+        self._first = packed(state_of(simulation.world, MOVED)) if self._resets else b""
         self._due = dict.fromkeys(self._due, 0.0)
         self._server.forget(lambda channel: channel != "state")
         head = head_of(simulation, title, self._state)
@@ -242,6 +250,7 @@ class LiveView:
             "paused": self._clock.is_paused,
             "speed": self._clock.speed,
             "pilot": self._mapping is not None,
+            "resets": bool(self._first),
             "mapping": {} if self._mapping is None else dict(self._mapping.keys),
         }
         self._server.publish("state", json.dumps(state))
@@ -252,6 +261,8 @@ class LiveView:
             kind = message["type"]
             if kind == "control" and self._clock.control(message):
                 self._say_state()
+            elif kind == "control" and message.get("action") == "reset" and self._first:
+                self._reset()
             elif kind == "view":
                 self._views.pop(viewer, None)
                 self._views[viewer] = message
@@ -261,6 +272,14 @@ class LiveView:
                 self._views.pop(viewer, None)
                 if viewer in self._inputs:
                     self._take(viewer, (0.0,) * len(AXES))
+
+    def _reset(self) -> None:
+        """Put vehicles, joints and objects back where they began, at rest; time goes on."""
+        assert self._simulation is not None
+        world = self._simulation.world
+        put_state(world, unpacked(self._first), MOVED)
+        world.scenery.redraw()
+        self._prompt = min(self._prompt, self._wall())
 
     def _take(self, viewer: int, values: tuple[float, ...]) -> None:
         """Keep what a viewer's pilot does now."""

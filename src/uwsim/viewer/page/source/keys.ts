@@ -1,4 +1,4 @@
-// Keys and the pointer. UWSim's keys are kept: 1 2 3, c, f, t, y.
+// Keys and the pointer. UWSim's keys are kept: 1 2 3, c, f, r, t, y.
 import type { Page } from "./main";
 import { element, fillHelp, toggleHelp } from "./panels";
 
@@ -104,6 +104,7 @@ export class Keyboard {
       v: () => page.show("camera"),
       m: () => page.show("map"),
       h: () => page.views.home(),
+      r: () => page.reset(),
       "+": () => page.views.zoom(0.9),
       "=": () => page.views.zoom(0.9),
       "-": () => page.views.zoom(1.1),
@@ -126,6 +127,8 @@ export class Keyboard {
   }
 
   private groups(): Record<string, { keys: string; does: string }[]> {
+    const { page } = this;
+    const reset = page.link ? "vehicles and objects back where they began" : "begin of the level";
     const own = {
       Time: [
         { keys: "space", does: "play, pause" },
@@ -134,6 +137,7 @@ export class Keyboard {
         { keys: "[ ]", does: "level before, after" },
         { keys: "< >", does: "slower, faster" },
         { keys: "Home End", does: "begin, end" },
+        ...(page.link && !page.link.resets ? [] : [{ keys: "r", does: reset }]),
       ],
       View: [
         { keys: "o b v m", does: "orbit, behind the vehicle, next camera, map from above" },
@@ -152,6 +156,6 @@ export class Keyboard {
         { keys: "?", does: "these keys" },
       ],
     };
-    return this.page.link ? { ...own, ...this.page.link.help() } : own;
+    return page.link ? { ...own, ...page.link.help() } : own;
   }
 }

@@ -12,7 +12,7 @@ const HEADER = 16;
 const MAX_WIDTH = 640; // of an image that the server draws
 
 type Message =
-  | { type: "state"; paused: boolean; speed: number; pilot: boolean; mapping?: Record<string, string> }
+  | { type: "state"; paused: boolean; speed: number; pilot: boolean; resets: boolean; mapping?: Record<string, string> }
   | { type: "levels"; levels: Level[] }
   | { type: "samples"; samples: [string, string, number, number | null][] }
   | { type: "end"; why: string };
@@ -22,6 +22,8 @@ export class Link {
   private page: Page | null = null;
   private stream: Stream | null = null;
   private asked = "";
+  /** Whether all may go back where it began. */
+  resets = false;
 
   constructor(
     private readonly socket: WebSocket,
@@ -91,6 +93,7 @@ export class Link {
   private hear(message: Message, page: Page, stream: Stream): void {
     if (message.type === "state") {
       page.isTold(message.paused, message.speed);
+      this.resets = message.resets;
       this.pilot.enable(message.pilot, message.mapping ?? {});
       page.keyboard.help();
     } else if (message.type === "levels") stream.setLevels(message.levels);

@@ -3,7 +3,7 @@ import { Curves } from "./curves";
 import { Keyboard } from "./keys";
 import { connect, type Link } from "./live";
 import { fromText, unpack, type Pack } from "./pack";
-import { element, LevelList, make, Thrusters, toggleHelp } from "./panels";
+import { element, indexAt, LevelList, make, Thrusters, toggleHelp } from "./panels";
 import { graphics, Picture, type Switches } from "./picture";
 import { Replay, Stream, type Player } from "./player";
 import { expose } from "./testing";
@@ -76,6 +76,12 @@ export class Page {
     this.play(false);
     if (this.link) this.link.control("step");
     else this.seek(this.time + direction / 30);
+  }
+
+  /** UWSim's reset: live all goes back where it began, a replay to the beginning of the level. */
+  reset(): void {
+    if (this.link) this.link.control("reset");
+    else this.seek(this.player.levels[indexAt(this.player, this.time)]?.level.start ?? this.player.start);
   }
 
   setSpeed(speed: number, tell = true): void {
