@@ -129,14 +129,17 @@ export class Keyboard {
   private groups(): Record<string, { keys: string; does: string }[]> {
     const { page } = this;
     const reset = page.link ? "vehicles and objects back where they began" : "begin of the level";
+    const steps = [
+      { keys: ", .", does: "one row back, on" },
+      { keys: "← →", does: "one second back, on (in the view: turn it)" },
+      { keys: "[ ]", does: "level before, after" },
+      { keys: "Home End", does: "begin, end" },
+    ];
     const own = {
       Time: [
         { keys: "space", does: "play, pause" },
-        { keys: ", .", does: "one row back, on" },
-        { keys: "← →", does: "one second back, on (in the view: turn it)" },
-        { keys: "[ ]", does: "level before, after" },
+        ...(page.link ? [{ keys: ".", does: "one step on" }] : steps),
         { keys: "< >", does: "slower, faster" },
-        { keys: "Home End", does: "begin, end" },
         ...(page.link && !page.link.resets ? [] : [{ keys: "r", does: reset }]),
       ],
       View: [

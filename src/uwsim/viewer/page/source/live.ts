@@ -18,7 +18,10 @@ type Message =
   | { type: "end"; why: string };
 
 export class Link {
-  readonly pilot = new Pilot((message) => this.send(message));
+  readonly pilot = new Pilot((message, isNews) => {
+    this.send(message);
+    if (isNews) this.page?.picture.hurry();
+  });
   private page: Page | null = null;
   private stream: Stream | null = null;
   private asked = "";

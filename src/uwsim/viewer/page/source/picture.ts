@@ -12,6 +12,7 @@ import type { Lens } from "./geometry";
 
 const PICTURE_HEIGHT = 150;
 const LONGEST_DRAWING = 2000; // of an image; who takes longer has ended without a word [ms]
+const HURRY = 300; // after an input [ms]
 const LONGEST_REST = 100; // between two images that software draws [ms]
 
 export interface Switches extends Shown {
@@ -36,6 +37,7 @@ class Pace {
   private fence: WebGLSync | null = null;
   private began = 0;
   private rests = 0; // until then
+  private hurries = 0; // until then without a rest
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
@@ -47,6 +49,11 @@ class Pace {
     this.began = performance.now();
   }
 
+  /** Somebody has acted, and waits for what comes of it. */
+  hurry(): void {
+    this.hurries = performance.now() + HURRY;
+  }
+
   /** Whether the last image is there, and as much time again has passed. */
   isReady(now: number): boolean {
     const { gl, fence } = this;
@@ -56,7 +63,7 @@ class Pace {
       this.fence = null;
       this.rests = Math.min(2 * now - this.began, now + LONGEST_REST);
     }
-    return !this.fence && now >= this.rests;
+    return !this.fence && (now >= this.rests || now < this.hurries);
   }
 }
 
@@ -117,6 +124,11 @@ export class Picture {
     this.drawPictures(context, water, lamps, moment, switches, ratio, h);
     this.pace?.begin();
     return sight;
+  }
+
+  /** Draw the next images without a rest. */
+  hurry(): void {
+    this.pace?.hurry();
   }
 
   /** Whether the next image of a motion may be begun. */

@@ -19,7 +19,7 @@ export class Pilot {
   private last = "";
   private sent = 0;
 
-  constructor(private readonly send: (message: object) => void) {
+  constructor(private readonly send: (message: object, isNews: boolean) => void) {
     document.addEventListener("keyup", (event) => {
       this.held.delete(event.key.toLowerCase());
       this.look();
@@ -80,9 +80,10 @@ export class Pilot {
     const now = performance.now();
     const rests = !input.keys.length && ![...input.axes, ...input.buttons, ...input.sticks].some(Boolean);
     if (text === this.last && (rests || now - this.sent < REPEAT)) return;
+    const isNews = text !== this.last;
     this.last = text;
     this.sent = now;
-    this.send({ type: "input", ...input });
+    this.send({ type: "input", ...input }, isNews);
   }
 
   private stick(first: number, label: string): HTMLElement {
