@@ -116,6 +116,19 @@ def test_a_path_of_the_authors_machine_is_looked_for_by_its_last_part(inside: Pa
         assert texture.pixels[0, 0].tolist() == [255, 0, 0]
 
 
+@pytest.mark.parametrize("name", ["/home/author/skin.png", "../textures/skin.png", "C:\\skin.png"])
+def test_a_mesh_whose_image_is_nowhere_has_the_colour_of_its_material(
+    inside: Path, name: str
+) -> None:
+    (mesh,) = load_model(str(obj(inside, "m.mtl", name))).meshes
+    assert mesh.texture is None
+    assert mesh.colour == (1.0, 0.0, 0.0)
+    path = inside / "m.obj"
+    path.write_text(path.read_text().replace("m.mtl", "/home/author/m.mtl"))
+    (inside / "m.mtl").unlink()
+    assert load_model(str(path)).n_triangles == 1
+
+
 @pytest.mark.parametrize("name", ["/dev/zero", "pipe"])
 def test_a_device_is_not_read_for_a_buffer(inside: Path, name: str) -> None:
     (inside / "pipe").symlink_to("/dev/zero")

@@ -1,11 +1,13 @@
 """Files that a mesh file names: materials, images, buffers; only those in its folder are read.
 
 A name is looked for next to the mesh, as given and by its last part alone: exporters write paths of
-their author's machine. A path out of the folders given is an error.
+their author's machine. A path to a file out of the folders given is an error; where there is no
+file, the mesh goes without it.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
@@ -58,9 +60,13 @@ class References:
                 path = folder / place
                 if not place.is_absolute() and path.exists() and is_inside(path, self._within):
                     return self._read(path, place)
-        leads_out = any((folder / asked).exists() for folder in self._folders)
-        if asked.is_absolute() or ".." in asked.parts or leads_out:
+        if any(_exists(folder / asked) for folder in self._folders):
             raise AssetError(
                 f"names the file {name[:200]!r}, which is outside its folder; --data-path adds one"
             )
         raise FileNotFoundError(name)
+
+
+def _exists(path: Path) -> bool:
+    """Whether there is such a file, also by way of a folder that there is not: ``x/../file``."""
+    return path.exists() or Path(os.path.normpath(path)).exists()
