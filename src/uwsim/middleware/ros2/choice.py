@@ -37,7 +37,7 @@ def open_node(environment: Mapping[str, str], domain: int | None, log: Log) -> R
         from rclpy.utilities import get_rmw_implementation_identifier
 
         from .rclpy_node import RclpyNode
-    except ImportError as error:
+    except (ImportError, OSError, RuntimeError) as error:  # of a broken installation, too
         if chosen == "rclpy":
             raise UwsimError(
                 f"--ros2: {VARIABLE}=rclpy, and it cannot be imported: {error}"
