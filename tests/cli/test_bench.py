@@ -93,6 +93,16 @@ def test_all_that_is_wrong_with_a_call_is_reported_at_once_a_line_each(
     assert sorted(os.listdir(out)) == ["notes.txt"]
 
 
+def test_a_setting_of_nothing_is_told_what_may_be_set_updaters_included(
+    benchmark: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    call = ["bench", benchmark, "--algorithm", "esm", "--out", str(tmp_path / "out")]
+    assert main([*call, "--set", "sceneFogUpdate.color=1", "--set", "interval=5"]) == 2
+    near, unknown = capsys.readouterr().err.splitlines()
+    assert "there is no <sceneFogUpdate>. Did you mean 'sceneFogUpdater'? There are: " in near
+    assert unknown.endswith("rosInterfaces, vary, sceneFogUpdater, algorithm.")
+
+
 def test_what_names_a_benchmark_that_is_nowhere_is_reported_with_the_rest(
     capsys: pytest.CaptureFixture[str],
 ) -> None:

@@ -12,7 +12,9 @@ from typing import Any
 
 from ..errors import BadSetting, did_you_mean
 from ..scene.settings import Place, Step, locate, overlaps
+from ..scene.spec import SceneSpec
 from ..scene.variation import Draw, draw, varied
+from ..schema import fields_of
 from .spec import BenchmarkSpec
 from .updaters import UPDATERS, SceneUpdaterSpec, chain, interval
 from .updaters import levels as levels_of
@@ -27,6 +29,19 @@ def element_of(updater: SceneUpdaterSpec) -> str:
 def leads_to_updater(benchmark: BenchmarkSpec, path: str) -> bool:
     """Whether a path begins with the name of one of its updaters."""
     return path.partition(".")[0] in [element_of(each) for each in chain(benchmark.scene_updater)]
+
+
+def check_begin(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, value: str) -> None:
+    """Raise BadSetting if a path begins with nothing that can be set; names all that can."""
+    first = path.partition(".")[0].partition("[")[0].removeprefix("u:")
+    known = [field.shown.removeprefix("u:") for field in fields_of(type(scene))]
+    known += map(element_of, chain(benchmark.scene_updater))
+    known.append("algorithm")
+    if first and first not in known:
+        raise BadSetting(
+            f"--set {path}={value}: there is no <{first}>.{did_you_mean(first, known)} "
+            f"There are: {', '.join(known)}."
+        )
 
 
 def locate_in_benchmark(benchmark: Any, path: str) -> Place:

@@ -153,7 +153,11 @@ def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
 
 def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErrors) -> _Files:
     """Apply every ``--set`` of scene and updaters; collects errors."""
-    from ...benchmark.updater_settings import apply_updater_setting, leads_to_updater
+    from ...benchmark.updater_settings import (
+        apply_updater_setting,
+        check_begin,
+        leads_to_updater,
+    )
     from ...scene.settings import apply_setting
 
     spec, scene = read.benchmark, read.scene
@@ -164,6 +168,8 @@ def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErr
             if spec is not None and leads_to_updater(spec, name):
                 spec = apply_updater_setting(spec, name, value)
             elif scene is not None:
+                if spec is not None:
+                    check_begin(spec, scene, name, value)
                 scene = apply_setting(scene, name, value)
     return replace(read, benchmark=spec, scene=scene)
 
