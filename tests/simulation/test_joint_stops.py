@@ -1,4 +1,4 @@
-"""Sliding joints stop at their limits whatever pushes them, also while a servo holds them."""
+"""Sliding joints hold their place, and stop at their limits whatever pushes them."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ROBOT = """<robot name="lifter">
     <parent link="hull"/> <child link="sled"/> <axis xyz="0 0 -1"/>
     <limit lower="0" upper="0.5" effort="200" velocity="0.2"/>
   </joint>
-  <link name="sled"> <inertial> <mass value="30"/>
+  <link name="sled"> <inertial> <mass value="10"/>
     <inertia ixx="0.2" iyy="0.2" izz="0.2" ixy="0" ixz="0" iyz="0"/> </inertial> </link>
 </robot>
 """
@@ -80,3 +80,12 @@ def test_a_joint_that_is_let_go_stops_at_its_limit_and_a_saved_one_does_so_again
     simulation.advance(0.1)
     simulation.restore(saved)
     assert pull_down(simulation, 400.0, 2.0) == farthest
+
+
+def test_a_lift_of_200_newtons_gives_way_by_millimetres_under_35(
+    simulation: uwsim.Simulation,
+) -> None:
+    simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.2])))
+    simulation.advance(4.0)
+    assert simulation.world.joints("lifter")[0] == pytest.approx(0.2, abs=0.001)
+    assert pull_down(simulation, 35.0, 2.0) < 0.206

@@ -307,9 +307,10 @@ def _add_children(
             name = vehicle_joint(index, joint.name)
             add_joint(child, name, joint, is_driven=bool(links))
             if links:
-                add_servo(spec, name, joint.effort)
+                add_servo(spec, name, joint)
                 if joint.mimic is not None and is_geared(joint, robot):
-                    add_gear(spec, name, vehicle_joint(index, joint.mimic.joint), joint.mimic)
+                    leader = vehicle_joint(index, joint.mimic.joint)
+                    add_gear(spec, name, leader, joint, joint.mimic)
         _add_children(spec, child, robot, joint.child, index, links)
 
 

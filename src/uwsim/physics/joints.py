@@ -9,21 +9,24 @@ import mujoco
 from ..scene.urdf.robot import JointSpec, MimicSpec, RobotSpec
 
 SERVO = (400.0, 60.0)
-"""Stiffness [N m/rad or N/m] and damping of the servo that holds a joint of much effort."""
+"""Stiffness [N m/rad] and damping [N m s/rad] of the servo that holds a joint of much effort."""
 STRONG = 100.0
-"""Servos of less effort than this are softer in proportion [N m or N]."""
+"""Servos of less effort than this are softer in proportion [N m]."""
+LEVER = 0.1
+"""A joint that slides is driven as one that turns with a lever of this length: by it come stiffness
+and inertia in N/m and kg from those in N m/rad and kg m2 [m]."""
 STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 """Impedance of the dry friction of joints: with the engine's own a joint that is held creeps."""
 GEAR = (500.0, 10.0)
-"""Stiffness [N m/rad or N/m] and damping between a joint and the one that it mimics; a constraint
-would bind them as well, and cost a solver at every step."""
+"""Stiffness [N m/rad] and damping between a joint and the one that it mimics; a constraint would
+bind them as well, and cost a solver at every step."""
 BEYOND = 0.02
 """How far beyond its limits a joint that slides has its stops while a servo holds it, so that one
 that comes to a limit does not hit them [m]."""
 NOWHERE = 1e6
 """As far are those of a joint that turns: it has none while a servo holds it [rad]."""
 ROTOR = 0.1
-"""Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2 or kg]."""
+"""Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2]."""
 
 
 def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: bool) -> None:
@@ -36,7 +39,7 @@ def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: b
         axis=list(joint.axis),
         range=[low, high],
         limited=is_driven and joint.mimic is None and low < high,
-        armature=ROTOR if is_driven else 0.0,
+        armature=ROTOR / _lever(joint) ** 2 if is_driven else 0.0,
         damping=[joint.damping if is_driven else 0.0, 0.0, 0.0],  # the first of a joint of one
         frictionloss=joint.friction if is_driven else 0.0,
         solimp_friction=STIFF_FRICTION,
@@ -56,32 +59,37 @@ def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
     return is_bound and "slidercrank" not in joint.name
 
 
-def add_gear(spec: mujoco.MjSpec, joint: str, leader: str, mimic: MimicSpec) -> None:
+def add_gear(
+    spec: mujoco.MjSpec, name: str, leader: str, joint: JointSpec, mimic: MimicSpec
+) -> None:
     """Couple a joint that mimics to its leader by a stiff spring, as a linkage does."""
-    stiffness, damping = GEAR
+    stiffness, damping = (gain / _lever(joint) ** 2 for gain in GEAR)
     gear = spec.add_tendon(
-        name=f"{joint}/gear",
+        name=f"{name}/gear",
         stiffness=stiffness,
         damping=damping,
         springlength=[mimic.offset] * 2,
     )
-    gear.wrap_joint(joint, 1.0)
+    gear.wrap_joint(name, 1.0)
     gear.wrap_joint(leader, -mimic.multiplier)
 
 
-def servo_gains(effort: float) -> tuple[float, float]:
-    """Stiffness and damping of the servo of a joint, by its greatest effort [N m or N]."""
-    share = min(1.0, effort / STRONG)
-    return share * SERVO[0], share * SERVO[1]
+def servo_gains(joint: JointSpec) -> tuple[float, float]:
+    """Stiffness [N m/rad or N/m] and damping of the servo of a joint, by its greatest effort."""
+    lever = _lever(joint)
+    share = min(1.0, joint.effort * lever / STRONG)
+    return share * SERVO[0] / lever**2, share * SERVO[1] / lever**2
 
 
-def add_servo(spec: mujoco.MjSpec, joint: str, effort: float) -> None:
-    """Hold a joint by a servo of at most this effort [N m or N]."""
-    stiffness, damping = servo_gains(effort)
-    servo = spec.add_actuator(
-        name=f"{joint}/servo", target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT
-    )
+def add_servo(spec: mujoco.MjSpec, name: str, joint: JointSpec) -> None:
+    """Hold a joint by a servo."""
+    stiffness, damping = servo_gains(joint)
+    servo = spec.add_actuator(name=f"{name}/servo", target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
     servo.set_to_position(kp=stiffness, kv=damping)
-    if math.isfinite(effort):
-        servo.forcerange = [-effort, effort]
+    if math.isfinite(joint.effort):
+        servo.forcerange = [-joint.effort, joint.effort]
         servo.forcelimited = mujoco.mjtLimited.mjLIMITED_TRUE
+
+
+def _lever(joint: JointSpec) -> float:
+    return LEVER if joint.kind == "prismatic" else 1.0

@@ -142,7 +142,7 @@ def _joint_records(moving: list[JointSpec]) -> npt.NDArray[np.void]:
     found = np.zeros(len(moving), JOINT)
     for record, joint in zip(found, moving, strict=True):
         record["lower"], record["upper"] = joint.lower, joint.upper
-        record["stiffness"], record["damping"] = servo_gains(joint.effort)
+        record["stiffness"], record["damping"] = servo_gains(joint)
         record["max_effort"] = joint.effort
         record["max_speed"] = min(joint.velocity, MAX_SPEED)
         record["kind"] = OWN
