@@ -113,6 +113,20 @@ def test_a_hostile_file_costs_little_time_and_less_than_500_mb(
     )
 
 
+def test_a_robot_that_is_nowhere_is_told_the_nearest_bundled_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.xml"
+    file.write_text(
+        "<UWSimScene>\n<vehicle> <name>v</name>\n<file>data/scenes/g500_ARM5.urdf</file> </vehicle>"
+        "</UWSimScene>"
+    )
+    assert status(str(file)) == 2
+    said = capsys.readouterr().out
+    assert f"{file}:2: robot file 'data/scenes/g500_ARM5.urdf' is nowhere, and no bundled" in said
+    assert "Did you mean g500ARM5.urdf? Searched: " in said
+
+
 def test_a_mesh_that_is_nowhere_is_reported_at_its_line(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -11,7 +11,16 @@ from pathlib import Path, PurePosixPath
 
 from ..errors import AssetError, AssetNotFound, did_you_mean
 from ..files.input_files import is_inside
-from .find import UNDER, bundled_robot, candidates, find, folders_searched, plain_name, roots
+from .find import (
+    UNDER,
+    bundled_robot,
+    bundled_robots,
+    candidates,
+    find,
+    folders_searched,
+    plain_name,
+    roots,
+)
 from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture
 from .model_cache import made
@@ -27,6 +36,7 @@ __all__ = [
     "StandIn",
     "Texture",
     "bundled_robot",
+    "bundled_robots",
     "find",
     "folders_searched",
     "has_model",

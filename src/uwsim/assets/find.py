@@ -87,6 +87,13 @@ def bundled_robot(name: str) -> Path | None:
     return next((path for path in own if wanted and _is(path, Path.is_file)), None)
 
 
+def bundled_robots() -> tuple[str, ...]:
+    """The file names of the bundled robots, in alphabetical order."""
+    return tuple(
+        sorted(path.name for folder in ROBOTS for path in (PACKAGE / folder).glob("*.urdf"))
+    )
+
+
 def candidates(
     names: Sequence[str], *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> Iterator[Path]:

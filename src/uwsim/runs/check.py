@@ -204,6 +204,12 @@ class _Folders:
 
         return self.find(name, named_by) or bundled_robot(name)
 
+    def bundled_robots(self) -> tuple[str, ...]:
+        """Return the file names of the bundled robots."""
+        from ..assets import bundled_robots
+
+        return bundled_robots()
+
     def unreadable(self, name: str, named_by: Path) -> str:
         """Return why the file of a model cannot be read here; empty if it can, or is not there."""
         from ..assets import why_unreadable

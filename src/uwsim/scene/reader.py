@@ -163,10 +163,12 @@ def _robots(
                 continue
             if path is None:
                 searched = library.searched(document.path)
+                name = vehicle.file.strip().rpartition("/")[2]
+                near = diagnostics.near(name, library.bundled_robots())
                 diagnostics.error(
                     vehicle,
-                    f"robot file {vehicle.file!r} is nowhere, and no bundled robot is called so; "
-                    f"searched: {searched}",
+                    f"robot file {vehicle.file!r} is nowhere, and no bundled robot is called "
+                    f"so.{near} Searched: {searched}",
                 )
                 continue
             if library.find(vehicle.file, document.path) is None:

@@ -25,6 +25,9 @@ class Library(Protocol):
     def find_robot(self, name: str, named_by: Path) -> Path | None:
         """The robot file ``name``, or else ours of the same file name; None without either."""
 
+    def bundled_robots(self) -> tuple[str, ...]:
+        """The file names of our own robots."""
+
     def has_model(self, name: str, named_by: Path) -> bool:
         """Whether there is a model of that name, or a stand-in."""
 
