@@ -1,5 +1,7 @@
 """Motion tracks: what is written is read back, equal tracks are equal bytes, damage is named."""
 
+import gzip
+import json
 from pathlib import Path
 
 import numpy as np
@@ -55,12 +57,22 @@ def test_a_body_takes_little_room_and_equal_tracks_are_equal_bytes() -> None:
     assert data == written(1800)[0]
 
 
+def headed(data: bytes, name: str, value: float) -> bytes:
+    """The track with another value in its head."""
+    line, _, rest = gzip.decompress(data).partition(b"\n")
+    head = json.dumps({**json.loads(line), name: value}).encode()
+    return gzip.compress(head + b"\n" + rest)
+
+
 @pytest.mark.parametrize(
     "damage",
     [
         lambda data: data[:-20],
         lambda data: b"",
         lambda data: b"not a track",
+        lambda data: headed(data, "rate", 0.0),
+        lambda data: headed(data, "length", float("inf")),
+        lambda data: headed(data, "n", float("inf")),
         lambda data: data[:40] + bytes([data[40] ^ 1]) + data[41:],
     ],
 )

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import gzip
 import json
+import math
 import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -163,7 +164,14 @@ def read_track(data: bytes) -> MotionTrack:
         if head[FORMAT] != VERSION:
             raise ValueError(f"found version {head[FORMAT]!r}")
         return _track(head, rest)
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except (
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        OverflowError,
+        RecursionError,
+    ) as error:
         raise ResultError(f"is no motion track of version {VERSION}: {error}") from None
 
 
@@ -194,6 +202,9 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
     signals = tuple(Signal(**each) for each in head["signals"])
     pose = [float(head["length"])] * 3 + [float(head["quaternion"])] * 4
     steps, n = np.array([*pose * len(bodies), *(signal.step for signal in signals)]), int(head["n"])
+    rate = float(head["rate"])
+    if not (0.0 < rate < math.inf and np.all((steps > 0.0) & (steps < math.inf))):
+        raise ValueError("a rate or a resolution is not above 0")
     table = unshuffled(rest, n, len(steps))
     rows = table * steps
     rows[table == NOTHING] = np.nan
@@ -205,5 +216,5 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
         signals=signals,
         values=rows[:, NUMBERS * len(bodies) :],
         levels=tuple(TrackLevel(**each) for each in head["levels"]),
-        rate=float(head["rate"]),
+        rate=rate,
     )
