@@ -92,6 +92,8 @@ and text messages, JSON::
      "mapping": {"w": "+surge", ...}}
     {"type": "levels", "levels": [...]}                        as above, all so far
     {"type": "samples", "samples": [[name, unit, time, value or null], ...]}    for the curves
+    {"type": "markers", "markers": [{"name", "at": 3, "colour": "#rrggbb", "lines": [[3, ...]]}]}
+                                       all that programs have spawned, as lines in W
     {"type": "end", "why": "..."}
 
 Page to server, JSON text of at most 4 kB::

@@ -112,3 +112,17 @@ def test_the_help_names_all_axes_of_a_key(browser: Any, server: LiveServer) -> N
     rows = page.evaluate("uwsim.page.link.help().Pilot.map(({ keys, does }) => keys + ': ' + does)")
     assert rows[:-1] == ["w  s: thruster1 thruster2 +, −", "e  –: thruster3 +, −"]
     page.context.close()
+
+
+def test_a_simulation_as_fast_as_it_can_and_one_of_any_speed_say_so(
+    browser: Any, server: LiveServer
+) -> None:
+    page = opened(browser, server, MAPPING, 768)
+    shown = "document.getElementById('speed').selectedOptions[0].text"
+    for speed, text in ((0, "fastest"), (1.5, "1.5×"), (1, "1×")):
+        page.evaluate(f"uwsim.page.isTold(false, {speed})")
+        assert page.evaluate(shown) == text
+    for key, text in ((">", "2×"), ("<", "1×")):
+        page.keyboard.press(key)
+        assert page.evaluate(shown) == text
+    page.context.close()

@@ -21,6 +21,7 @@ from ...algorithms.pilot import AXES
 from ...benchmark.updaters import Level
 from ...errors import BadSetting
 from ...geometry import Pose, rotation_from_quaternion
+from ...messages import Marker
 from ...runs.trial.level_row import LevelRow
 from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
@@ -30,6 +31,7 @@ from ...simulation.views import view_from_pose
 from .clock import NAP, Clock
 from .head import head_of
 from .mapping import PilotMapping, merged
+from .marker_lines import described
 from .server import LiveServer, Message
 
 RATE = 30.0
@@ -83,6 +85,7 @@ class LiveView:
         self._measures: Sequence[TriggeredMeasure] = ()
         self._taken: dict[str, int] = {}
         self._levels: list[dict[str, Any]] = []
+        self._markers: dict[str, Marker] = {}  # those sent last
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
         self._views: dict[int, Message] = {}
@@ -94,7 +97,7 @@ class LiveView:
     def open(self, simulation: Simulation, title: str) -> None:
         """Show a simulation from now on; it is at step 0."""
         self._simulation, self._state = simulation, TrackedState(simulation.world)
-        self._levels, self._measures = [], ()
+        self._levels, self._measures, self._markers = [], (), {}
         self._first = packed(state_of(simulation.world, MOVED)) if self._resets else b""
         self._due = dict.fromkeys(self._due, 0.0)
         self._server.forget(lambda channel: channel != "state")
@@ -164,6 +167,7 @@ class LiveView:
             self._server.publish("row", self._header(ROW, 0) + row)
         if self._is_due("samples", now, SAMPLE_RATE):
             self._send_samples()
+            self._send_markers()
         if self._is_due("images", now, IMAGE_RATE):
             self._send_images()
             self._send_views()
@@ -202,6 +206,17 @@ class LiveView:
             gone = f"samples/{self._n_batches - N_BATCHES}"
             self._server.forget(lambda channel: channel == gone)
             self._n_batches += 1
+
+    def _send_markers(self) -> None:
+        """Send the markers that programs have spawned, when they have changed."""
+        assert self._simulation is not None
+        world = self._simulation.world
+        shown = world.markers.shown
+        if list(map(id, shown.values())) == list(map(id, self._markers.values())):
+            return
+        self._markers = shown
+        markers = described(shown, world.world_from_localized)
+        self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_images(self) -> None:
         """Send what cameras have published; of those that nobody reads what they would see."""

@@ -1,5 +1,6 @@
 // The live view: what a running simulation sends, and what is sent to it (viewer/head.py).
 import type { Level } from "./head";
+import type { Marker } from "./overlay";
 import { toPose } from "./geometry";
 import type { Page } from "./main";
 import { unpack, type Pack } from "./pack";
@@ -15,6 +16,7 @@ type Message =
   | { type: "state"; paused: boolean; speed: number; pilot: boolean; resets: boolean; mapping?: Record<string, string> }
   | { type: "levels"; levels: Level[] }
   | { type: "samples"; samples: [string, string, number, number | null][] }
+  | { type: "markers"; markers: Marker[] }
   | { type: "end"; why: string };
 
 export class Link {
@@ -101,6 +103,7 @@ export class Link {
       page.keyboard.help();
     } else if (message.type === "levels") stream.setLevels(message.levels);
     else if (message.type === "samples") for (const each of message.samples) stream.sample(...each);
+    else if (message.type === "markers") page.picture.markers = message.markers;
     else if (message.type === "end") this.end(message.why);
   }
 

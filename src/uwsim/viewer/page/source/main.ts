@@ -86,7 +86,9 @@ export class Page {
 
   setSpeed(speed: number, tell = true): void {
     this.speed = speed;
-    element<HTMLSelectElement>("speed").value = String(speed);
+    const choice = element<HTMLSelectElement>("speed");
+    if (![...choice.options].some(({ value }) => value === String(speed))) choice.append(option(speed));
+    choice.value = String(speed);
     if (tell) this.link?.control("speed", speed);
   }
 
@@ -98,8 +100,14 @@ export class Page {
   }
 
   faster(direction: number): void {
-    const next = SPEEDS.indexOf(this.speed) + direction;
-    if (SPEEDS[next] !== undefined) this.setSpeed(SPEEDS[next]);
+    const all = this.speeds();
+    const next = all[all.indexOf(this.speed) + direction];
+    if (next !== undefined) this.setSpeed(next);
+  }
+
+  /** Those to choose from; 0: as fast as a simulation can. */
+  private speeds(): number[] {
+    return this.link ? [...SPEEDS, 0] : SPEEDS;
   }
 
   show(mode: Mode): void {
@@ -210,7 +218,7 @@ export class Page {
       this.refresh();
     });
     const speeds = element<HTMLSelectElement>("speed");
-    for (const speed of SPEEDS) speeds.append(new Option(`${speed}×`, String(speed)));
+    speeds.append(...this.speeds().map(option));
     speeds.addEventListener("change", () => this.setSpeed(Number(speeds.value)));
     this.setSpeed(1, false);
     const line = element<HTMLInputElement>("time");
@@ -222,6 +230,10 @@ export class Page {
     element("help-button").addEventListener("click", toggleHelp);
     this.refresh();
   }
+}
+
+function option(speed: number): HTMLOptionElement {
+  return new Option(speed ? `${speed}×` : "fastest", String(speed));
 }
 
 async function begin(): Promise<void> {

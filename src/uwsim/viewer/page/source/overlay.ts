@@ -11,6 +11,14 @@ export interface Shown {
   sonars: boolean;
 }
 
+/** Spawned by a program: lines in W. */
+export interface Marker {
+  name: string;
+  at: number[];
+  colour: string;
+  lines: number[][][];
+}
+
 const AXES = ["#ff5a4f", "#45d96b", "#4aa3ff"];
 const CLOSE = 0.02; // [m] ahead of the camera
 
@@ -88,9 +96,13 @@ function cut(from: number[], to: number[]): number[] {
 
 export function drawOverlay(
   context: CanvasRenderingContext2D, worldFromCamera: Matrix, lens: Lens, head: Head,
-  models: Models, player: Player, moment: Moment, shown: Shown, since: number,
+  models: Models, player: Player, moment: Moment, shown: Shown, since: number, markers: Marker[],
 ): void {
   const pen = new Pen(context, worldFromCamera, lens);
+  for (const { name, at, colour, lines } of markers) {
+    for (const line of lines) pen.line(line, colour);
+    if (shown.labels || !lines.length) pen.word(at, name);
+  }
   if (shown.trails) drawTrails(pen, head, player, moment, since);
   if (shown.sonars)
     for (const sensor of head.sensors) drawSensor(pen, sensor, models.mounted(sensor), moment);
