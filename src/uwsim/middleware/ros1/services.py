@@ -15,6 +15,7 @@ from urllib.parse import urlsplit
 
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_ros1, to_ros1
+from ..stamps import inward, outward
 from ..types import WireService
 from .tcpros import (
     PeerError,
@@ -78,9 +79,9 @@ def serve(
 
 def _answer(data: bytes, offered: WireService, request: Callable[[Any], Future[object]]) -> bytes:
     try:
-        asked: object = from_ros1(offered.service.request, data)
+        asked: object = inward(from_ros1(offered.service.request, data))
         response = request(asked).result(timeout=ANSWER_TIMEOUT)
-        return b"\x01" + framed(to_ros1(response))
+        return b"\x01" + framed(to_ros1(outward(response)))
     except FutureTimeout:
         return b"\x00" + framed(b"the simulation does not advance")
     except UwsimError as error:
@@ -108,7 +109,7 @@ def call(uri: str, name: str, wanted: WireService, caller: str, request: object)
         fields = {"callerid": caller, "md5sum": wanted.md5, "service": name}
         write(connection, encode_header(fields))
         read_header(connection)  # rospy loses what comes together with the header
-        write(connection, framed(to_ros1(request)))
+        write(connection, framed(to_ros1(outward(request))))
         success = connection.recv(1)
         data = read_frame(connection)
     except OSError as error:
@@ -119,6 +120,7 @@ def call(uri: str, name: str, wanted: WireService, caller: str, request: object)
         what = "closed the connection" if data is None else data[:300].decode("utf-8", "replace")
         raise PeerError(f"service {name}: {what}")
     try:
-        return from_ros1(wanted.service.response, data)
+        response: object = inward(from_ros1(wanted.service.response, data))
+        return response
     except BadMessage as error:
         raise PeerError(f"service {name}: {error}") from error

@@ -16,6 +16,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
+from ..stamps import inward, outward
 from ..types import WireService, service_of, wire_service
 from .node import Call, Endpoint
 from .rclpy_endpoints import Nowhere, RclpyServer
@@ -62,12 +63,12 @@ class RclpyServices:
 
         async def answer(asked: Any, _: Any) -> Any:
             try:
-                request: object = from_cdr(kind.service.request, serialize_message(asked))
+                request: object = inward(from_cdr(kind.service.request, serialize_message(asked)))
                 response = await self._answered(call(request))
             except UwsimError as error:
                 self._log.say(f"service /{name}: no answer: {error}", kind=name)
                 raise Unanswered from error
-            return deserialize_message(bytes(to_cdr(response)), found.Response)
+            return deserialize_message(bytes(to_cdr(outward(response))), found.Response)
 
         return answer
 
@@ -100,13 +101,13 @@ class RclpyServices:
             raise UwsimError(f"Service /{name}: {type(request).__name__} has no definition.")
         kind = wire_service(service)
         client = self._client(name, kind)
-        asked = deserialize_message(bytes(to_cdr(request)), client.srv_type.Request)
+        asked = deserialize_message(bytes(to_cdr(outward(request))), client.srv_type.Request)
         future: Future[object] = Future()
 
         def pass_on(answered: Any) -> None:
             try:
                 found = serialize_message(answered.result())
-                future.set_result(from_cdr(kind.service.response, found))
+                future.set_result(inward(from_cdr(kind.service.response, found)))
             except (BadMessage, RuntimeError) as error:
                 future.set_exception(UwsimError(f"Service /{name}: {error}"))
 

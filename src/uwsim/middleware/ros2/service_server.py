@@ -17,6 +17,7 @@ from cyclonedds.idl import types
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
+from ..stamps import inward, outward
 from ..types import WireService, ros2_store
 from .names import reply_name, request_name, type_hash_data
 from .node import Call
@@ -88,7 +89,7 @@ class ServiceServer:
             return
         try:
             call, body = split_call(sample.data)
-            request: object = from_cdr(self._kind.service.request, body)
+            request: object = inward(from_cdr(self._kind.service.request, body))
         except (BadMessage, struct.error) as error:
             self._log.say(f"service /{self._name}: a call was refused: {error}", kind=self._name)
             return
@@ -101,7 +102,7 @@ class ServiceServer:
 
     def _reply(self, call: bytes, response: Future[object]) -> None:
         try:
-            data = bytes(to_cdr(response.result()))
+            data = bytes(to_cdr(outward(response.result())))
         except UwsimError as error:
             self._log.say(f"service /{self._name}: no answer: {error}", kind=self._name)
             return

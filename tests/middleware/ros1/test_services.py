@@ -1,0 +1,31 @@
+"""What a service answers over TCPROS."""
+
+from __future__ import annotations
+
+from concurrent.futures import Future
+
+from uwsim.messages import header
+from uwsim.messages.simulation_control import (
+    EntityState,
+    SetEntityState,
+    SetEntityStateResponse,
+)
+from uwsim.middleware.encodings import to_ros1
+from uwsim.middleware.ros1.services import _answer
+from uwsim.middleware.types import service, wire_service
+
+
+def test_stamps_of_a_request_are_taken_for_times_of_the_clock_of_ros() -> None:
+    asked: list[SetEntityState] = []
+
+    def request(each: SetEntityState) -> Future[object]:
+        asked.append(each)
+        answer: Future[object] = Future()
+        answer.set_result(SetEntityStateResponse())
+        return answer
+
+    kind = wire_service(service("simulation_interfaces/srv/SetEntityState"))
+    data = bytes(to_ros1(SetEntityState(state=EntityState(header=header(1.5)))))
+    assert _answer(data, kind, request)[:1] == b"\x01"
+    stamp = asked[0].state.header.stamp
+    assert (stamp.sec, stamp.nanosec) == (0, 500_000_000)
