@@ -64,6 +64,15 @@ def test_a_camera_that_is_left_out_hides_no_other(
         assert camera["body"].startswith("one/")
 
 
+def test_two_vehicles_of_one_name_are_warned_of_at_the_second(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = scene(tmp_path)
+    file.write_text(file.read_text().replace("<name>two<", "<name>one<"))
+    assert main(["check", str(file)]) == 0
+    assert f"{file}:7: warning: several vehicles are called 'one'" in capsys.readouterr().out
+
+
 def test_the_first_of_two_cameras_is_on_no_topic(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

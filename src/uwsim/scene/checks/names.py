@@ -191,7 +191,9 @@ def _check_sources(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             f"camera {name!r} has several interfaces; the original serves this last one only",
         )
     for name in _repeated(vehicle.name for vehicle in scene.vehicles):
-        diagnostics.warning(None, f"several vehicles are called {name!r}; searches find the first")
+        second = [vehicle for vehicle in scene.vehicles if vehicle.name == name][1]
+        message = f"several vehicles are called {name!r}; searches find the first"
+        diagnostics.warning(second, message)
 
 
 def _check_physics(thing: ObjectSpec, diagnostics: Diagnostics) -> None:
