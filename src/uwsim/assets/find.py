@@ -129,27 +129,29 @@ def _paths(
     names: Sequence[str], roots: Sequence[Path], near: Sequence[Path]
 ) -> Iterator[tuple[str, Path]]:
     """Name and path of every file there is."""
-    present: dict[Path, bool] = {}  # whether there is such a folder
+    own = len(roots) - (roots[-1] == PACKAGE)  # where a bundled file names it, it is found there
+    groups = {"own": roots[:own], "near": near, "package": roots[own:]}
+    present: dict[tuple[str, Path], list[Path]] = {}  # by the folder within the name: where it is
 
-    def files(name: Path, folders: Sequence[Path]) -> Iterator[Path]:
-        for place in (folder / under / name.parent for folder in folders for under in UNDER):
-            if place not in present:
-                present[place] = _is(place, Path.is_dir)
-            if present[place] and _is(place / name.name, Path.is_file):
+    def files(name: Path, group: str) -> Iterator[Path]:
+        if (group, name.parent) not in present:
+            places = (root / under / name.parent for root in groups[group] for under in UNDER)
+            present[group, name.parent] = [place for place in places if _is(place, Path.is_dir)]
+        for place in present[group, name.parent]:
+            if _is(place / name.name, Path.is_file):
                 yield place / name.name
 
-    own = len(roots) - (roots[-1] == PACKAGE)  # where a bundled file names it, it is found there
     for name in names:
         wanted = Path(plain_name(name)).expanduser()
         if wanted.is_absolute():
             yield from ((name, path) for path in [wanted] if _is(path, Path.is_file))
             continue
-        yield from ((name, path) for path in files(wanted, roots[:own]))
+        yield from ((name, path) for path in files(wanted, "own"))
         if ".." not in wanted.parts:
             for n in range(1, len(wanted.parts)):
                 tail = Path(*wanted.parts[n:])
-                yield from ((name, path) for path in files(tail, near))
-        yield from ((name, path) for path in files(wanted, roots[own:]))
+                yield from ((name, path) for path in files(tail, "near"))
+        yield from ((name, path) for path in files(wanted, "package"))
 
 
 def _is(path: Path, kind: Callable[[Path], bool]) -> bool:
