@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Lead a vehicle by a marker in RViz, as the original's followMarker.
 
     follow_marker.py TOPIC [x y z roll pitch yaw [markerScale controlScale [xRot yRot zRot]]]

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Go to a pose and end there, as the original's gotoAbsolutePose and gotoRelativePose: 30 Hz.
 
     goto_pose.py absolute|relative ODOMETRY_TOPIC CONTROL_TOPIC x y z roll pitch yaw   m and rad

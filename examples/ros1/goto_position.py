@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Go to a position and end there, in the manner of the original's gotoAbsolutePose.
 
     goto_position.py ODOMETRY_TOPIC POSE_TOPIC x y z        m

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Print a line for each of the first N images of a camera.
 
     image_echo.py TOPIC [N]

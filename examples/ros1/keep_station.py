@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Keep a place in a current: a program of rospy that knows nothing of uwsim.
 
     keep_station.py ODOMETRY_TOPIC TWIST_TOPIC x y z        m, in the frame of the odometry

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Take a vehicle along the lanes of a survey, as the original's makeVehicleSurvey: 20 Hz.
 
     make_vehicle_survey.py TOPIC x y z yaw long step        m and rad

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Hold the joints of an arm at positions, as the original's setJointPosition: 30 Hz.
 
     set_joint_position.py TOPIC q1 q2 q3 q4 q5              rad

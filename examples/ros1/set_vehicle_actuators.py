@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Command thrusters by std_msgs/Float64MultiArray, as the original's setVehicleActuators: 5 Hz.
 
     set_vehicle_actuators.py TOPIC u1 ... un                -1 to 1 each

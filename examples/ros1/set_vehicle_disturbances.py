@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Rock a vehicle about where it is, as the original's setVehicleDisturbances: 25 Hz.
 
     set_vehicle_disturbances.py ODOMETRY_TOPIC CONTROL_TOPIC ax ay az ar ap ay    m and rad

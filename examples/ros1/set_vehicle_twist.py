@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Drive a vehicle by geometry_msgs/TwistStamped, as the original's setVehicleTwist: 25 Hz.
 
     set_vehicle_twist.py TOPIC vx vy vz wr wp wy            m/s and rad/s, body frame

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Drive a vehicle at a velocity, as the original's setVehicleVelocity: 25 Hz until it is ended.
 
     set_vehicle_velocity.py TOPIC vx vy vz wr wp wy         m/s and rad/s, body frame

@@ -27,6 +27,12 @@ def corners_of(data, width: int, height: int) -> list[float]:
     return [west, north, east, north, east, south, west, south]
 
 
+def centre_of(corners: list[float]) -> list[float]:
+    """Return x, y of the middle of the rectangle [px]."""
+    west, north, east, _, _, south, _, _ = corners
+    return [(west + east) / 2, (north + south) / 2]
+
+
 class DarkBox:
     """The algorithm in the process of the simulation."""
 
@@ -36,10 +42,12 @@ class DarkBox:
 
         self.has_begun, self.node = False, node
         publish = node.publisher("/cornersTopic", Float32MultiArray)
+        publish_centre = node.publisher("/centroidTopic", Float32MultiArray)
 
         def look(image: Image) -> None:
             if corners := corners_of(image.data, image.width, image.height):
                 publish(floats(corners))
+                publish_centre(floats(centre_of(corners)))
             if not self.has_begun:
                 self.has_begun = True
                 node.call("startBench", Empty())
@@ -56,12 +64,14 @@ class DarkBoxNode:
 
         self.has_begun, self.lockstep, self.message = False, lockstep, Float32MultiArray
         self.publish = lockstep.publisher("/cornersTopic", Float32MultiArray)
+        self.publish_centre = lockstep.publisher("/centroidTopic", Float32MultiArray)
         lockstep.subscribe("/uwsim/camera1", Image, self.look)
 
     def look(self, image) -> None:
         """Publish where the box is; the benchmark starts with the first image."""
         if corners := corners_of(image.data, image.width, image.height):
             self.publish(self.message(data=corners))
+            self.publish_centre(self.message(data=centre_of(corners)))
         if not self.has_begun:
             self.has_begun = True
             self.lockstep.call("startBench")

@@ -91,7 +91,7 @@ def test_fields_may_be_left_out_or_named_as_in_ros_1() -> None:
         (Image, {"data": [256]}, "data is [256]; expected numbers (uint8)."),
         (Odometry, {"pose": {"covariance": [1]}}, "pose.covariance has 1 values; expected 36."),
         (JointState, {"name": "a"}, "name is 'a'; expected a list."),
-        (TFMessage, {"transforms": [3]}, "transforms[0]. is 3; expected an object."),
+        (TFMessage, {"transforms": [3]}, "transforms[0] is 3; expected an object."),
     ],
 )
 def test_what_does_not_fit_is_one_line(cls: type, values: object, line: str) -> None:

@@ -65,8 +65,8 @@ def run(
     With --view the scene runs in real time and is seen in a browser, where its first vehicle is
     piloted, unless a program runs.
 
-    With a connection (--ros1, --ros2) programs outside read and write topics and call services
-    while the scene runs in real time, and the run is not repeatable.
+    With a connection (--ros1, --ros2, --web) programs outside read and write topics and call
+    services while the scene runs in real time, and the run is not repeatable.
     """
     from ..simulation import Simulation
 

@@ -66,7 +66,7 @@ def from_json(cls: type[M], values: object) -> M:
 def _message(cls: type[M], values: object, at: str) -> M:
     name = _name(cls)
     if not isinstance(values, Mapping):
-        raise BadMessage(f"{at or name} is {_shown(values)}; expected an object.")
+        raise BadMessage(f"{at.rstrip('.') or name} is {_shown(values)}; expected an object.")
     known = {field[0]: field for field in _fields(name)}
     found: dict[str, object] = {}
     for key, value in values.items():

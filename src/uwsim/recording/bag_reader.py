@@ -25,6 +25,10 @@ WALL_TIME = 10**8 * NANOSECONDS
 """Later than this is a time of the wall clock [ns]; no simulation is as long."""
 
 
+MAGIC = {".bag": b"#ROSBAG V2.0", ".mcap": b"\x89MCAP0", ".db3": b"SQLite format 3"}
+"""First bytes of recordings, by suffix."""
+
+
 class BagReader:
     """A recording that is read once, message by message.
 
@@ -36,7 +40,7 @@ class BagReader:
     """
 
     def __init__(self, path: Path) -> None:
-        self._name = path.name
+        self._path, self._name = path, path.name
         if not path.exists():
             raise AssetError(f"{path} is not there; expected a .bag, .mcap or .db3 file.")
         try:
@@ -103,4 +107,18 @@ class BagReader:
 
     def _unreadable(self, error: Exception) -> AssetError:
         message = " ".join(str(error).split())[:200] or type(error).__name__
+        found = kind_of(self._path)
+        if self._path.suffix in MAGIC and found != self._path.suffix:
+            named = self._path.suffix
+            message = f"it is no {named} file" if found is None else f"it is a {found} file"
         return AssetError(f"{self._name} cannot be read as a recording: {message}")
+
+
+def kind_of(path: Path) -> str | None:
+    """Return the suffix that a recording with these first bytes has; None if it is none."""
+    try:
+        with path.open("rb") as stream:
+            begin = stream.read(16)
+    except OSError:
+        return None
+    return next((suffix for suffix, magic in MAGIC.items() if begin.startswith(magic)), None)

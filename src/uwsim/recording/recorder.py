@@ -57,13 +57,19 @@ class Recorder:
         bus: what is recorded, topics that come later included.
         path: the ``.mcap`` or ``.bag`` file.
         images: how images are kept.
+
+    Raises:
+        BadSetting: it cannot be written there.
     """
 
     def __init__(self, bus: Bus, path: Path, *, images: ImageStorage = "raw") -> None:
         self._bus = bus
         self._images = images
         self._stops: list[Callable[[], None]] = []
-        self._file = FILES[path.suffix.lower()](path)
+        try:
+            self._file = FILES[path.suffix.lower()](path)
+        except OSError as error:
+            raise BadSetting(f"--record {path}: cannot be written: {error.strerror}.") from None
         self.n_messages = 0
         """Messages recorded so far."""
         self.left_out: dict[str, str] = {}

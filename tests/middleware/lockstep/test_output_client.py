@@ -15,7 +15,7 @@ from uwsim.middleware.bridge import Bridge
 from uwsim.middleware.connection import ConnectionSpec
 from uwsim.middleware.lockstep import output_client
 from uwsim.middleware.lockstep.output_client import OutputClient
-from uwsim.middleware.lockstep.spec import ClientSpec, OutputSpec, output_of, sync_named
+from uwsim.middleware.lockstep.spec import ClientSpec, OutputSpec, output_of, outputs_of, sync_named
 from uwsim.middleware.log import Log
 from uwsim.simulation import InProcessNode
 
@@ -181,13 +181,13 @@ def test_who_is_not_there_is_named() -> None:
 @pytest.mark.parametrize(
     ("output", "said"),
     [
-        (OutputSpec(topic="cmb", rate=10.0), "neither scene nor benchmark reads"),
-        (OutputSpec(topic="cmd", follows="depht"), "has the topic /depht"),
+        (OutputSpec(topic="cmb", rate=10.0), "has the topic /cmb. Did you mean '/cmd'"),
+        (OutputSpec(topic="cmd", follows="depht"), "has the topic /depht. Did you mean '/depth'"),
     ],
 )
 def test_a_topic_that_is_not_there_is_an_error(output: OutputSpec, said: str) -> None:
     sea = Sea(output)
-    with pytest.raises(NeverStarted, match=said):
+    with pytest.raises(BadSetting, match=said):
         sea.node.run(sea.client)
 
 
@@ -205,10 +205,19 @@ def test_what_is_no_output_is_an_error(text: str) -> None:
         output_of(text)
 
 
-@pytest.mark.parametrize("text", ["10", "1e", "10kHz", "1.1.1Hz", "1e999Hz"])
+@pytest.mark.parametrize("text", ["10", "1e", "10kHz", "1.1.1Hz", "1e999Hz", "nanHz", "infhz"])
 def test_a_rate_has_its_unit(text: str) -> None:
     with pytest.raises(BadSetting, match="expected a rate"):
         output_of(f"cmd={text}")
+
+
+@pytest.mark.parametrize(
+    ("texts", "said"),
+    [(["a=1Hz", "/a=2Hz"], "/a is given twice"), (["a=/a"], "does not follow itself")],
+)
+def test_outputs_that_contradict_are_an_error(texts: list[str], said: str) -> None:
+    with pytest.raises(BadSetting, match=said):
+        outputs_of(texts)
 
 
 def test_what_is_waited_for_is_one_of_four() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import socket
+import xmlrpc.client
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
@@ -46,6 +47,17 @@ def test_topics_are_registered_and_listed(master: Master) -> None:
     assert call(master.uri, "unregisterPublisher", "/sim", "/odom", NODE) == 1
     assert call(master.uri, "unregisterPublisher", "/sim", "/odom", NODE) == 0
     assert call(master.uri, "getPublishedTopics", "/x", "") == []
+
+
+def test_a_node_takes_back_all_at_once_as_rospy_does_when_it_ends(master: Master) -> None:
+    call(master.uri, "registerPublisher", "/sim", "/odom", "nav_msgs/Odometry", NODE)
+    call(master.uri, "registerSubscriber", "/sim", "/cmd", "geometry_msgs/Pose", NODE)
+    with xmlrpc.client.ServerProxy(master.uri) as proxy:
+        leave = xmlrpc.client.MultiCall(proxy)
+        leave.unregisterPublisher("/sim", "/odom", NODE)
+        leave.unregisterSubscriber("/sim", "/cmd", NODE)
+        assert [code for code, _, _ in leave()] == [1, 1]
+    assert call(master.uri, "getSystemState", "/x") == [[], [], []]
 
 
 def test_services_are_found(master: Master) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
@@ -91,6 +92,9 @@ class ClientOptions:
         """Collect the errors of the options."""
         self._connections.check(wrong)
         with wrong.kept():
+            if self.client is not None and not self.client.strip():
+                raise BadSetting("--client: expected a name.")
+        with wrong.kept():
             if self.client is None and self._connections.is_connected:
                 name = self._connections.transports[0]
                 raise BadSetting(
@@ -132,9 +136,8 @@ class ClientOptions:
         with wrong.kept():
             if not 0.0 <= (self.settle or 0.0) < float("inf"):
                 raise BadSetting(f"--settle {self.settle:g}: expected a time >= 0 [s].")
-        for text in self.output or ():
-            with wrong.kept():
-                _output(text)
+        with wrong.kept():
+            _outputs(self.output or ())
 
     def client_spec(self) -> ClientSpec | None:
         """Return the program outside; None without one."""
@@ -147,7 +150,7 @@ class ClientOptions:
             connection=self._connections.spec(),
             limit=self.client_limit,
             sync=sync_named(self.sync or "ack"),
-            outputs=tuple(_output(text) for text in self.output or ()),
+            outputs=_outputs(self.output or ()),
             settle=SETTLE if self.settle is None else self.settle,
             speed=1.0 if self.speed is None else self.speed,
         )
@@ -168,7 +171,8 @@ class ClientOptions:
         )
 
 
-def _output(text: str) -> OutputSpec:
-    from ...middleware.lockstep.spec import output_of
+def _outputs(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
+    """Read every ``--output``; raises BadSetting."""
+    from ...middleware.lockstep.spec import outputs_of
 
-    return output_of(text)
+    return outputs_of(texts)

@@ -147,7 +147,8 @@ class ConnectionOptions:
 
                 check(os.environ, self.domain)
         with wrong.kept():
-            self.web_options()
+            if (web := self.web_options()) is not None:
+                web.check_free()
         with wrong.kept():
             check_clients(self.client or (), self.client_limit, self.transports)
 

@@ -22,7 +22,7 @@ class ProgramOptions:
             "--for",
             metavar="TIME",
             help="How long, in simulation time: 10s, 500ms, 2min, 1h [10s; with a connection "
-            "until Ctrl-C].",
+            "until Ctrl-C; the length of a recording].",
         ),
     ] = None
     program: Annotated[

@@ -104,6 +104,8 @@ def check_clients(names: Sequence[str], limit: float, transports: Sequence[str])
     if not 0.0 < limit < float("inf"):
         raise BadSetting(f"--client-limit {limit:g}: expected a time > 0 [s].")
     if names and len(transports) != 1:
+        given = " and ".join(f"--{name}" for name in transports)
         raise BadSetting(
-            f"--client {names[0]}: expected one of --web, --ros1 and --ros2, by which it comes."
+            f"--client {names[0]}: expected one of --web, --ros1 and --ros2, by which it comes"
+            f"{f', not {given}' if given else ''}."
         )

@@ -41,6 +41,7 @@ class LockStepClient:
         self._replies: dict[int, dict[str, Any]] = {}
         self._sent: Counter[str] = Counter()
         self._order: list[str] = []  # topics of the messages since the last tick
+        self._other: object = None  # the last tick that was answered and was not asked
         self._is_due, self._next_time = False, math.inf
         self._n_ticks = self._n_calls = 0
         self._run = secrets.token_hex(8)  # what tells simulations apart; not in any result
@@ -140,13 +141,14 @@ class LockStepClient:
         self._n_ticks += 1
         number = self._n_ticks
         who = {"client": self._name, "run": self._run}
-        order, self._order = self._order, []
+        order, self._order, self._other = self._order, [], None
         tick = {**who, "tick": number, "time": now, "sent": dict(self._sent), "order": order}
         bridge.send(TICK, String(data=json.dumps(tick)))
         if not bridge.wait_for(lambda: self._is_answered(number), self._limit):
             raise ClientLost(
                 f"Client {self._name!r} did not answer the tick at {now:g} s within "
-                f"{self._limit:g} s of wall time (--client-limit): the run is invalid."
+                f"{self._limit:g} s of wall time (--client-limit){self._instead(number)}: the run "
+                "is invalid."
             )
         answer = self._acks.popleft()
         self._wish(answer)
@@ -195,7 +197,7 @@ class LockStepClient:
     def _is_answered(self, number: int) -> bool:
         """Whether the ack of a tick is there, and all that it announces."""
         while self._acks and self._acks[0].get("tick") != number:
-            self._acks.popleft()  # of an earlier tick, or of no tick
+            self._other = self._acks.popleft().get("tick")  # an earlier one, or none
         for gone in self._joins:
             if gone.get("left"):
                 now = self._node.now
@@ -203,6 +205,21 @@ class LockStepClient:
         if not self._acks:
             return False
         return self._has_arrived(self._acks[0])
+
+    def _instead(self, number: int) -> str:
+        """Say what came in the place of the answer to a tick."""
+        if self._acks:
+            said = _object(self._acks[0].get("published"))
+            late = [
+                f"{n} messages on {topic}, of which {self._bridge.n_arrived[topic.lstrip('/')]} "
+                "have come"
+                for topic, n in said.items()
+                if not self._has_arrived({"published": {topic: n}})
+            ]
+            return f"; its answer announces {', '.join(late)}"
+        if self._other is not None:
+            return f"; this was tick {number}, and it answered {self._other!r:.40}"
+        return ""
 
     def _is_replied(self, number: int) -> bool:
         """Whether the answer to a call is there, and all that it announces."""
@@ -244,6 +261,8 @@ def lockstep_clients(
         client = clients.get(str(content.get("client")))
         if client is not None:
             client.hear(topic, content)
+        elif "client" not in content:
+            bridge.log.say(f"/{topic}: a message is no JSON object with a 'client'")
         else:
             bridge.log.say(f"/{topic}: no client of this run: {str(content.get('client'))[:100]!r}")
 

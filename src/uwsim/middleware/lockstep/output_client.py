@@ -14,11 +14,11 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial
 
-from ...bus import Node
-from ...errors import ClientLost, NeverStarted
+from ...bus import Bus, Node
+from ...errors import BadSetting, ClientLost, NeverStarted, did_you_mean
 from ..bridge import Bridge
 from .spec import ClientSpec, OutputSpec
 
@@ -91,21 +91,14 @@ class OutputClient:
         """Read an output, and count what it follows.
 
         Raises:
-            NeverStarted: nobody here has to do with one of the topics.
+            BadSetting: nobody here has to do with one of the topics.
         """
         bus = self._bridge.bus
+        check_outputs([output], bus)
         ends = bus.ends(output.topic)
-        if ends is None:
-            raise NeverStarted(
-                f"--output /{output.topic}: neither scene nor benchmark reads this topic."
-            )
+        assert ends is not None
         bus.subscribe(output.topic, ends.type, _nothing)  # so that transports read it all the time
         if output.follows is not None:
-            if bus.ends(output.follows) is None:
-                raise NeverStarted(
-                    f"--output /{output.topic}=/{output.follows}: neither scene nor benchmark has "
-                    f"the topic /{output.follows}."
-                )
             self._node.subscribe(output.follows, object, self._counter(output.follows))
 
     def _counter(self, topic: str) -> Callable[[object], None]:
@@ -176,6 +169,18 @@ class OutputClient:
 
     def _has_arrived(self, topic: str, n: int) -> bool:
         return self._bridge.n_arrived[topic] >= self._before[topic] + n
+
+
+def check_outputs(outputs: Sequence[OutputSpec], bus: Bus) -> None:
+    """Raise BadSetting if scene and benchmark have nothing to do with a topic of an output."""
+    for output in outputs:
+        for topic in filter(None, (output.topic, output.follows)):
+            if bus.ends(topic) is None:
+                known = [f"/{each}" for each in bus.topics]
+                raise BadSetting(
+                    f"--output: neither scene nor benchmark has the topic /{topic}."
+                    f"{did_you_mean(f'/{topic}', known)}"
+                )
 
 
 def _never() -> bool:

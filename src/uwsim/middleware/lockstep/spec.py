@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -91,6 +92,17 @@ def sync_named(text: str) -> Sync:
     )
 
 
+def outputs_of(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
+    """Read every ``--output``; raises BadSetting."""
+    found: dict[str, OutputSpec] = {}
+    for text in texts:
+        output = output_of(text)
+        if output.topic in found:
+            raise BadSetting(f"--output {text}: /{output.topic} is given twice.")
+        found[output.topic] = output
+    return tuple(found.values())
+
+
 def output_of(text: str) -> OutputSpec:
     """Read ``TOPIC=10Hz`` or ``TOPIC=INPUT``; raises BadSetting."""
     topic, _, due = (part.strip() for part in text.partition("="))
@@ -100,7 +112,9 @@ def output_of(text: str) -> OutputSpec:
             f"--output {text}: expected TOPIC=RATE or TOPIC=INPUT, as /cmd_vel=10Hz or "
             "/corners=/camera/image."
         )
-    if due[0] not in "+-.0123456789":
+    if name == follows:
+        raise BadSetting(f"--output {text}: a topic does not follow itself.")
+    if due[0] not in "+-.0123456789" and not due.lower().endswith("hz"):
         return OutputSpec(topic=name, follows=follows)
     found = RATE.fullmatch(due)
     try:
@@ -108,5 +122,7 @@ def output_of(text: str) -> OutputSpec:
     except ValueError:
         rate = float("nan")
     if not 0.0 < rate <= 1e4:
-        raise BadSetting(f"--output {text}: expected a rate from 0 to 10 000 Hz, as {topic}=10Hz.")
+        raise BadSetting(
+            f"--output {text}: expected a rate above 0, of 10 000 Hz at most, as {topic}=10Hz."
+        )
     return OutputSpec(topic=name, rate=rate)

@@ -75,6 +75,7 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         self._free = threading.BoundedSemaphore(MAX_AT_ONCE)
         for each, method in methods.items():
             self.register_function(method, each)
+        self.register_multicall_functions()  # by which rospy takes back all that it registered
         self._thread = threading.Thread(target=self.serve_forever, args=(0.1,), daemon=True)
         self._thread.start()
 

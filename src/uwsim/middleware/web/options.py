@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+import socket
 from dataclasses import dataclass
 
 from ...errors import BadSetting
 
+ORIGIN = re.compile(r"https?://[^\s/:]+(:[0-9]+)?")
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
 
@@ -25,7 +28,27 @@ class WebOptions:
     def __post_init__(self) -> None:
         if not 0 <= self.port < 2**16:
             raise BadSetting(f"--web {self.port}: expected a port, from 0 to 65535.")
+        if self.token is not None and not self.token.strip():
+            raise BadSetting("--web-token: it is blank.")
+        for origin in self.origins:
+            if not ORIGIN.fullmatch(origin):
+                raise BadSetting(
+                    f"--web-origin {origin}: expected scheme and host, as https://example.org."
+                )
         if self.host not in LOOPBACK and not self.token:
             raise BadSetting(
                 f"--web-host {self.host}: other computers could connect; give a --web-token too."
             )
+
+    def check_free(self) -> None:
+        """Raise BadSetting if something listens at the port already, or nobody can."""
+        try:
+            found = socket.getaddrinfo(self.host, self.port, type=socket.SOCK_STREAM)
+            family, kind, protocol, _, address = found[0]
+            with socket.socket(family, kind, protocol) as tried:
+                tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+                tried.bind(address)
+        except OSError as error:
+            raise BadSetting(
+                f"--web {self.port}: cannot listen at {self.host}: {error.strerror or error}."
+            ) from None

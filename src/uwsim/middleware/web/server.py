@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import hmac
 import http
-import math
 import re
 import threading
 import time
@@ -77,7 +76,6 @@ class WebBridge(Bridge):
         """Services of the bus."""
         self._offerers: dict[str, Session] = {}
         self._sessions: set[Session] = set()
-        self._clock_sent = math.nan
         self._loop = asyncio.new_event_loop()
         self._listening: Future[int] = Future()
         self._ended: asyncio.Event | None = None
@@ -113,19 +111,17 @@ class WebBridge(Bridge):
                 session.post(subscription, outgoing)
 
     def tick(self) -> None:
-        """Serve those who came before the first step: until then nobody knows what is on the bus.
+        """Serve those who came before the first step, and tell the time when it is due.
 
-        Those who read ``/clock`` are told the time of each step.
+        Until then nobody knows what is on the bus.
         """
         if not self._has_begun:
             self._has_begun = True
             self._loop.call_soon_threadsafe(self._begun.set)
-        if self.clock() != self._clock_sent:
-            self.send_clock()
+        super().tick()
 
     def publish_clock(self) -> None:
         """Publish ``/clock`` for those who read it."""
-        self._clock_sent = self.clock()
         if CLOCK in self._readers and CLOCK not in self._ends:
             clock = message_class("rosgraph_msgs/Clock")
             self.send(CLOCK, clock(clock=clock_time(self.clock())))
@@ -181,7 +177,7 @@ class WebBridge(Bridge):
         if latched is not None:
             session.post(subscription, latched)
         if topic == CLOCK:
-            self._clock_sent = math.nan
+            self._next_clock = 0.0  # it is told the time at once
         else:
             self.want(topic)
 

@@ -33,6 +33,7 @@ from ...errors import NeverStarted, RunFailed, UwsimError
 from ...expression import parse
 from ...interrupts import is_of_user
 from ...messages import String
+from ...middleware.lockstep.output_client import check_outputs
 from ...simulation import Calls, RendererPool, Simulation, what_broke
 from ...simulation.markers import SERVICE as SPAWN_MARKER
 from ..own_process.program import Program, program_of
@@ -111,10 +112,14 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
 
     Raises:
         UnknownName: a body, a camera or a link is not there.
+        BadSetting: an output of a program outside is on no topic.
     """
     benchmark = plan.benchmark
     bind_updaters(benchmark.scene_updater, simulation.world)
-    for gated in [TriggeredMeasure(spec, simulation.world) for spec in benchmark.measures]:
+    measures = [TriggeredMeasure(spec, simulation.world) for spec in benchmark.measures]
+    if plan.algorithm.client is not None:
+        check_outputs(plan.algorithm.client.outputs, simulation.bus)
+    for gated in measures:
         gated.close()
     LevelTriggers(benchmark, simulation.world).close()
 
@@ -426,7 +431,8 @@ def _make(
         with calls:
             return program(parameters)
     except BaseException as error:
-        if is_of_user(error):
+        is_outside = plan.algorithm.client is not None
+        if is_of_user(error) or (is_outside and isinstance(error, UwsimError)):
             raise
         raise NeverStarted(
             f"Algorithm {plan.algorithm.name!r} cannot be made: "
