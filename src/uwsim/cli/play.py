@@ -59,8 +59,8 @@ def play(
     Alone, its topics are there for your --program, for programs outside (--ros1, --ros2, --web),
     and for --record, which so turns a .bag into an .mcap and back. With a scene its vehicles are
     ghosts: they follow the recorded odometry and joint states, and the scene's sensors see what
-    they would have seen. What both have is played as /recorded/TOPIC. With --commands the recorded commands
-    drive the vehicles.
+    they would have seen. What both have is played as /recorded/TOPIC. With --commands the recorded
+    commands drive the vehicles.
     """
     from ..recording import BagReader
     from ..scene.spec import SceneSpec
