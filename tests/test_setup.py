@@ -136,7 +136,7 @@ def test_an_extra_is_installed_once_and_only_for_those_who_ask(machine: Machine)
 def test_who_only_uses_uwsim_gets_no_linters_and_no_pytest() -> None:
     rules = (ROOT / "Makefile").read_text()
     assert "\ninstall:\n\t@scripts/setup\n" in rules
-    peers = "@scripts/ros1_peers --if-possible\n\t@scripts/ros2_peers --if-possible"
+    peers = "@scripts/ros1_peers --if-possible\n\t@scripts/ros2_messages --if-possible"
     set_up = f"@scripts/setup dev docs ray ros2\n\t{peers}"
     assert f"\ntest:\n\t{set_up}\n\tscripts/check --all\n" in rules
 

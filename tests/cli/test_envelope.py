@@ -256,6 +256,7 @@ def test_all_mistakes_are_reported_at_once(
     assert sum(line.startswith("uwsim: ") for line in said.splitlines()) == 4
 
 
+@pytest.mark.slow
 def test_a_second_updater_needs_a_chosen_value(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -57,6 +57,7 @@ def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
     assert found["vehicles"][0]["below"][-1]["name"] == "terrain"
 
 
+@pytest.mark.slow
 def test_fins_and_the_drag_law_of_each_link_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
     text = said(capsys, "remus-scene")
     assert "fins: upper_rudder (-0.237 to 0.237 rad), lower_rudder" in text

@@ -48,6 +48,7 @@ def rows(simulation: Simulation) -> int:
     return int(simulation.world.state._data.nefc)
 
 
+@pytest.mark.slow
 def test_many_boxes_at_rest_are_solved_together_and_few_are_not() -> None:
     many, few = boxes(20), boxes(5)
     for simulation in (many, few):

@@ -263,6 +263,7 @@ def test_without_measures_there_is_still_a_report(tmp_path: Path) -> None:
     assert "1 level, one scene" in page_of(bare, tmp_path).text
 
 
+@pytest.mark.slow
 def test_uwsim_report_draws_it_again_from_the_directory_or_the_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -181,6 +181,7 @@ def test_the_engines_finite_differences_see_the_water() -> None:
     assert 0.9 < a[6, 6] < 1.0
 
 
+@pytest.mark.slow
 def test_a_loop_without_the_callback_gives_the_same() -> None:
     results = []
     for callback_used in (True, False):

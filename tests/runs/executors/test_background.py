@@ -46,6 +46,7 @@ def test_ends_with_the_block() -> None:
     assert not process.is_alive()
 
 
+@pytest.mark.slow
 def test_what_it_was_asked_is_done_here_if_it_dies(tmp_path: Path) -> None:
     for name in ("before", "after"):
         save(one_level(), tmp_path / name)

@@ -162,6 +162,7 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     assert (bench.unfinished() == []) == (n_left == 3)
 
 
+@pytest.mark.slow
 def test_an_algorithm_that_changes_the_working_directory_takes_no_result_with_it(
     benchmark: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -198,6 +198,7 @@ def test_on_a_beach_above_the_water_it_stands_on_the_beach(tmp_path: Path) -> No
     assert high == pytest.approx(0.5 * (6.0 + 0.5 * EDGES[0]), abs=1e-6)
 
 
+@pytest.mark.slow
 def test_over_a_hole_in_the_ground_nothing_can_stand(tmp_path: Path) -> None:
     file = grid(tmp_path, flat(4.0), hole=3.0)
     with pytest.raises(SceneError, match="no ground under the object 'thing' at x 0, y 0"):

@@ -315,7 +315,15 @@ def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_c
         assert 10 <= len(rows) - n <= 25
 
 
-@pytest.mark.parametrize("scene", ["currents-scene", "grasp-scene", "two-vehicles-scene", "cirs"])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        "currents-scene",
+        pytest.param("grasp-scene", marks=pytest.mark.slow),
+        pytest.param("two-vehicles-scene", marks=pytest.mark.slow),
+        "cirs",
+    ],
+)
 def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str) -> None:
     desk = Desk()
     view = LiveView(desk, speed=0.0, mapping=PilotMapping(), resets=True)  # type: ignore[arg-type]
