@@ -1,4 +1,4 @@
-r"""The currents that the motors of a vehicle draw: its thrusters, then its joints.
+r"""The currents that the motors of a vehicle draw, thrusters first, then joints.
 
 .. code-block:: xml
 

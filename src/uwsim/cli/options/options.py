@@ -131,7 +131,7 @@ WorkersOption = Annotated[
         "--workers",
         metavar="N|ray",
         help="Processes to use on this machine; ray: the cluster that RAY_ADDRESS names, else all "
-        "cores here; 0: this process, for debugging; the algorithm is then not isolated.",
+        "cores here; 0: this process, for debugging with --in-process.",
     ),
 ]
 
