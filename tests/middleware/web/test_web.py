@@ -88,7 +88,6 @@ class Setting:
 @pytest.fixture
 def setting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Setting]:
     monkeypatch.setattr("uwsim.middleware.web.server.CLOSING", 0.2)  # [s]
-    monkeypatch.setattr("uwsim.middleware.web.server.PING", 0.5)  # [s]
     made = Setting()
     yield made
     made.close()
