@@ -85,7 +85,7 @@ def ignoring_interrupts() -> Iterator[None]:
     """Start processes in this block that ignore Ctrl-C for as long as they run.
 
     For this process it waits until the block is left. The system may hand it to another thread,
-    which does not block it, and Python would raise it in the main one: that is told to wait, too.
+    which does not block it, and Python would raise it in the main one: that one waits, too.
     """
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     is_outermost = current_thread() is main_thread() and not _is_blocked.is_set()

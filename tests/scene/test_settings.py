@@ -120,7 +120,7 @@ def test_settings_are_applied_in_order() -> None:
     ("setting", "said"),
     [
         ("hull.lenght=3", "there is no <lenght>. Did you mean 'length'?"),
-        ("hull=3", "<hull> is not a value; what stands in it: length, isWet, decks"),
+        ("hull=3", "<hull> is not a value; its parts are length, isWet, decks"),
         ("hull[a].length=3", "<hull> stands once"),
         ("hull.length=long", "<length> is 'long'; expected a number"),
         ("hull.length.x=1", "<length> is a value"),

@@ -156,7 +156,7 @@ def uniform(path: str, low: str = "0", high: str = "1") -> str:
         (uniform("object[blackbox].file"), "it is text; only a number can vary"),
         (uniform("simParams.disableShaders"), "it is a flag; only a number can vary"),
         (uniform("vehicle.jointValues"), "it is a list; only a number can vary"),
-        (uniform("object[blackbox]"), "<object> is not a value; what stands in it: name, file"),
+        (uniform("object[blackbox]"), "<object> is not a value; its parts are name, file"),
         (uniform("object[blackbox].buried.x"), "<buried> is a value; it has no elements"),
         (uniform("object[blackbox].position.x", "2", "1"), "<u:low> 2 is not below <u:high> 1"),
         (uniform("vehicle.virtualCamera.std", "-1", "1"), "expected a number >= 0 and <= 10"),

@@ -2,7 +2,7 @@
 
 A spec is a ``<define>`` of what stands in its element, each part once and in any order. A family of
 a benchmark (measures, triggers, ground truths, scene updaters) is a ``<define>`` of its members to
-choose from; a scene updater may hold another. Values are held against a pattern, not against the
+choose from; a scene updater may hold another. Values are compared with a pattern, not against the
 limits that the reader knows, and the parts of a plugin are not in it.
 """
 

@@ -168,12 +168,12 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
     return names[:n_logged]
 
 
-def details(gated: TriggeredMeasure) -> tuple[float | None, ...]:
+def details(triggered: TriggeredMeasure) -> tuple[float | None, ...]:
     """Return the details of a measure as of now, in the order of `detail_names`."""
-    values = [finite(value)[0] for value in sample_of(gated.measure)]
-    if gated.has_start_value:
-        values = [gated.spec.start_value, *(0.0 for _ in values[1:])]
-    return tuple(values[: len(detail_names(gated.spec, len(values)))])
+    values = [finite(value)[0] for value in sample_of(triggered.measure)]
+    if triggered.has_start_value:
+        values = [triggered.spec.start_value, *(0.0 for _ in values[1:])]
+    return tuple(values[: len(detail_names(triggered.spec, len(values)))])
 
 
 def data_text(log: Log, spec: MeasureSpec) -> str:

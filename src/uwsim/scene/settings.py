@@ -186,7 +186,7 @@ def _field(cls: type, name: str) -> schema.Field:
 
 def _inside(name: str, cls: type) -> str:
     names = ", ".join(field.shown for field in schema.fields_of(cls))
-    return f"<{name}> is not a value; what stands in it: {names}."
+    return f"<{name}> is not a value; its parts are {names}."
 
 
 def _index(entries: Sequence[Any], fits: Sequence[bool], name: str, chosen: str | None) -> int:

@@ -20,7 +20,7 @@ def document(title: str, pack: bytes | None) -> str:
 
     Args:
         title: of the page.
-        pack: what a replay shows (`head`); None: it is told over the WebSocket that it opens.
+        pack: what a replay shows (`head`); None: it comes over the WebSocket that it opens.
     """
     data = ""
     if pack is not None:

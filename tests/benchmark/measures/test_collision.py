@@ -119,11 +119,11 @@ def test_a_collision_that_goes_on_again_begins_anew_in_the_original() -> None:
 
 
 def test_a_collision_that_never_started_has_the_full_score_in_the_original() -> None:
-    gated = TriggeredMeasure(
+    triggered = TriggeredMeasure(
         CollisionSpec(name="hits", target="girona500", start_on=NeverSpec()),
         tank(compatibility=frozenset({"never-started"})),
     )
-    assert gated.value == 1.0
+    assert triggered.value == 1.0
 
 
 def test_a_body_that_is_not_there_is_an_error() -> None:

@@ -185,19 +185,19 @@ def test_in_the_original_an_estimate_counts_that_came_while_the_measure_was_off(
             name="e", ground_truth=ConstantSpec(values=(0.0,)), target="estimate",
             stop_on=ServiceSpec(target="stop"),
         )  # fmt: skip
-        gated = TriggeredMeasure(spec, world)
+        triggered = TriggeredMeasure(spec, world)
         publish = world.bus.publisher("estimate", Float32MultiArray)
-        gated.tick()
+        triggered.tick()
         for estimate in (4.0, 7.0):
             publish(floats([estimate]))
             world.advance()
-            gated.tick()
+            triggered.tick()
             if estimate == 4.0:
                 world.bus.services.call("stop", Empty())
                 world.advance()
-                gated.tick()
-        gated.end()
-        assert gated.value == value
+                triggered.tick()
+        triggered.end()
+        assert triggered.value == value
 
 
 def test_where_no_estimate_came_at_all_the_original_has_none_either() -> None:

@@ -60,7 +60,7 @@ class Tank:
 
     @property
     def status(self) -> str:
-        verdict = self.measure.verdict
+        verdict = self.measure.task_status
         assert verdict is not None
         return verdict[0]
 

@@ -80,15 +80,15 @@ def test_time_during_a_pause_does_not_count() -> None:
 def test_a_time_runs_except_in_the_original_which_knows_it_when_it_stops() -> None:
     for quirks, running in ((frozenset[str](), 1.5), (frozenset({"time-log"}), 0.0)):
         world = FakeWorld(timestep=0.5, compatibility=quirks)
-        gated = TriggeredMeasure(TimeSpec(name="t", log=0.5), world)
-        gated.tick()
+        triggered = TriggeredMeasure(TimeSpec(name="t", log=0.5), world)
+        triggered.tick()
         for _ in range(3):
             world.advance()
-            gated.tick()
-        assert gated.log[-1] == (1.5, running)
-        assert gated.value == running  # what is published of it meanwhile
-        gated.end()
-        assert gated.value == 1.5
+            triggered.tick()
+        assert triggered.log[-1] == (1.5, running)
+        assert triggered.value == running  # what is published of it meanwhile
+        triggered.end()
+        assert triggered.value == 1.5
 
 
 def test_a_time_that_goes_on_again_begins_anew_in_the_original() -> None:
@@ -112,28 +112,28 @@ def test_what_never_started_is_0_in_the_original(
         TimeSpec(name="t", start_on=NeverSpec()),
         DistanceSpec(name="d", target="v", start_on=NeverSpec()),
     ):
-        gated = TriggeredMeasure(spec, world)
-        gated.tick()
-        assert gated.value == value
+        triggered = TriggeredMeasure(spec, world)
+        triggered.tick()
+        assert triggered.value == value
 
 
 def test_a_distance_that_started_and_stands_still_is_no_start_value() -> None:
     world = FakeWorld({"v": FakeBody()}, compatibility=frozenset({"never-started"}))
-    gated = TriggeredMeasure(DistanceSpec(name="d", target="v"), world)
-    gated.tick()
-    assert (gated.never_started, gated.value) == (False, 0.0)
+    triggered = TriggeredMeasure(DistanceSpec(name="d", target="v"), world)
+    triggered.tick()
+    assert (triggered.never_started, triggered.value) == (False, 0.0)
 
 
 def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> None:
     world = FakeWorld(timestep=0.002)
     start, stop = ServiceSpec(target="begin"), TopicSpec(target="end")
     end = world.bus.publisher("end", Bool)
-    gated = TriggeredMeasure(TimeSpec(name="t", start_on=start, stop_on=stop), world)
+    triggered = TriggeredMeasure(TimeSpec(name="t", start_on=start, stop_on=stop), world)
 
     def let_pass(n: int) -> None:
         for _ in range(n):
             world.advance()
-            gated.tick()
+            triggered.tick()
 
     let_pass(10)
     world.bus.services.call("begin", Empty())
@@ -141,6 +141,6 @@ def test_time_counts_from_the_start_to_the_stop_and_what_follows_adds_up() -> No
     for is_off in (True, False):
         end(Bool(data=is_off))
         let_pass(50)
-    gated.close()
+    triggered.close()
     # on from step 11 to 211, and from 261 to the end at 310
-    assert gated.measure.value == pytest.approx((200 + 49) * 0.002)
+    assert triggered.measure.value == pytest.approx((200 + 49) * 0.002)

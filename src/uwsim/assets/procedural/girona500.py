@@ -32,7 +32,7 @@ RIBS = (-0.42, -0.05, 0.38)
 YELLOW, DARK, ALUMINIUM = (0.97, 0.70, 0.06), (0.16, 0.17, 0.19), (0.78, 0.80, 0.82)
 
 ORIGIN = (-0.2, 0.0, 0.75)
-"""Where the mesh's origin stands in base_link [m], turned by rpy (-pi/2, 0, pi)."""
+"""Where the mesh's origin is in base_link [m], turned by rpy (-pi/2, 0, pi)."""
 
 
 def into_mesh_frame(shape: Shape) -> Shape:

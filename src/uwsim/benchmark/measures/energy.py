@@ -58,7 +58,7 @@ class Energy(Measure):
     .. math:: E = \int \Big( P_{hotel} + \sum_i P_i \Big)\, dt
 
     over the thrusters and joints i of the vehicle, by the trapezoidal rule over the simulation's
-    steps. What a thruster draws at a thrust and a joint at a torque and a speed stands in
+    steps. What a thruster draws at a thrust and a joint at a torque and a speed is in
     ``docs/energy-and-control.md``, with coefficients from the vehicle's hydrodynamics file.
     Details: the energy of all thrusters, of all joints, of the hotel load, of each thruster and of
     each joint; the mean and the highest power; and the charge left, :math:`\max(0, 1 - E/C)`, of a

@@ -104,7 +104,7 @@ class Grasp(Measure):
     first touched, until that was off the ground.
 
     It ends the level with success, with a collision, and when the object was dropped; and it is
-    its judge (`verdict`).
+    its judge (`task_status`).
     """
 
     unit = "1"
@@ -339,7 +339,7 @@ class Grasp(Measure):
         return self._end[1] or "the object was lifted and held"
 
     @property
-    def verdict(self) -> tuple[str, str | None] | None:
+    def task_status(self) -> tuple[str, str | None] | None:
         """``ok`` for a success; else the first that applies of the failures."""
         return self._failure() if self._end is None else self._end
 

@@ -133,11 +133,11 @@ class Measure(abc.ABC):
 
     @property
     def ends_level(self) -> str | None:
-        """Why it ends the level, in status ``collision`` unless it has a `verdict`; None: not."""
+        """Why it ends the level, status ``collision`` unless it has a `task_status`; None: not."""
         return None
 
     @property
-    def verdict(self) -> tuple[str, str | None] | None:
+    def task_status(self) -> tuple[str, str | None] | None:
         """Status of the level as a task and, unless it is ``ok``, why; None: it is no judge.
 
         It counts at the end of the level, unless the algorithm failed.

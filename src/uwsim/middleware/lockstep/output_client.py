@@ -28,7 +28,7 @@ time]."""
 FIRST_S = 0.2
 """How long what comes with the first message of an output may take [s of wall time]."""
 GLANCE_S = 0.05
-"""How often a node that has not come yet is told the time [s of wall time]."""
+"""How often ``/clock`` is sent while a node has not come yet [s of wall time]."""
 
 
 class OutputClient:

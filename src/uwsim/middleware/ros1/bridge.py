@@ -47,7 +47,7 @@ class Ros1Bridge(Bridge):
         bus: of the simulation.
         clock: returns the simulation time [s].
         master: URI of the master.
-        host: address to listen on, which peers are told.
+        host: address to listen on, which peers receive.
         node: name of the node in the graph.
         log: where it reports.
         parameters: set on the master while the node is there.

@@ -1,4 +1,4 @@
-"""Endpoints of a node of rclpy, and how its own messages are told from others'."""
+"""Endpoints of a node of rclpy, and how its own messages are distinguished from others'."""
 
 from __future__ import annotations
 

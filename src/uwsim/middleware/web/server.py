@@ -177,7 +177,7 @@ class WebBridge(Bridge):
         if latched is not None:
             session.post(subscription, latched)
         if topic == CLOCK:
-            self._next_clock = 0.0  # it is told the time at once
+            self._next_clock = 0.0  # it has the time at once
         else:
             self.want(topic)
 

@@ -78,11 +78,11 @@ class Cells:
 def cells_of(measures: Sequence[TriggeredMeasure], status: str, why: str | None) -> Cells:
     """Return the values of measures; those that the algorithm feeds are null if it is not ok."""
     cells = Cells()
-    for gated in measures:
-        name, measure = gated.spec.name, gated.measure
+    for triggered in measures:
+        name, measure = triggered.spec.name, triggered.measure
         blank = status != "ok" and measure.fed_by_algorithm
         cells.units[name] = measure.unit
-        cells.values[name], reason = (None, why) if blank else finite(gated.value)
+        cells.values[name], reason = (None, why) if blank else finite(triggered.value)
         if cells.values[name] is None:
             cells.missing[name] = reason or measure.why or "nothing to measure"
         for detail, value in measure.details.items():
@@ -91,7 +91,7 @@ def cells_of(measures: Sequence[TriggeredMeasure], status: str, why: str | None)
             unit = measure.detail_units.get(detail, unit)
             number, reason = (None, None) if blank else finite(value)
             cells.details[f"{name}.{detail}"] = (number, unit)
-            if number is None and gated.has_start_value:
+            if number is None and triggered.has_start_value:
                 reason = measure.why
             if reason is not None:
                 cells.missing[f"{name}.{detail}"] = reason

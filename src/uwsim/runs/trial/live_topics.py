@@ -62,14 +62,14 @@ class LiveTopics:
             return
         if not self._simulation.bus.has_readers(RESULTS):
             return
-        values = {gated.spec.name: finite(gated.value)[0] for gated in measures}
+        values = {triggered.spec.name: finite(triggered.value)[0] for triggered in measures}
         total = self._expression.evaluate(values)
         if total is None or any(value is None for value in values.values()):
             return
         self._due = step + self._period
         self._entries += [*(value for _, value in level.values), time]
-        for gated in measures:
-            self._entries += [math.nan if value is None else value for value in details(gated)]
+        for triggered in measures:
+            self._entries += [math.nan if value is None else value for value in details(triggered)]
         self._entries.append(total)
 
     def _speak(self) -> None:

@@ -55,20 +55,20 @@ class Moments:
 
     def look(self, measures: Sequence[TriggeredMeasure]) -> None:
         """Take an image if a phase has ended."""
-        for gated in measures:
-            name = gated.measure.moment
+        for triggered in measures:
+            name = triggered.measure.moment
             if name is None:
                 continue
             if name != self._now:
-                self._take(gated.measure)
+                self._take(triggered.measure)
                 self._now = name
             return
 
     def end(self, measures: Sequence[TriggeredMeasure]) -> None:
         """Take an image of the last phase."""
-        for gated in measures:
-            if gated.measure.moment is not None:
-                self._take(gated.measure)
+        for triggered in measures:
+            if triggered.measure.moment is not None:
+                self._take(triggered.measure)
                 return
 
     def _take(self, measure: Measure) -> None:
@@ -100,7 +100,7 @@ def all_snapshots(
     is_tracking: bool,
 ) -> tuple[Snapshot, ...]:
     """The cameras' last images, and those of the phases if any were taken."""
-    pairs = [(gated.spec, gated.measure) for gated in measures]
+    pairs = [(triggered.spec, triggered.measure) for triggered in measures]
     last = capture(simulation, pairs, is_tracking=is_tracking)
     return last if moments is None else (*last, *moments.snapshots)
 

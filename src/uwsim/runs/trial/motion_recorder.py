@@ -54,7 +54,7 @@ class MotionRecorder:
 
     def begin_level(self, measures: Iterable[TriggeredMeasure]) -> None:
         """A level is measured from now on."""
-        by_name = {gated.spec.name: gated.measure for gated in measures}
+        by_name = {triggered.spec.name: triggered.measure for triggered in measures}
         for camera, name in self._seen.items():
             measure = by_name[name]
             if isinstance(measure, EuclideanNorm):

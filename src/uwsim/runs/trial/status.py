@@ -72,7 +72,7 @@ class StatusMonitor:
         """Status of a row and, unless it is ``ok``, why: the first that applies.
 
         An algorithm that declared itself lost or failed owes no more estimates. Where a measure
-        judges the level as a task, its verdict counts.
+        judges the level as a task, its own status counts.
 
         Args:
             measures: those of the level.
@@ -81,15 +81,15 @@ class StatusMonitor:
         """
         if self.failed is not None:
             return "algorithm error", self.failed
-        for gated in measures:
-            if (verdict := gated.measure.verdict) is not None:
-                return verdict
+        for triggered in measures:
+            if (said := triggered.measure.task_status) is not None:
+                return said
         if overran is not None:
             return "timeout", f"stopOn did not go on within {overran:g} s"
         if self.lost is None:
-            for gated in measures:
-                if gated.measure.longest_silence > SILENCE:
-                    why = gated.measure.why
+            for triggered in measures:
+                if triggered.measure.longest_silence > SILENCE:
+                    why = triggered.measure.why
                     return "timeout", why or f"no estimate for more than {SILENCE:g} s"
         if ended is not None:
             return "collision", ended

@@ -119,8 +119,8 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
     measures = [TriggeredMeasure(spec, simulation.world) for spec in benchmark.measures]
     if plan.algorithm.client is not None:
         check_outputs(plan.algorithm.client.outputs, simulation.bus)
-    for gated in measures:
-        gated.close()
+    for triggered in measures:
+        triggered.close()
     LevelTriggers(benchmark, simulation.world).close()
 
 
@@ -149,8 +149,8 @@ class _Execution:
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level
         ramp_level(self._updaters, self._before())
-        for gated in self._bind_measures():
-            gated.close()  # the bus now keeps the messages that they read when they start
+        for triggered in self._bind_measures():
+            triggered.close()  # the bus now keeps the messages that they read when they start
         self._triggers = LevelTriggers(benchmark, simulation.world)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
@@ -318,11 +318,11 @@ class _Execution:
     def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
         """Close them, and remember which have initialised an algorithm."""
         self._measures = tuple(
-            gated.spec.once_initialised if gated.measure.has_initialised else gated.spec
-            for gated in measures
+            triggered.spec.once_initialised if triggered.measure.has_initialised else triggered.spec
+            for triggered in measures
         )
-        for gated in measures:
-            gated.close()
+        for triggered in measures:
+            triggered.close()
 
     def _step_to(self, level: Level, before: Level | None) -> None:
         """Bring the scene to a level; the first of a sequence is no step."""
@@ -374,15 +374,17 @@ class _Execution:
             is_over = self._trial.is_alone and monitor.failed is not None  # nothing can follow
             if stopped or ended is not None or is_over:
                 break
-        for gated in measures:
-            gated.end()
-            check_values(gated.measure)
+        for triggered in measures:
+            triggered.end()
+            check_values(triggered.measure)
         if self._moments is not None:
             self._moments.end(measures)
         overran = MAX_TASK_DURATION if length is None and not stopped and ended is None else None
         status, why = monitor.status(measures, overran=overran, ended=ended)
-        for gated in measures:
-            self._notes.update((f"{gated.spec.name}: {note}", None) for note in gated.measure.notes)
+        for triggered in measures:
+            self._notes.update(
+                (f"{triggered.spec.name}: {note}", None) for note in triggered.measure.notes
+            )
         row = self._row(level, measures, status, why, began)
         self._close_measures(measures)
         return row
@@ -401,7 +403,7 @@ class _Execution:
         total, reason = finite(score.value if status == "ok" else None)
         if total is None:
             cells.missing["total"] = why or score.why or f"the function: {reason}"
-        logged = [gated for gated in measures if gated.spec.log is not None]
+        logged = [triggered for triggered in measures if triggered.spec.log is not None]
         return LevelRow(
             values=level.values,
             measures={name: (value, cells.units[name]) for name, value in cells.values.items()},
@@ -411,8 +413,10 @@ class _Execution:
             missing=cells.missing,
             ended_at=simulation.time,
             duration=(simulation.step - began) * simulation.timestep,
-            logs={gated.spec.name: gated.log for gated in logged},
-            log_headers={gated.spec.name: log_columns(gated.measure) for gated in logged},
+            logs={triggered.spec.name: triggered.log for triggered in logged},
+            log_headers={
+                triggered.spec.name: log_columns(triggered.measure) for triggered in logged
+            },
             fingerprint=self._fingerprinter.fingerprint,
             snapshots=()
             if self._plan.is_blind
@@ -442,13 +446,13 @@ def _make(
 
 def _tick(measures: list[TriggeredMeasure]) -> None:
     """Let every measure see the world as it is now."""
-    for gated in measures:
-        gated.tick()
+    for triggered in measures:
+        triggered.tick()
 
 
 def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:
     """Why a measure ends the level now; None if it continues."""
-    for gated in measures:
-        if why := gated.measure.ends_level:
+    for triggered in measures:
+        if why := triggered.measure.ends_level:
             return why
     return None

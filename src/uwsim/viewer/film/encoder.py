@@ -1,6 +1,6 @@
 """Encoders of films: ffmpeg, which runs as a process of its own, or animated WebP.
 
-Equal images give equal bytes: ffmpeg is told to use one thread and to leave out what varies.
+Equal images give equal bytes: ffmpeg uses one thread and leaves out what varies.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ CODECS = {
         *("-deadline", "realtime", "-cpu-used", "8", "-row-mt", "0"),
     ),
 }
-"""Suffix of a film -> what ffmpeg is told."""
+"""Suffix of a film -> options of ffmpeg."""
 WEBP = ".webp"
 SUFFIXES = (*CODECS, WEBP)
 MAX_WEBP_FRAMES = 1200

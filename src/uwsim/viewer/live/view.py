@@ -193,13 +193,13 @@ class LiveView:
             return
         began = self._levels[-1]["start"]
         samples: list[tuple[str, str, float, float | None]] = []
-        for gated in self._measures:
-            name, unit = gated.spec.name, gated.measure.unit
+        for triggered in self._measures:
+            name, unit = triggered.spec.name, triggered.measure.unit
             first = self._taken.get(name, 0)
             samples += [
-                (name, unit, began + (each[0] or 0.0), each[1]) for each in gated.log[first:]
+                (name, unit, began + (each[0] or 0.0), each[1]) for each in triggered.log[first:]
             ]
-            self._taken[name] = len(gated.log)
+            self._taken[name] = len(triggered.log)
         if samples:
             text = json.dumps({"type": "samples", "samples": samples})
             self._server.publish(f"samples/{self._n_batches}", text)
