@@ -84,7 +84,7 @@ def test_without_the_wish_a_contact_costs_only_its_score(tmp_path: Path) -> None
 
 def measure(silence: float) -> SimpleNamespace:
     return SimpleNamespace(
-        measure=SimpleNamespace(longest_silence=silence, why="quiet", verdict=None)
+        measure=SimpleNamespace(longest_silence=silence, why="quiet", task_status=None)
     )
 
 
