@@ -20,6 +20,7 @@ from functools import partial
 from ...bus import Bus, Node
 from ...errors import BadSetting, ClientLost, NeverStarted, did_you_mean
 from ..bridge import Bridge
+from .outside_program import OutsideProgram
 from .spec import ClientSpec, OutputSpec
 
 STAND_S = 1.0
@@ -31,7 +32,7 @@ GLANCE_S = 0.05
 """How often ``/clock`` is sent while a node has not come yet [s of wall time]."""
 
 
-class OutputClient:
+class OutputClient(OutsideProgram):
     """One node; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Args:
@@ -41,22 +42,13 @@ class OutputClient:
     """
 
     def __init__(self, bridge: Bridge, spec: ClientSpec, *, timestep: float) -> None:
-        self._bridge, self._spec, self._timestep = bridge, spec, timestep
+        super().__init__(bridge, spec)
+        self._timestep = timestep
         self._n_given: Counter[str] = Counter()  # messages of the topics that outputs follow
         self._before: Counter[str] = Counter()  # outputs that came while time stood at the start
         self._due = {output.topic: 0 for output in spec.outputs}
         self._begun: set[str] = set()  # outputs of which one was due already
         self._n_sent = 0
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return self._spec.name
-
-    @property
-    def parameters(self) -> dict[str, float | str]:
-        """Those of the node are its own."""
-        return {}
 
     def start(self, node: Node) -> None:
         """Wait until the node publishes its outputs and reads what they follow.

@@ -15,6 +15,7 @@ from ...bus import Node
 from ...errors import ClientLost, NeverStarted
 from ...messages.simulation_control import Result, StepSimulation, StepSimulationResponse
 from ..bridge import Bridge
+from .outside_program import OutsideProgram
 from .spec import ClientSpec
 
 SERVICE = "step_simulation"
@@ -22,7 +23,7 @@ MAX_STEPS = 10_000_000
 """Most steps of one call."""
 
 
-class StepClient:
+class StepClient(OutsideProgram):
     """One program; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Args:
@@ -32,20 +33,11 @@ class StepClient:
     """
 
     def __init__(self, bridge: Bridge, spec: ClientSpec, *, timestep: float) -> None:
-        self._bridge, self._spec, self._timestep = bridge, spec, timestep
+        super().__init__(bridge, spec)
+        self._timestep = timestep
         self._calls: deque[tuple[int, Future[object]]] = deque()
         self._left = 0
         self._answer: Future[object] | None = None
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-        return self._spec.name
-
-    @property
-    def parameters(self) -> dict[str, float | str]:
-        """Those of the program are its own."""
-        return {}
 
     def start(self, node: Node) -> None:
         """Wait for the first call.

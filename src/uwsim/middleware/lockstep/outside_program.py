@@ -1,0 +1,28 @@
+"""What the live clients of a program outside share."""
+
+from __future__ import annotations
+
+from ..bridge import Bridge
+from .spec import ClientSpec
+
+
+class OutsideProgram:
+    """Stands for a program outside, as an algorithm of the simulation.
+
+    Args:
+        bridge: to the transport by which it comes.
+        spec: the program, and what is waited for.
+    """
+
+    def __init__(self, bridge: Bridge, spec: ClientSpec) -> None:
+        self._bridge, self._spec = bridge, spec
+
+    @property
+    def name(self) -> str:
+        """Its name in the result."""
+        return self._spec.name
+
+    @property
+    def parameters(self) -> dict[str, float | str]:
+        """Those of the program are its own."""
+        return {}
