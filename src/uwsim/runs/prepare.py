@@ -16,7 +16,7 @@ from .input_watch import watchable
 from .inputs_read import inputs_of, of_algorithm
 from .planning.plan import Plan
 from .run import Run
-from .trial.trial import bind_all
+from .trial.bind_all import bind_all
 
 
 def prepare_run(plan: Plan, out: Path) -> Run:

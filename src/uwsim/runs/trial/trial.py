@@ -33,7 +33,6 @@ from ...errors import NeverStarted, RunFailed, UwsimError
 from ...expression import parse
 from ...interrupts import is_of_user
 from ...messages import String
-from ...middleware.lockstep.output_client import check_outputs
 from ...simulation import Calls, RendererPool, Simulation, what_broke
 from ...simulation.markers import SERVICE as SPAWN_MARKER
 from ..own_process.program import Program, program_of
@@ -105,23 +104,6 @@ def execute(
                 yield from running.rows()
         finally:
             simulation.close()
-
-
-def bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Look up every name of the benchmark before the run.
-
-    Raises:
-        UnknownName: a body, a camera or a link is not there.
-        BadSetting: an output of a program outside is on no topic.
-    """
-    benchmark = plan.benchmark
-    bind_updaters(benchmark.scene_updater, simulation.world)
-    measures = [TriggeredMeasure(spec, simulation.world) for spec in benchmark.measures]
-    if plan.algorithm.client is not None:
-        check_outputs(plan.algorithm.client.outputs, simulation.bus)
-    for triggered in measures:
-        triggered.close()
-    LevelTriggers(benchmark, simulation.world).close()
 
 
 class _Execution:

@@ -1,0 +1,27 @@
+"""Looking up every name of a benchmark in its scene, before anything runs."""
+
+from __future__ import annotations
+
+from ...benchmark.updaters import bind_updaters
+from ...middleware.lockstep.output_client import check_outputs
+from ...simulation import Simulation
+from ..planning.plan import Plan
+from .level_triggers import LevelTriggers
+from .triggered_measure import TriggeredMeasure
+
+
+def bind_all(plan: Plan, simulation: Simulation) -> None:
+    """Look up every name of the benchmark before the run.
+
+    Raises:
+        UnknownName: a body, a camera or a link is not there.
+        BadSetting: an output of a program outside is on no topic.
+    """
+    benchmark = plan.benchmark
+    bind_updaters(benchmark.scene_updater, simulation.world)
+    measures = [TriggeredMeasure(spec, simulation.world) for spec in benchmark.measures]
+    if plan.algorithm.client is not None:
+        check_outputs(plan.algorithm.client.outputs, simulation.bus)
+    for triggered in measures:
+        triggered.close()
+    LevelTriggers(benchmark, simulation.world).close()
