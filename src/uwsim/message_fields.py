@@ -9,10 +9,11 @@ from __future__ import annotations
 import copy
 import dataclasses
 import functools
+import math
 import operator
 import re
 import sys
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -87,6 +88,33 @@ def _is_plainly_fit(message: object) -> bool:
         return tuple(map(type, values(message))) == types
     except AttributeError:
         return False
+
+
+def odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str, str] | None:
+    """Report the first number of a command that is not finite, or else beyond a limit.
+
+    Args:
+        message: the command.
+        paths: of its fields, as ``twist.linear.x``; numbers, or arrays of them.
+        limit: greatest size of one that is followed.
+
+    Returns:
+        What was found, and what was expected, with what becomes of it; None: all is well.
+    """
+    beyond: tuple[str, str] | None = None
+    for path in paths:
+        value = operator.attrgetter(path)(message)
+        numbers = value.ravel().tolist() if isinstance(value, np.ndarray) else [value]
+        for index, number in enumerate(numbers):
+            if -limit <= number <= limit:
+                continue
+            at = f"{path}[{index}]" if isinstance(value, np.ndarray) else path
+            if not math.isfinite(number):
+                return f"{at} is {number}", "a finite number; it is not followed"
+            if beyond is None:
+                most = f"{limit:g}"
+                beyond = f"{at} is {number:g}", f"-{most} to {most}; the nearest is taken"
+    return beyond
 
 
 def freeze(message: M) -> M:

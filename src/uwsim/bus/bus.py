@@ -16,12 +16,18 @@ from typing import TypeVar
 from ..errors import BadMessage, BadSetting, UwsimError, did_you_mean
 from ..inbox import Inbox
 from ..message_fields import freeze, unfit
+from ..terminal import warn
 from .names import is_exactly, type_name, without_slash
 from .services import Services
-from .topic import Topic, TopicEnds
+from .topic import Remark, Topic, TopicEnds
 
 M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
+
+
+def say_on_standard_error(topic: str, text: str) -> None:
+    """Print what a subscriber has to say about a message."""
+    warn(f"/{topic}: {text}")
 
 
 class Bus:
@@ -56,13 +62,16 @@ class Bus:
         callback: Callable[[M], None],
         *,
         check: Callable[[M], None] | None = None,
+        remark: Callable[[M], Remark | None] | None = None,
         owner: object = None,
         counts: bool = True,
     ) -> Callable[[], None]:
         """Call ``callback`` with every message on ``topic``; returns the way to stop it.
 
         ``check`` is called while a message is published, and raises BadMessage to its sender if
-        the reader could do nothing with it.
+        the reader could do nothing with it. ``remark`` is called then, too, and returns what is odd
+        about a message that is taken all the same, or passed over: what was found, and what was
+        expected. The publisher is told, once for each of what was expected.
 
         ``object`` as the type stands for any: such a reader hears whatever the topic carries, and
         leaves it to others to say what that is. ``owner`` is who reads, for `ends`.
@@ -80,6 +89,8 @@ class Bus:
         self._revision += 1
         if check is not None:
             entry.checks.append(check)
+        if remark is not None:
+            entry.remarks.append(remark)
 
         def stop() -> None:
             if callback in entry.readers:
@@ -88,6 +99,8 @@ class Bus:
                 self._revision += 1
                 if check is not None:
                     entry.checks.remove(check)
+                if remark is not None:
+                    entry.remarks.remove(remark)
 
         return stop
 
@@ -132,11 +145,18 @@ class Bus:
         return None if entry is None else entry.ends(besides)
 
     def publisher(
-        self, topic: str, type: type[M], *, delay_steps: int = 0, owner: object = None
+        self,
+        topic: str,
+        type: type[M],
+        *,
+        delay_steps: int = 0,
+        owner: object = None,
+        say: Callable[[str, str], None] = say_on_standard_error,
     ) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``.
 
-        ``owner`` is who publishes, for `ends`.
+        ``owner`` is who publishes, for `ends`. ``say(topic, text)`` tells what subscribers have to
+        remark on a message.
         """
         if type is object:
             raise BadSetting(f"Topic {topic!r} is published without a message type.")
@@ -161,6 +181,9 @@ class Bus:
             freeze(message)
             for check in entry.checks:
                 check(message)
+            for remark in entry.remarks:
+                if (text := entry.said_once(remark(message))) is not None:
+                    say(name, text)
             if delay_steps:
                 self._posted += 1
                 self._due_later.append((self.step + delay_steps, self._posted, name, message))

@@ -10,6 +10,9 @@ from typing import Any
 OBSERVER = object()
 """Owner of those who only listen to what others publish, as a recorder: at no end of a topic."""
 
+Remark = tuple[str, str]
+"""What was found in a message, and what was expected, with what becomes of it."""
+
 
 @dataclass
 class Topic:
@@ -25,12 +28,23 @@ class Topic:
     """Who hears what there is, and counts as no reader."""
     checks: list[Callable[[Any], None]] = field(default_factory=list)
     """What is called while a message is published."""
+    remarks: list[Callable[[Any], Remark | None]] = field(default_factory=list)
+    """What is asked while a message is published: whether it is odd."""
+    said: set[str] = field(default_factory=set)
+    """What was expected in the remarks so far."""
     writers: list[object] = field(default_factory=list)
     """Who publishes, each once; None for anyone."""
     kept: deque[Any] | None = None
     """The newest message, kept from the first request on."""
     unread: Any = None
     """The newest message that was published while the topic had no subscriber."""
+
+    def said_once(self, remark: Remark | None) -> str | None:
+        """Return a remark as a text, the first of what is expected; else None."""
+        if remark is None or remark[1] in self.said:
+            return None
+        self.said.add(remark[1])
+        return "; expected ".join(remark)
 
     def ends(self, besides: object) -> TopicEnds | None:
         """Who is at its ends, one owner and observers left out; None without a type."""

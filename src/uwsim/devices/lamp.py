@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..bus import Remark
 from ..geometry import Pose
 from ..messages import Float64
 from ..schema import element
@@ -74,8 +75,17 @@ class LampSpec(DeviceSpec):
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MountedLamp:
         """Mount the lamp on its link; raises UnknownName if the vehicle has no such link."""
         lamp = MountedLamp(self, vehicle.mount(self))
-        stage.bus.subscribe(self.brightness_topic, Float64, lamp.command)
+        stage.bus.subscribe(self.brightness_topic, Float64, lamp.command, remark=odd_brightness)
         return lamp
+
+
+def odd_brightness(message: Float64) -> Remark | None:
+    """Report a brightness that is no share."""
+    if math.isnan(message.data):
+        return "data is nan", "0 to 1; it is not followed"
+    if not 0.0 <= message.data <= 1.0:
+        return f"data is {message.data:g}", "0 to 1; the nearest is taken"
+    return None
 
 
 class MountedLamp(Device):

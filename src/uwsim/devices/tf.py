@@ -17,9 +17,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..bus import Bus
+from ..bus import Bus, Remark
 from ..geometry import Pose
-from ..messages import TFMessage
+from ..messages import TFMessage, TransformStamped
 from ..schema import MAX_DISTANCE, element
 from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
 from ..world import Stage
@@ -29,6 +29,8 @@ WORLD = "world"
 """The frame of ROS that is L."""
 MAX_DEPTH = 100
 """Frames hang on one another at most so deep."""
+EXPECTED = "finite numbers, at most 1e6 m, and a quaternion that is not zero; it is left out"
+"""What a transform has."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,17 +65,12 @@ class HeardFrames:
         self._parents: dict[str, tuple[str, Pose]] = {}
         self.n_heard = 0
         """So many transforms have come so far."""
-        bus.subscribe("/tf", TFMessage, self._hear)
+        bus.subscribe("/tf", TFMessage, self._hear, remark=_odd_transform)
 
     def _hear(self, message: TFMessage) -> None:
         for each in message.transforms:
-            t, q = each.transform.translation, each.transform.rotation
-            wxyz = np.array([q.w, q.x, q.y, q.z])
-            position = np.array([t.x, t.y, t.z])
-            length = float(np.abs(wxyz).max())
-            is_sound = 0.0 < length < np.inf and bool(np.isfinite(position).all())
-            if is_sound and float(np.abs(position).max()) <= MAX_COMMAND:
-                pose = Pose.from_quaternion(position, wxyz / length)
+            pose = _pose_of(each)
+            if pose is not None:
                 self._parents[_plain(each.child_frame_id)] = (_plain(each.header.frame_id), pose)
                 self.n_heard += 1
 
@@ -129,6 +126,26 @@ class TfFollower(Device):
         if localized_from_frame is not None:
             localized_from_vehicle = localized_from_frame @ self._frame_from_vehicle
             go_or_place(self._vehicle, self._world_from_localized @ localized_from_vehicle)
+
+
+def _pose_of(each: TransformStamped) -> Pose | None:
+    """``parent_from_child`` of a transform; None where it is none."""
+    t, q = each.transform.translation, each.transform.rotation
+    wxyz = np.array([q.w, q.x, q.y, q.z])
+    position = np.array([t.x, t.y, t.z])
+    length = float(np.abs(wxyz).max())
+    is_sound = 0.0 < length < np.inf and bool(np.isfinite(position).all())
+    if not is_sound or float(np.abs(position).max()) > MAX_COMMAND:
+        return None
+    return Pose.from_quaternion(position, wxyz / length)
+
+
+def _odd_transform(message: TFMessage) -> Remark | None:
+    """Report a transform that is left out."""
+    for index, each in enumerate(message.transforms):
+        if _pose_of(each) is None:
+            return f"transforms[{index}] (to {each.child_frame_id!r:.60}) is none", EXPECTED
+    return None
 
 
 def _plain(name: str) -> str:

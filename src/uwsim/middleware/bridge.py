@@ -14,8 +14,9 @@ Any thread of the transport may call:
 
 - ``want(topic)`` and ``unwant(topic)``: a subscriber outside came or left. The bridge subscribes on
   the bus while there is at least one, so that cameras render only for those who look.
-- ``put(topic, message)``: a message from outside, stamps already in simulation time (`inward`);
-  it is given away. It waits in a bounded queue (latest wins) for the next step boundary.
+- ``put(topic, message, by)``: a message from outside, stamps already in simulation time (`inward`),
+  and who sent it; it is given away. It waits in a bounded queue (latest wins) for the next step
+  boundary.
 - ``request(name, request)``: call a service of the bus; returns a Future with the response, which
   comes at the next step boundary.
 - ``offer(name, service)`` and ``withdraw(name)``: somebody outside offers a service to the bus. A
@@ -92,7 +93,7 @@ class Bridge(ABC):
         self._lock = threading.Lock()
         self._has_news = False
         self._wants: list[tuple[str, int]] = []
-        self._incoming: dict[str, LatestQueue[object]] = {}
+        self._incoming: dict[str, LatestQueue[tuple[object, str]]] = {}
         self._requests: list[tuple[str, object, Future[object]]] = []
         self._offers: list[tuple[str, Service | None]] = []
         self._is_urgent = False  # something waits that is done also while the simulation waits
@@ -109,6 +110,7 @@ class Bridge(ABC):
         self._stops: dict[str, Callable[[], None]] = {}
         self._publishers: dict[str, Callable[[object], None]] = {}
         self._own: set[int] = set()
+        self._sender = ""  # of the message that is being published
         self._revision = -1
         self._topics: dict[str, TopicEnds] = {}
         self._services: dict[str, Service] = {}
@@ -178,11 +180,14 @@ class Bridge(ABC):
         with self._lock:
             waiting = self._incoming.pop(name, None)
             self._taps.setdefault(name, []).append(receive)
-        for message in waiting.take() if waiting is not None else ():
+        for message, _ in waiting.take() if waiting is not None else ():
             receive(message)
 
-    def put(self, topic: str, message: object) -> None:
-        """Take in a message from outside, for the next step boundary. Any thread."""
+    def put(self, topic: str, message: object, by: str = "") -> None:
+        """Take in a message from outside, for the next step boundary. Any thread.
+
+        ``by`` is who published it, for the log; empty where the transport cannot tell.
+        """
         name = topic.lstrip("/")
         size = size_of(message)
         with self._lock:
@@ -191,7 +196,7 @@ class Bridge(ABC):
             is_full = 0
             taps = list(self._taps.get(name, ()))
             if not taps:
-                is_full = self._incoming.setdefault(name, LatestQueue()).put(message, size)
+                is_full = self._incoming.setdefault(name, LatestQueue()).put((message, by), size)
                 self.n_arrived[name] += 1
                 self._has_news = True
         for receive in taps:
@@ -346,8 +351,8 @@ class Bridge(ABC):
             self._has_news = False
             incoming, self._incoming = self._incoming, {}
         for topic in sorted(incoming):
-            for message in incoming[topic].take():
-                self._publish(topic, message)
+            for message, by in incoming[topic].take():
+                self._publish(topic, message, by)
         self.bus.deliver()
         self._own.clear()
 
@@ -419,17 +424,34 @@ class Bridge(ABC):
         except UwsimError as error:
             future.set_exception(error)
 
-    def _publish(self, topic: str, message: object) -> None:
+    def _publish(self, topic: str, message: object, by: str) -> None:
         """Put a message from outside on the bus; one that does not fit is reported."""
+        self._sender = by
         try:
             if self.bus.is_withheld(topic):
                 raise BadMessage(f"Topic {topic!r} is not for the outside.")
             if topic not in self._publishers:
-                self._publishers[topic] = self.bus.publisher(topic, type(message), owner=self)
+                self._publishers[topic] = self.bus.publisher(
+                    topic, type(message), owner=self, say=self._remark
+                )
             self._own.add(id(message))
             self._publishers[topic](message)
         except UwsimError as error:
-            self.log.say(f"/{topic}: a message was refused: {error}", kind=f"refused {topic}")
+            text = f"a message{self._from(topic)} was refused: {error}"
+            self.log.say(f"/{topic}: {text}", kind=f"refused {topic}")
+
+    def _remark(self, topic: str, text: str) -> None:
+        """Report what is odd about the message that is being published."""
+        self.log.say(f"/{topic}: in a message{self._from(topic)}, {text}")
+
+    def _from(self, topic: str) -> str:
+        """`` of `` and who has published the message that is being published, where it is known."""
+        who = self._sender or self._publisher_of(topic)
+        return f" of {who}" if who else ""
+
+    def _publisher_of(self, topic: str) -> str:
+        """Name who publishes a topic outside, where a message does not say it; may be empty."""
+        return ""
 
 
 def _never_here(request: object) -> object:

@@ -7,6 +7,7 @@ command is refused when the arm would touch something.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
@@ -14,10 +15,14 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Array
+from ..message_fields import odd_number
 from ..messages import JointState
 from ..vehicle import Servos, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_twist_to_pat import Gap
+
+MAX_VALUE = sys.float_info.max
+"""Of joints and servos the limits are those in the robot file."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,8 +36,20 @@ class ROSJointStateToArmSpec(VehicleTopicSpec):
     def bind(self, world: TopicWorld) -> JointCommand:
         """Listen from now on; raises UnknownName if there is no such vehicle."""
         command = JointCommand(world.vehicle(self.vehicle_name), Gap(world))
-        world.bus.subscribe(self.topic, JointState, lambda m: world.at_next_step(command.obey, m))
+        world.bus.subscribe(
+            self.topic,
+            JointState,
+            lambda m: world.at_next_step(command.obey, m),
+            remark=lambda m: odd_number(m, [field_that_counts(m)], MAX_VALUE),
+        )
         return command
+
+
+def field_that_counts(message: JointState) -> str:
+    """Positions, else velocities, else efforts."""
+    if message.position.size:
+        return "position"
+    return "velocity" if message.velocity.size else "effort"
 
 
 class JointCommand(Interface):

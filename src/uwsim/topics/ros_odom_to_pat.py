@@ -6,10 +6,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..bus import Remark
+from ..message_fields import odd_number
 from ..messages import Odometry
+from ..vehicle import MAX_COMMAND
 from .interface import Interface, TopicWorld, VehicleTopicSpec
-from .ros_pose_to_pat import PoseCommand
-from .ros_twist_to_pat import Gap, TwistCommand
+from .ros_pose_to_pat import PoseCommand, odd_pose
+from .ros_twist_to_pat import TWIST, Gap, TwistCommand
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,8 +34,26 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
         command = OdometryCommand(
             PoseCommand(vehicle, world.world_from_localized), TwistCommand(vehicle, Gap(world))
         )
-        world.bus.subscribe(self.topic, Odometry, lambda m: world.at_next_step(command.obey, m))
+        world.bus.subscribe(
+            self.topic,
+            Odometry,
+            lambda m: world.at_next_step(command.obey, m),
+            remark=odd_odometry,
+        )
         return command
+
+
+def has_pose(odometry: Odometry) -> bool:
+    """Whether its position or turn is not all zero: it is the pose that counts then."""
+    p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
+    return any((p.x, p.y, p.z, q.x, q.y, q.z))
+
+
+def odd_odometry(odometry: Odometry) -> Remark | None:
+    """Report what is odd about the pose, or the twist, that counts."""
+    if has_pose(odometry):
+        return odd_pose(odometry, "pose.pose.")
+    return odd_number(odometry, [f"twist.{path}" for path in TWIST], MAX_COMMAND)
 
 
 class OdometryCommand(Interface):
@@ -46,9 +67,7 @@ class OdometryCommand(Interface):
 
     def obey(self, odometry: Odometry) -> None:
         """Take a pose in L, or a twist in the base's axes."""
-        pose = odometry.pose.pose
-        p, q = pose.position, pose.orientation
-        if any((p.x, p.y, p.z, q.x, q.y, q.z)):
-            self._pose.obey(pose)
+        if has_pose(odometry):
+            self._pose.obey(odometry.pose.pose)
         else:
             self._twist.obey(odometry.twist.twist)

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
+from ..bus import Remark
 from ..geometry import Pose, rotation_from_quaternion
+from ..message_fields import odd_number
 from ..messages import Pose as PoseMessage
 from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
 from .interface import Interface, TopicWorld, VehicleTopicSpec
+
+MAX_VALUE = sys.float_info.max
+"""Of a quaternion, whose length does not matter."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,7 +31,12 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
     def bind(self, world: TopicWorld) -> PoseCommand:
         """Listen from now on; raises UnknownName if there is no such vehicle."""
         command = PoseCommand(world.vehicle(self.vehicle_name), world.world_from_localized)
-        world.bus.subscribe(self.topic, PoseMessage, lambda m: world.at_next_step(command.obey, m))
+        world.bus.subscribe(
+            self.topic,
+            PoseMessage,
+            lambda m: world.at_next_step(command.obey, m),
+            remark=odd_pose,
+        )
         return command
 
 
@@ -40,6 +51,21 @@ class PoseCommand(Interface):
         localized_from_base = pose_in_localized(pose)
         if localized_from_base is not None:
             go_or_place(self._vehicle, self._world_from_localized @ localized_from_base)
+
+
+def odd_pose(message: object, at: str = "") -> Remark | None:
+    """Report a position that is no place, or an orientation that is not finite.
+
+    Args:
+        message: that has the pose.
+        at: path to the pose in it, with a dot behind it.
+    """
+    positions = [f"{at}position.{axis}" for axis in "xyz"]
+    found = odd_number(message, positions, MAX_COMMAND)
+    if found is None:
+        odd = odd_number(message, [f"{at}orientation.{axis}" for axis in "xyzw"], MAX_VALUE)
+        found = None if odd is None else (odd[0], "a finite number; it counts as no rotation")
+    return found
 
 
 def pose_in_localized(pose: PoseMessage) -> Pose | None:

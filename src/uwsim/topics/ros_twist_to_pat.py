@@ -15,10 +15,13 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Pose, rotation_from_xyz
+from ..message_fields import odd_number
 from ..messages import Twist, TwistStamped
 from ..vehicle import MAX_COMMAND, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
+TWIST = tuple(f"twist.{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")
+"""Numbers of a twist."""
 MAX_GAP = 1.0
 """After a longer silence a velocity moves nothing [s]."""
 
@@ -38,7 +41,10 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
         """Listen from now on; raises UnknownName if there is no such vehicle."""
         command = TwistCommand(world.vehicle(self.vehicle_name), Gap(world))
         world.bus.subscribe(
-            self.topic, TwistStamped, lambda m: world.at_next_step(command.obey, m.twist)
+            self.topic,
+            TwistStamped,
+            lambda m: world.at_next_step(command.obey, m.twist),
+            remark=lambda m: odd_number(m, TWIST, MAX_COMMAND),
         )
         return command
 

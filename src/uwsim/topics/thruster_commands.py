@@ -1,8 +1,8 @@
 """Thrusters, fins and wrenches of simulated vehicles; extensions of the dialect.
 
 A command is held until the next of any kind; the autopilot holds nothing meanwhile. What is not
-finite is passed over, what is beyond 1e6 taken as that; a wrong number of thruster commands is the
-sender's error, raised where it publishes them.
+finite is passed over, what is beyond 1e6 taken as that, and both are told; a wrong number of
+thruster commands is the sender's error, raised where it publishes them.
 """
 
 from __future__ import annotations
@@ -15,10 +15,14 @@ import numpy as np
 
 from ..errors import BadMessage, UnknownName
 from ..geometry import Array
+from ..message_fields import odd_number
 from ..messages import Float64MultiArray, WrenchStamped
 from ..schema import element
-from ..vehicle import Autopilot, Vehicle
+from ..vehicle import MAX_COMMAND, Autopilot, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
+
+WRENCH = tuple(f"wrench.{part}.{axis}" for part in ("force", "torque") for axis in "xyz")
+"""Numbers of a wrench."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,6 +63,7 @@ class ROSThrustersToPATSpec(AutopilotTopicSpec):
             Float64MultiArray,
             lambda m: world.at_next_step(command.obey, m),
             check=command.check,
+            remark=lambda m: odd_number(m, ("data",), MAX_COMMAND),
         )
         return command
 
@@ -105,6 +110,7 @@ class ROSFinsToPATSpec(AutopilotTopicSpec):
             Float64MultiArray,
             lambda m: world.at_next_step(command.obey, m),
             check=command.check,
+            remark=lambda m: odd_number(m, ("data",), MAX_COMMAND),
         )
         return command
 
@@ -145,7 +151,10 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
         """Listen from now on; raises UnknownName if no such vehicle is simulated."""
         command = WrenchCommand(self.autopilot(world))
         world.bus.subscribe(
-            self.topic, WrenchStamped, lambda m: world.at_next_step(command.obey, m)
+            self.topic,
+            WrenchStamped,
+            lambda m: world.at_next_step(command.obey, m),
+            remark=lambda m: odd_number(m, WRENCH, MAX_COMMAND),
         )
         return command
 

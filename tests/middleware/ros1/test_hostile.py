@@ -179,7 +179,7 @@ def test_a_flood_of_messages_is_bounded(graph: Graph) -> None:
 def _newest(sim: Ros1Bridge, topic: str) -> float | None:
     queue = sim._incoming.get(topic)
     items = list(queue._items) if queue else []
-    return items[-1][0].data if items else None  # type: ignore[attr-defined]
+    return items[-1][0][0].data if items else None  # type: ignore[attr-defined]
 
 
 def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph: Graph) -> None:

@@ -193,8 +193,8 @@ class Ros1Bridge(Bridge):
         self._publications[topic] = found
         return found
 
-    def _receiver(self, topic: str) -> Callable[[object], None]:
-        return lambda message: self.put(topic, message)
+    def _receiver(self, topic: str) -> Callable[[object, str], None]:
+        return lambda message, by: self.put(topic, message, by)
 
     def _register(self) -> None:
         at = f"rosrpc://{self._host}:{self._listener.port}"

@@ -36,7 +36,8 @@ class Subscription:
         kind: its type.
         caller: name of this node.
         log: where it reports.
-        receive: called with each message, stamps in simulation time, in a publisher's thread.
+        receive: called with each message, stamps in simulation time, and the name of the node that
+            published it; in a publisher's thread.
     """
 
     def __init__(
@@ -45,7 +46,7 @@ class Subscription:
         kind: WireType,
         caller: str,
         log: Log,
-        receive: Callable[[object], None],
+        receive: Callable[[object, str], None],
     ) -> None:
         self.topic, self.kind = topic, kind
         self._caller, self._log, self._receive = caller, log, receive
@@ -78,8 +79,12 @@ class Subscription:
         for link in links:
             link.close()
 
-    def connect(self, uri: str) -> socket.socket:
-        """Ask a node for the topic and connect to it; raises PeerError."""
+    def connect(self, uri: str) -> tuple[socket.socket, str]:
+        """Ask a node for the topic and connect to it; raises PeerError.
+
+        Returns:
+            The connection, and the name of the node.
+        """
         answer = call(uri, "requestTopic", self._caller, self.topic, [["TCPROS"]])
         match answer:
             case ["TCPROS", str(host), int(port)]:
@@ -87,13 +92,13 @@ class Subscription:
             case _:
                 raise PeerError(f"{uri} offers {self.topic} over another protocol than TCPROS")
         try:
-            self._greet(connection)
+            return connection, self._greet(connection)
         except PeerError:
             close(connection)
             raise
-        return connection
 
-    def _greet(self, connection: socket.socket) -> None:
+    def _greet(self, connection: socket.socket) -> str:
+        """Exchange headers; returns the name of the node, or how it can be told else."""
         fields = {
             "callerid": self._caller,
             "md5sum": self.kind.md5,
@@ -107,15 +112,16 @@ class Subscription:
         if header.get("md5sum") not in ("*", self.kind.md5):
             raise PeerError(f"it publishes {header.get('type')}, not {self.kind.ros1_name}")
         connection.settimeout(None)  # a publisher may have nothing to say for long
+        return f"node {header.get('callerid', 'without a name')[:100]}"
 
-    def take(self, data: bytes) -> None:
+    def take(self, data: bytes, by: str) -> None:
         """Decode a message and hand it on; one that is none is reported."""
         try:
             message: object = inward(from_ros1(self.kind.message, data))
         except BadMessage as error:
-            self._log.say(f"{self.topic}: {error}", kind=f"garbage {self.topic}")
+            self._log.say(f"{self.topic}: from {by}: {error}", kind=f"garbage {self.topic}")
         else:
-            self._receive(message)
+            self._receive(message, by)
 
     def report(self, uri: str, error: PeerError) -> None:
         """Report what a publisher did."""
@@ -135,13 +141,13 @@ class _Link:
     def _run(self) -> None:
         while not self._stopped.is_set():
             try:
-                self._connection = self._subscription.connect(self._uri)
+                self._connection, by = self._subscription.connect(self._uri)
                 self.is_connected = True
                 while not self._stopped.is_set():
                     data = read_frame(self._connection)
                     if data is None:
                         break
-                    self._subscription.take(data)
+                    self._subscription.take(data, by)
             except PeerError as error:
                 if not self._stopped.is_set():
                     self._subscription.report(self._uri, error)

@@ -133,6 +133,11 @@ class Ros2(Bridge):
         """Call a service that another node offers."""
         return self._node.call(name, request)
 
+    def _publisher_of(self, topic: str) -> str:
+        """Nodes that publish a topic; a message does not say which of them sent it."""
+        nodes = self._node.publishers(topic)
+        return f"node {nodes[0]}" if len(nodes) == 1 else " or ".join(nodes[:3])
+
     def _on_clocks(self, n_readers: int) -> None:
         self._n_clocks = n_readers
         self._next_clock = 0.0

@@ -102,6 +102,10 @@ class DdsNode:
         """Raise UwsimError: services of others are not called."""
         raise UwsimError(f"Service /{name}: without rclpy, services of nodes are not called.")
 
+    def publishers(self, topic: str) -> list[str]:
+        """None: what other nodes say of themselves is not read."""
+        return []
+
     def close(self) -> None:
         """Leave the domain."""
         self._participant.close()

@@ -84,5 +84,8 @@ class Ros2Node(Protocol):
     def call(self, name: str, request: object) -> Future[object]:
         """Call a service of another node; raises UwsimError."""
 
+    def publishers(self, topic: str) -> list[str]:
+        """Names of the other nodes that publish a topic, where they are known."""
+
     def close(self) -> None:
         """Leave the graph, with all endpoints."""

@@ -152,6 +152,12 @@ class RclpyNode:
         """Call a service of another node; raises UwsimError."""
         return self._services.call(name, request)
 
+    def publishers(self, topic: str) -> list[str]:
+        """Names of the other nodes that publish a topic."""
+        found = self._node.get_publishers_info_by_topic(f"/{topic}")
+        names = {f"{each.node_namespace.rstrip('/')}/{each.node_name}" for each in found}
+        return sorted(names - {f"/{NODE}"})
+
     def close(self) -> None:
         """Leave the graph, when the last messages have been acknowledged."""
         if not self._is_open:

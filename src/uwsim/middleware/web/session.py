@@ -184,7 +184,7 @@ class Session:
         message: object = inward(from_json(cls, asked.get("msg", {})))
         if topic == JOIN and isinstance(message, String):
             self._joined_as = _client_in(message.data)
-        self._bridge.put(topic, message)
+        self._bridge.put(topic, message, self._name)
 
     def _subscribe(self, asked: dict[str, Any]) -> None:
         topic = name_in(asked, "topic")

@@ -14,6 +14,7 @@ from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed
 from ...interrupts import is_of_user
 from ...message_fields import copied
 from ...raised import what_was_raised
+from ...terminal import warn
 from .calls import Calls, Stopped
 from .undelivered import UndeliveredMessages
 
@@ -140,7 +141,7 @@ class InProcessNode:
         self._published[f"it publishes on {topic!r}, but "] = lambda: self._bus.without_subscriber(
             topic
         )
-        give = self._bus.publisher(topic, type, delay_steps=self._delay_steps)
+        give = self._bus.publisher(topic, type, delay_steps=self._delay_steps, say=self._say)
 
         def publish(message: M) -> None:
             self._check(topic)
@@ -154,6 +155,10 @@ class InProcessNode:
             give(copied(message))
 
         return publish
+
+    def _say(self, topic: str, text: str) -> None:
+        """Tell what a subscriber has to remark on one of its messages."""
+        warn(f"{self.name}: /{topic}: {text}")
 
     def unconnected(self) -> list[str]:
         """A sentence for each of its topics that has no publisher or no subscriber."""
