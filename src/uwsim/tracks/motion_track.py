@@ -10,6 +10,10 @@
 Row k is of the time start + k/rate since the simulation began. It holds seven numbers of every
 body, its position in W [m] and its quaternion (wxyz), and then one of every signal; each is stored
 as a whole number of its step. Equal tracks give equal bytes.
+
+Version 2 is a track in which sand was taken (`dug_sand`): its head has
+``"sand":{"n":412,"grain":0.000001}``, and a second table of n rows, packed by itself, follows the
+first. A track without is of version 1.
 """
 
 from __future__ import annotations
@@ -19,7 +23,7 @@ import json
 import math
 import zlib
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -27,11 +31,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import ResultError
-from .packing import Table, shuffled, unshuffled
+from .dug_sand import COLUMNS, GRAIN, NOTHING, DugSand
+from .packing import BYTES, Table, shuffled, unshuffled
 
 Array = npt.NDArray[np.float64]
 
-FORMAT, VERSION = "uwsim_motion", 1
+FORMAT, VERSIONS = "uwsim_motion", (1, 2)
 RATE = 30.0
 """Frames in a second of simulation time [Hz]."""
 LENGTH = 1e-4
@@ -43,8 +48,6 @@ MAX_BYTES = 2**30
 NUMBERS = 7
 """Of a body."""
 LIMIT = 2**31 - 1
-NOTHING = -(2**31)
-"""Stands for a value that is missing."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,6 +92,8 @@ class MotionTrack:
     """In order."""
     rate: float = RATE
     """Frames a second [Hz]."""
+    sand: DugSand = field(default_factory=DugSand)
+    """Where sand was taken."""
 
     @property
     def n_frames(self) -> int:
@@ -131,6 +136,8 @@ def track_bytes(
     table: Table,
     levels: Sequence[TrackLevel],
     rate: float = RATE,
+    *,
+    sand: DugSand | None = None,
 ) -> bytes:
     """Return the file of a track.
 
@@ -140,9 +147,11 @@ def track_bytes(
         table: quantised rows, (frames, 7 bodies + signals).
         levels: in order.
         rate: frames a second [Hz].
+        sand: where sand was taken; None: nowhere.
     """
+    digs = (sand or DugSand()).table
     head = {
-        FORMAT: VERSION,
+        FORMAT: VERSIONS[1 if len(digs) else 0],
         "rate": rate,
         "n": len(table),
         "start": 0.0,
@@ -152,8 +161,11 @@ def track_bytes(
         "signals": [asdict(signal) for signal in signals],
         "levels": [{**asdict(level), "values": dict(level.values)} for level in levels],
     }
+    if len(digs):
+        head["sand"] = {"n": len(digs), "grain": GRAIN}
     text = json.dumps(head, allow_nan=False, ensure_ascii=True, separators=(",", ":"))
-    return gzip.compress(text.encode() + b"\n" + shuffled(table), compresslevel=9, mtime=0)
+    content = text.encode() + b"\n" + shuffled(table) + shuffled(digs)
+    return gzip.compress(content, compresslevel=9, mtime=0)
 
 
 def read_track(data: bytes) -> MotionTrack:
@@ -161,7 +173,7 @@ def read_track(data: bytes) -> MotionTrack:
     try:
         line, _, rest = _opened(data).partition(b"\n")
         head = json.loads(line)
-        if head[FORMAT] != VERSION:
+        if head[FORMAT] not in VERSIONS:
             raise ValueError(f"found version {head[FORMAT]!r}")
         return _track(head, rest)
     except (
@@ -172,7 +184,7 @@ def read_track(data: bytes) -> MotionTrack:
         OverflowError,
         RecursionError,
     ) as error:
-        raise ResultError(f"is no motion track of version {VERSION}: {error}") from None
+        raise ResultError(f"is no motion track of version 1 or 2: {error}") from None
 
 
 def load_track(path: Path) -> MotionTrack:
@@ -205,7 +217,8 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
     rate = float(head["rate"])
     if not (0.0 < rate < math.inf and np.all((steps > 0.0) & (steps < math.inf))):
         raise ValueError("a rate or a resolution is not above 0")
-    table = unshuffled(rest, n, len(steps))
+    size = max(0, n) * len(steps) * BYTES
+    table = unshuffled(rest[:size], n, len(steps))
     rows = table * steps
     rows[table == NOTHING] = np.nan
     poses = rows[:, : NUMBERS * len(bodies)].reshape(n, len(bodies), NUMBERS)
@@ -217,4 +230,12 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
         values=rows[:, NUMBERS * len(bodies) :],
         levels=tuple(TrackLevel(**each) for each in head["levels"]),
         rate=rate,
+        sand=_dug(head.get("sand", {"n": 0}), rest[size:]),
     )
+
+
+def _dug(head: dict[str, Any], rest: bytes) -> DugSand:
+    n = int(head["n"])
+    if n and head["grain"] != GRAIN:
+        raise ValueError(f"sand was taken in steps of {head['grain']!r} m, not {GRAIN}")
+    return DugSand(table=unshuffled(rest, n, COLUMNS))

@@ -37,6 +37,9 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
                   sonar's in its x y plane from x towards y
     frames      [{name, body or null (W), pose}]
     vehicles    [{name, body (its base), thrusters: [names], joints: [names]}]
+    sand        [{body, mesh, columns: [along x, along y], corner: 3, cell, reach, bite}]   heaps:
+                  vertex i * (along y) + j of the mesh is the top of column i, j; `reach` and `bite`
+                  as of a tool (below)
     view        {pose, fovy, at: 3}   from where one looks at first, and at what
     water       {fog, fog_colour, colour, attenuation, surface_height, clip, light_rate,
                  sun, shadows}    clip: the fog of the original, by clip-space z
@@ -65,6 +68,11 @@ bytes are shuffled: all lowest bytes first, all highest last, 4 m n bytes. Quate
 sign from row to row. int32 minimum is "nothing" (NaN) in a signal, taken as a difference, too
 (sums wrap round).
 
+Where sand was taken the version is 2, ``"sand": {"n": 412, "grain": 1e-6}`` is in the line, and a
+second table of n rows follows, packed in the same way: frame, number of the heap, x y z from its
+corner in grains. From that frame on each column whose top is nearer than ``reach`` to the place is
+``bite`` lower, down to the corner; a place of int32 minima puts all sand of the heap back.
+
 Names of bodies: ``vehicle/link``, of links that fixed joints hold together the one nearest to the
 root (`uwsim.simulation.tracked_bodies`); the object's name for objects. Names of signals, all
 optional::
@@ -85,6 +93,7 @@ uint32 step, float64 time [s]::
     kind 1   a row: float32 of every column (7 a body, then the signals, NaN: nothing)
     kind 2   a JPEG image of the camera number ``index``
     kind 3   a JPEG of the free view, for pages without WebGL
+    kind 4   float32 heights of the columns of the heap number ``index`` above its corner
 
 and text messages, JSON::
 
@@ -129,6 +138,7 @@ from ..sensors.sonar.multibeam_sensor import FanSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.parts import Part
+from ..simulation.scenery.sand import CELL, REACH, Heap
 from ..simulation.stage import SceneStage
 from ..simulation.tracked_bodies import leaders
 from ..simulation.views import FIELD, focus_of, orbit_view, viewer_view
@@ -156,8 +166,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
     bodies = _Bodies(world)
     for part in world.scenery.parts:
         bodies.add(part, models)
-    for number, heap in enumerate(world.scenery.heaps):
-        bodies.add_fixed(f"sand/{heap.name}", models.looks(world.scenery.heaps[number].model()))
+    sand = [_sand(heap, bodies, models) for heap in world.scenery.heaps]
     water, light = world.scenery.water, world.scenery.light
     return {
         "uwsim_head": VERSION,
@@ -170,6 +179,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
         "sensors": list(_sensors(world, bodies)),
         "frames": list(_frames(world, bodies)),
         "vehicles": list(_vehicles(world, bodies)),
+        "sand": sand,
         "view": _first_view(simulation),
         "water": {
             "fog": water.fog,
@@ -265,6 +275,21 @@ class _Bodies:
             self._poses[name] = pose
             self.rows.append({"name": name, "vehicle": vehicle, "pose": _row(pose), "visuals": []})
         return name
+
+
+def _sand(heap: Heap, bodies: _Bodies, models: Models) -> Json:
+    """Add a heap to the bodies and meshes; returns how it is dug."""
+    looks = models.looks(heap.model())
+    bodies.add_fixed(f"sand/{heap.name}", looks)
+    return {
+        "body": f"sand/{heap.name}",
+        "mesh": looks[0]["mesh"],
+        "columns": list(heap.heights.shape),
+        "corner": heap.corner.tolist(),
+        "cell": heap.cell,
+        "reach": REACH,
+        "bite": CELL,
+    }
 
 
 def _cameras(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:

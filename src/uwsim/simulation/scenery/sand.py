@@ -6,8 +6,9 @@ height h of the box, level over it, with a skirt around it of the length 3 b h t
 .. math:: b h \Bigl(1 - \bigl(\frac{d}{3 b h}\bigr)^2\Bigr)
 
 with the distance d from the level part. It is a grid of columns `CELL` wide; larger heaps have
-`MAX_COLUMNS` of them a side. Cameras and rays meet it. Not modelled: forces of the sand on bodies,
-slopes that slide, sand that settles elsewhere, particles in the water.
+`MAX_COLUMNS` of them a side. Cameras and rays meet it. Places at which sand is taken are rounded to
+`GRAIN`, so that replays dig the same sand from the places alone. Not modelled: forces of the sand
+on bodies, slopes that slide, sand that settles elsewhere, particles in the water.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ import numpy as np
 from ...assets.mesh import Mesh, Model
 from ...geometry import Array
 from ...scene.spec import SceneSpec
+from ...tracks import GRAIN, Spot
 
 CELL = 0.01
 """Width of a column, and what is taken of one at once [m]."""
@@ -27,6 +29,8 @@ MAX_COLUMNS = 256
 REACH = 0.1
 """Columns whose top is as near as this to a tool lose sand [m]."""
 COLOUR = (0.72, 0.64, 0.46)
+FAR = 2**31
+"""Of a heap's lower corner: nothing is taken so far away [`GRAIN`]."""
 
 
 class Heap:
@@ -39,7 +43,7 @@ class Heap:
         buried: how much of its height is under sand [1].
     """
 
-    STATE = ("_heights", "version")
+    STATE = ("_heights", "version", "taken")
     """Names of the attributes that change as time goes by."""
 
     def __init__(self, name: str, lower: Array, upper: Array, buried: float) -> None:
@@ -58,8 +62,26 @@ class Heap:
         away = np.minimum(np.hypot(away_x[:, None], away_y[None, :]) / skirt, 1.0)
         self._bottom = float(lower[2])
         self._heights: Array = top * (1.0 - away**2)
+        self._untouched = self._heights.copy()
         self.version = 0
-        """Grows whenever sand is taken."""
+        """Changes whenever sand is taken or put back."""
+        self.taken: list[Spot] = []
+        """Where sand was taken so far, in order."""
+
+    @property
+    def corner(self) -> Array:
+        """Its lower corner in W, (3,) [m]."""
+        return np.array([self._x[0], self._y[0], self._bottom])
+
+    @property
+    def cell(self) -> float:
+        """Width of a column [m]."""
+        return float(self._x[1] - self._x[0])
+
+    @property
+    def heights(self) -> Array:
+        """Heights of the columns above the bottom now, (along x, along y) [m]; a copy."""
+        return self._heights.copy()
 
     def height(self, x: float, y: float) -> float:
         """Return the height of the nearest column, in W [m]; its bottom beside the heap."""
@@ -69,11 +91,29 @@ class Heap:
 
     def dig(self, point: Array) -> int:
         """Take sand around a point in W (3,) [m]; returns how many columns lost some."""
-        across = (self._x[:, None] - point[0]) ** 2 + (self._y[None, :] - point[1]) ** 2
-        deep = (self._bottom + self._heights - point[2]) ** 2
-        lost = (across + deep < REACH**2) & (self._heights > 0.0)
+        steps = np.rint((point - self.corner) / GRAIN)
+        if not (np.abs(steps) < FAR).all():
+            return 0
+        x, y, z = (int(step) for step in steps)
+        return self._take((x, y, z))
+
+    def show(self, spots: Sequence[Spot]) -> None:
+        """Make it what it is when sand has been taken at some places, one after the other."""
+        n = len(self.taken)
+        if self.taken != list(spots[:n]):
+            np.copyto(self._heights, self._untouched)
+            self.taken, n = [], 0
+            self.version += 1
+        for spot in spots[n:]:
+            self._take(spot)
+
+    def _take(self, spot: Spot) -> int:
+        x, y, z = (step * GRAIN for step in spot)
+        across = (self._x[:, None] - self._x[0] - x) ** 2 + (self._y[None, :] - self._y[0] - y) ** 2
+        lost = (across + (self._heights - z) ** 2 < REACH**2) & (self._heights > 0.0)
         if n := int(np.count_nonzero(lost)):
             self._heights[lost] = np.maximum(0.0, self._heights[lost] - CELL)
+            self.taken.append(spot)
             self.version += 1
         return n
 

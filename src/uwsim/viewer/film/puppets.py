@@ -54,6 +54,8 @@ class Puppets:
             if isinstance(lamp, MountedLamp):
                 brightness = self.signal(f"{LAMP}{lamp.spec.name}", before)
                 lamp.brightness = 1.0 if brightness is None else brightness
+        for number, heap in enumerate(world.scenery.heaps):
+            heap.show(self.track.sand.spots(number, before))
 
     def signal(self, name: str, frame: int) -> float | None:
         """Return a signal in a frame; None where there is none."""

@@ -51,7 +51,7 @@ QUALITY = 85
 MAX_SIDE = 1280
 """Of a view that is drawn for a page without WebGL [px]."""
 HEADER = struct.Struct("<BBHId")
-ROW, IMAGE, VIEW = 1, 2, 3
+ROW, IMAGE, VIEW, SAND = 1, 2, 3, 4
 """Kinds of binary messages (`uwsim.viewer.head`)."""
 
 
@@ -86,6 +86,7 @@ class LiveView:
         self._taken: dict[str, int] = {}
         self._levels: list[dict[str, Any]] = []
         self._markers: dict[str, Marker] = {}  # those sent last
+        self._sand: list[int] = []  # versions of the heaps sent last
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
         self._views: dict[int, Message] = {}
@@ -98,6 +99,7 @@ class LiveView:
         """Show a simulation from now on; it is at step 0."""
         self._simulation, self._state = simulation, TrackedState(simulation.world)
         self._levels, self._measures, self._markers = [], (), {}
+        self._sand = [heap.version for heap in simulation.world.scenery.heaps]
         self._first = packed(state_of(simulation.world, MOVED)) if self._resets else b""
         self._due = dict.fromkeys(self._due, 0.0)
         self._server.forget(lambda channel: channel != "state")
@@ -168,6 +170,7 @@ class LiveView:
         if self._is_due("samples", now, SAMPLE_RATE):
             self._send_samples()
             self._send_markers()
+            self._send_sand()
         if self._is_due("images", now, IMAGE_RATE):
             self._send_images()
             self._send_views()
@@ -217,6 +220,15 @@ class LiveView:
         self._markers = shown
         markers = described(shown, world.world_from_localized)
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
+
+    def _send_sand(self) -> None:
+        """Send the heaps of sand that have changed."""
+        assert self._simulation is not None
+        for number, heap in enumerate(self._simulation.world.scenery.heaps):
+            if heap.version != self._sand[number]:
+                self._sand[number] = heap.version
+                content = self._header(SAND, number) + heap.heights.astype("<f4").tobytes()
+                self._server.publish(f"sand/{number}", content)
 
     def _send_images(self) -> None:
         """Send what cameras have published; of those that nobody reads what they would see."""

@@ -60,6 +60,17 @@ export interface Projector extends Mounted {
   pattern: number;
 }
 
+/** Sand over an object: a grid of columns. */
+export interface Heap {
+  body: string;
+  mesh: number;
+  columns: [number, number];
+  corner: number[];
+  cell: number;
+  reach: number;
+  bite: number;
+}
+
 export interface Water {
   fog: number;
   fog_colour: number[];
@@ -104,6 +115,7 @@ export interface MotionHead {
   length: number;
   quaternion: number;
   signals: { name: string; unit: string; step: number }[];
+  sand?: { n: number; grain: number };
 }
 
 export interface Head {
@@ -120,6 +132,7 @@ export interface Head {
   sensors: Sensor[];
   frames: { name: string; body: string | null; pose: number[] }[];
   vehicles: { name: string; body: string; thrusters: string[]; joints: string[] }[];
+  sand: Heap[];
   view: { pose: number[]; fovy: number; at: number[] };
   water: Water;
   suns: Record<string, { direction: number[]; colour: number[] }>;

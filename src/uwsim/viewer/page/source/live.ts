@@ -92,6 +92,7 @@ export class Link {
     if (kind === 0) location.reload(); // another scene has begun
     if (kind === 1) stream.push(view.getFloat64(8, true), new Float32Array(event.data, HEADER));
     if (kind === 2) this.showImage(page.picture.frame(index), event.data.slice(HEADER), index);
+    if (kind === 4) stream.dig(index, new Float32Array(event.data, HEADER));
     if (kind === 3 && this.isDrawnThere) this.showView(event.data.slice(HEADER));
   }
 

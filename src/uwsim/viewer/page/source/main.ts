@@ -159,7 +159,7 @@ export class Page {
     }
     // a page that nothing happens on costs nothing
     const { clientWidth, clientHeight } = this.picture.canvas;
-    const state = [this.time, this.player.end, clientWidth, clientHeight, this.views.version];
+    const state = [this.time, this.player.end, clientWidth, clientHeight, this.views.version, this.player.version];
     const key = state.join() + JSON.stringify(this.switches);
     if (key !== this.drawn && !document.hidden && this.picture.isReady()) {
       this.drawn = key;

@@ -5,6 +5,7 @@ import {
   type Matrix,
 } from "./geometry";
 import type { Pack } from "./pack";
+import { Sand, type Dig } from "./sand";
 import { ATTRIBUTES } from "./shaders";
 
 /** A run of triangles, where it is now in W; uwsim.rendering.gpu_model has the same. */
@@ -81,12 +82,16 @@ export class Models {
   readonly patterns: WebGLTexture[] = [];
   private readonly bodies = new Map<string, Matrix>();
   private readonly radii = new Map<number, number>();
+  private readonly sand: { heap: Sand; positions: WebGLBuffer; normals: WebGLBuffer }[] = [];
 
-  private constructor(private readonly head: Head) {}
+  private constructor(
+    private readonly head: Head,
+    private readonly gl: WebGL2RenderingContext | null,
+  ) {}
 
   /** Without WebGL only the places of bodies are known. */
   static async load(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Models> {
-    const models = new Models(pack.head);
+    const models = new Models(pack.head, gl);
     models.place(new Map());
     if (!gl) return models;
     const { meshes, textures, bodies, projector } = pack.head;
@@ -94,7 +99,12 @@ export class Models {
       textures.map((each, i) => loadTexture(gl, pack, i, i !== projector?.pattern && each.repeats)),
     );
     if (projector) models.patterns.push(images[projector.pattern]);
-    const arrays = meshes.map((_, i) => upload(gl, pack, i));
+    const uploaded = meshes.map((_, i) => upload(gl, pack, i));
+    const arrays = uploaded.map(({ array }) => array);
+    for (const heap of pack.head.sand ?? []) {
+      const places = pack.numbers(meshes[heap.mesh].positions) as Float32Array;
+      models.sand.push({ heap: new Sand(heap, places), ...uploaded[heap.mesh] });
+    }
     for (const body of bodies)
       for (const visual of body.visuals) {
         const { texture, mesh } = visual;
@@ -119,6 +129,25 @@ export class Models {
     if (!moved) return;
     this.version += 1;
     this.measure();
+  }
+
+  /** Show a heap with the sand that is left of it. */
+  dig(number: number, sand: Dig[] | Float32Array): void {
+    const { gl } = this;
+    const { heap, positions, normals } = this.sand[number] ?? {};
+    if (!gl || !heap || !positions || !normals) return;
+    if (!(sand instanceof Float32Array ? heap.set(sand) : heap.show(sand))) return;
+    const surface = heap.surface();
+    gl.bindBuffer(gl.ARRAY_BUFFER, positions);
+    gl.bufferData(gl.ARRAY_BUFFER, surface.positions, gl.STATIC_DRAW);
+    gl.bindBuffer(gl.ARRAY_BUFFER, normals);
+    gl.bufferData(gl.ARRAY_BUFFER, surface.normals, gl.STATIC_DRAW);
+    this.version += 1;
+  }
+
+  /** Heights of the columns of a heap now [m]. */
+  heights(number: number): Float32Array {
+    return this.sand[number]?.heap.heights ?? new Float32Array();
   }
 
   body(name: string): Matrix {
@@ -152,25 +181,33 @@ export class Models {
   }
 }
 
-function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): WebGLVertexArrayObject {
+interface Uploaded {
+  array: WebGLVertexArrayObject;
+  positions: WebGLBuffer;
+  normals: WebGLBuffer;
+}
+
+function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): Uploaded {
   const mesh = pack.head.meshes[number];
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
-  const attribute = (name: string, size: number, kind: number, data: ArrayBufferView<ArrayBuffer>): void => {
-    gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  const attribute = (name: string, size: number, kind: number, data: ArrayBufferView<ArrayBuffer>): WebGLBuffer => {
+    const buffer = gl.createBuffer();
+    gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
     gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
     gl.enableVertexAttribArray(ATTRIBUTES[name]);
     gl.vertexAttribPointer(ATTRIBUTES[name], size, kind, kind !== gl.FLOAT, 0, 0);
+    return buffer;
   };
   const numbers = (ref: typeof mesh.positions) => pack.numbers(ref) as ArrayBufferView<ArrayBuffer>;
-  attribute("vertex", 3, gl.FLOAT, numbers(mesh.positions));
-  attribute("vertex_normal", 3, gl.SHORT, numbers(mesh.normals));
+  const positions = attribute("vertex", 3, gl.FLOAT, numbers(mesh.positions));
+  const normals = attribute("vertex_normal", 3, gl.SHORT, numbers(mesh.normals));
   attribute("tint", 3, gl.UNSIGNED_SHORT, numbers(mesh.tints));
   if (mesh.uvs) attribute("uv", 2, gl.FLOAT, numbers(mesh.uvs));
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers(mesh.triangles), gl.STATIC_DRAW);
   gl.bindVertexArray(null);
-  return array;
+  return { array, positions, normals };
 }
 
 async function loadTexture(

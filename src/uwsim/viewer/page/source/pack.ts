@@ -1,5 +1,6 @@
 // Packs and motion: what viewer/head.py and viewer/tracks.py write.
 import type { Head, MotionHead } from "./head";
+import type { Dig } from "./sand";
 
 export type Ref = [number, number, string];
 
@@ -63,6 +64,8 @@ export class Motion {
     readonly head: MotionHead,
     /** Columns of each row, n_rows x n_columns. */
     readonly rows: Float64Array,
+    /** Where sand was taken, in order. */
+    readonly digs: Dig[] = [],
   ) {}
 
   get columns(): number {
@@ -71,6 +74,12 @@ export class Motion {
 
   get end(): number {
     return this.head.start + Math.max(0, this.head.n - 1) / this.head.rate;
+  }
+
+  /** The number of the row at or before a time [s]. */
+  frame(time: number): number {
+    const place = Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
+    return Math.floor(place + 1e-6);
   }
 
   /** The row at a time [s], poses between two rows interpolated. */
@@ -95,17 +104,34 @@ export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion>
   const n = head.n;
   const m = 7 * head.bodies.length + head.signals.length;
   const planes = bytes.subarray(line + 1);
+  const rows = table(planes, n, m, (column) => {
+    const pose = column % 7 < 3 ? head.length : head.quaternion;
+    const isPose = column < 7 * head.bodies.length;
+    return isPose ? pose : head.signals[column - 7 * head.bodies.length].step;
+  });
+  return new Motion(head, rows, digsOf(head, planes.subarray(4 * n * m)));
+}
+
+/** Numbers of n rows and m columns, row by row; NaN for nothing. */
+function table(planes: Uint8Array, n: number, m: number, step: (column: number) => number): Float64Array {
   const rows = new Float64Array(n * m);
   for (let column = 0; column < m; ++column) {
-    const body = column < 7 * head.bodies.length;
-    const pose = column % 7 < 3 ? head.length : head.quaternion;
-    const step = body ? pose : head.signals[column - 7 * head.bodies.length].step;
+    const unit = step(column);
     let sum = 0;
     for (let row = 0, k = column * n; row < n; ++row, ++k) {
       const low = planes[k] | (planes[n * m + k] << 8) | (planes[2 * n * m + k] << 16);
       sum = (sum + (low | (planes[3 * n * m + k] << 24))) | 0;
-      rows[row * m + column] = sum === -0x80000000 ? NaN : sum * step;
+      rows[row * m + column] = sum === -0x80000000 ? NaN : sum * unit;
     }
   }
-  return new Motion(head, rows);
+  return rows;
+}
+
+function digsOf({ sand }: MotionHead, planes: Uint8Array): Dig[] {
+  if (!sand) return [];
+  const numbers = table(planes, sand.n, 5, (column) => (column < 2 ? 1 : sand.grain));
+  return Array.from({ length: sand.n }, (_, row) => {
+    const [frame, heap, x, y, z] = numbers.subarray(5 * row, 5 * row + 5);
+    return { frame, heap, place: Number.isNaN(x) ? null : [x, y, z] };
+  });
 }

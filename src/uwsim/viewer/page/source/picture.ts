@@ -109,6 +109,7 @@ export class Picture {
       if (each.width !== wide || each.height !== high) [each.width, each.height] = [wide, high];
     }
     models.place(moment.poses);
+    head.sand?.forEach((_, i) => models.dig(i, player.sand(i, moment.time)));
     const sight = views.sight(w, h);
     const water = this.water(player, moment, switches);
     const clear = switches.clear ? { ...water, fog: 0 } : water;

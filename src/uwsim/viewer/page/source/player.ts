@@ -2,6 +2,7 @@
 import type { Head, Level, MotionHead } from "./head";
 import { fromPose, type Matrix } from "./geometry";
 import { readMotion, type Motion, type Pack } from "./pack";
+import type { Dig } from "./sand";
 
 export interface Samples {
   name: string;
@@ -53,9 +54,13 @@ export interface Player {
   readonly levels: { trial: number; level: Level }[];
   readonly trial: number;
   title: string;
+  /** Grows when something came that no time says. */
+  readonly version: number;
   moment(time: number): Moment;
   /** Where a body was, from the beginning until a time, a few times a second. */
   trail(body: string, until: number): number[][];
+  /** Where sand of a heap had been taken by a time, in order, or the heights of its columns. */
+  sand(heap: number, time: number): Dig[] | Float32Array;
   select(trial: number): Promise<void>;
 }
 
@@ -67,6 +72,7 @@ export class Replay implements Player {
   readonly levels: { trial: number; level: Level }[];
   curves: Samples[] = [];
   trial = -1;
+  readonly version = 0;
   title = "";
   private motion: Motion | null = null;
 
@@ -108,6 +114,11 @@ export class Replay implements Player {
     return new Moment(time, this.motion?.head ?? null, this.motion?.at(time) ?? null, placed);
   }
 
+  sand(heap: number, time: number): Dig[] {
+    const frame = this.motion?.frame(time) ?? -1;
+    return this.motion?.digs.filter((dig) => dig.heap === heap && dig.frame <= frame) ?? [];
+  }
+
   trail(body: string, until: number): number[][] {
     const motion = this.motion;
     const index = motion?.head.bodies.indexOf(body) ?? -1;
@@ -132,6 +143,9 @@ export class Stream implements Player {
   readonly trial = 0;
   end = 0;
   title: string;
+  version = 0;
+  /** Number of a heap -> heights of its columns, of those from which sand was taken. */
+  private readonly heights = new Map<number, Float32Array>();
   private row: ArrayLike<number> | null = null;
   private readonly trails: { time: number; row: ArrayLike<number> }[] = [];
 
@@ -166,6 +180,15 @@ export class Stream implements Player {
 
   moment(): Moment {
     return new Moment(this.end, this.head.motion ?? null, this.row);
+  }
+
+  dig(heap: number, heights: Float32Array): void {
+    this.heights.set(heap, heights);
+    this.version += 1;
+  }
+
+  sand(heap: number): Dig[] | Float32Array {
+    return this.heights.get(heap) ?? [];
   }
 
   trail(body: string): number[][] {
