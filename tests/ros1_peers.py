@@ -7,7 +7,7 @@ import os
 import shutil
 import signal
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -47,7 +47,7 @@ class Peers:
         self.uri = f"http://127.0.0.1:{free_port()}"
         own = {"ROS_MASTER_URI": self.uri, "ROS_IP": "127.0.0.1", "ROS_LOG_DIR": str(folder)}
         kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL"))}
-        self.environment = {**kept, **own, "PYTHONUNBUFFERED": "1"}
+        self.environment = {**kept, **own, "PYTHONUNBUFFERED": "1", "PYTHONFAULTHANDLER": "1"}
         self._programs: list[subprocess.Popen[str]] = []
 
     def start_master(self) -> None:
@@ -72,6 +72,25 @@ class Peers:
         if words[0].endswith(".py"):
             words = [PYTHON, str(EXAMPLES / words[0]), *words[1:]]
         return self._popen(words)
+
+    def output(self, program: subprocess.Popen[str], *steps: Callable[[], object]) -> str:
+        """Wait until a program has ended, and return what it printed.
+
+        Of a program that does not end, the AssertionError says where all its threads are.
+
+        Args:
+            program: one of `start`.
+            steps: called again and again meanwhile.
+        """
+        try:
+            until(lambda: program.poll() is not None, *steps)
+        except AssertionError as error:
+            program.send_signal(signal.SIGABRT)
+            _, errors = program.communicate(timeout=LIMIT)
+            raise AssertionError(f"{program.args} does not end:\n{errors}") from error
+        printed, errors = program.communicate(timeout=LIMIT)
+        assert program.returncode == 0, errors
+        return printed
 
     def _popen(self, words: list[str]) -> subprocess.Popen[str]:
         program = subprocess.Popen(

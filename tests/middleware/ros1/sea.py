@@ -6,7 +6,7 @@ import subprocess
 
 import uwsim
 from tests.ros1_peers import Peers
-from tests.waiting import LIMIT, until
+from tests.waiting import LIMIT
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import Ros1Bridge
 from uwsim.simulation import Simulation
@@ -44,10 +44,7 @@ class Sea:
 
     def output(self, program: subprocess.Popen[str]) -> str:
         """Let time go by until a program has ended, and return what it printed."""
-        until(lambda: program.poll() is not None, self.advance)
-        printed, errors = program.communicate(timeout=LIMIT)
-        assert program.returncode == 0, errors
-        return printed
+        return self.peers.output(program, self.advance)
 
     def close(self) -> None:
         """End it."""
