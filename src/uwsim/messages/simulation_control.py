@@ -15,6 +15,9 @@ from .geometry_msgs import Pose, PoseStamped, Twist, Vector3
 from .services import Service
 from .std_msgs import Header
 
+MAX_STEPS = 10_000_000
+"""Most steps of one ``StepSimulation``."""
+
 PACKAGE = "simulation_interfaces"
 _CODES: Any = partial(np.zeros, 0, np.uint16)
 

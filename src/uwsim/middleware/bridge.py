@@ -22,7 +22,6 @@ Any thread of the transport may call:
 - ``offer(name, service)`` and ``withdraw(name)``: somebody outside offers a service to the bus. A
   call of it is handed to ``call_outside``, and the simulation waits for the response; calls that
   come in meanwhile are answered, so that the one asked may ask back.
-- ``answer_later(name, request class, take)``: offer a service whose response comes at a later step.
 - ``tap(topic, receive)``: have the messages of a topic from outside at once, in the thread in which
   they come, instead of at a step boundary (`uwsim.middleware.lockstep`).
 
@@ -52,14 +51,14 @@ from ..bus import Bus, TopicEnds
 from ..errors import BadMessage, RunFailed, UwsimError
 from ..message_fields import size_of
 from ..messages.services import Service
+from .clock_topic import ClockTopic
+from .later_answers import LaterAnswers
 from .log import Log
 from .queues import LatestQueue
 from .types import service_of, wire_type
 
 MAX_REQUESTS = 1000
 """Calls of services that may wait for the end of a step."""
-CLOCK_PERIOD = 0.01
-"""Simulation time from one message on ``/clock`` to the next, at least [s]."""
 CALL_LIMIT = 60.0
 """How long a call of a service that is offered outside may take [s of wall time]."""
 LATCHED = ("tf_static", "robot_description", "scene")
@@ -104,8 +103,10 @@ class Bridge(ABC):
         """Messages that have come from outside so far, by topic."""
         self.n_sent = 0
         """Messages that were handed to those outside so far."""
-        self._next_clock = 0.0
-        self._later: dict[str, Callable[[object, Future[object]], None]] = {}
+        self.clock_topic = ClockTopic(clock, self._publish_clock, self._clock_is_read)
+        """The time outside."""
+        self.later = LaterAnswers(bus.services)
+        """Services whose responses come at a later step."""
         self._n_wanted: Counter[str] = Counter()
         self._stops: dict[str, Callable[[], None]] = {}
         self._publishers: dict[str, Callable[[object], None]] = {}
@@ -232,7 +233,7 @@ class Bridge(ABC):
             self._follow()
         if self._has_news:
             self._exchange()
-        self.tick()
+        self._tick()
 
     def wait_for(self, until: Callable[[], bool], limit_s: float) -> bool:
         """Wait for something from outside, in the thread of the simulation, at most ``limit_s``.
@@ -258,42 +259,17 @@ class Bridge(ABC):
         """Have `wait_for` look again. Any thread."""
         self._woken.set()
 
-    def answer_later(
-        self, name: str, type: type, take: Callable[[object, Future[object]], None]
-    ) -> None:
-        """Offer a service to the outside whose responses come in their time.
-
-        Args:
-            name: of the service.
-            type: class of its requests.
-            take: called with each request and the future that is to have its response, in the
-                thread of the simulation.
-        """
-        self._later[name] = take
-        self.bus.services.serve(name, type, _never_here)
-
-    def tick(self) -> None:
+    def _tick(self) -> None:
         """Do what a transport does at each step boundary: tell the time when it is due."""
-        if self.clock_is_due:
-            self.send_clock()
+        if self.clock_topic.is_due:
+            self.clock_topic.send()
 
-    @property
-    def clock_is_due(self) -> bool:
-        """Whether it is time for the next message on ``/clock``, also because time went back."""
-        return not self._next_clock - CLOCK_PERIOD <= self.clock() + 1e-9 < self._next_clock
+    def _publish_clock(self) -> None:  # noqa: B027 - a transport without a clock has none
+        """Publish ``/clock``, if anybody reads it."""
 
-    @property
-    def clock_is_read(self) -> bool:
+    def _clock_is_read(self) -> bool:
         """Whether anybody outside reads ``/clock``; True where a transport cannot tell."""
         return True
-
-    def send_clock(self) -> None:
-        """Tell those outside the time, on ``/clock``."""
-        self._next_clock = self.clock() + CLOCK_PERIOD
-        self.publish_clock()
-
-    def publish_clock(self) -> None:  # noqa: B027 - a transport without a clock has none
-        """Publish ``/clock``, if anybody reads it."""
 
     def close(self) -> None:
         """Leave the bus; calls that wait fail. Transports close their sockets, then call this."""
@@ -416,8 +392,7 @@ class Bridge(ABC):
     def _answer(self, name: str, request: object, future: Future[object]) -> None:
         if not future.set_running_or_notify_cancel():
             return
-        if (take := self._later.get(name)) is not None:
-            take(request, future)
+        if self.later.takes(name, request, future):
             return
         try:
             future.set_result(self.bus.services.call(name, request))
@@ -452,10 +427,6 @@ class Bridge(ABC):
     def _publisher_of(self, topic: str) -> str:
         """Name who publishes a topic outside, where a message does not say it; may be empty."""
         return ""
-
-
-def _never_here(request: object) -> object:
-    raise UwsimError("This service is for programs outside.")
 
 
 def _published(topics: Mapping[str, TopicEnds]) -> set[str]:

@@ -41,7 +41,7 @@ class Simulation:
 
     Args:
         scene: spec of the scene; its variations are drawn for the seed.
-        options: those of `uwsim.simulation.world.SceneWorld`: ``seed``, ``stream_prefix``,
+        options: those of `uwsim.simulation.stage.SceneStage`: ``seed``, ``stream_prefix``,
             ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``pool``,
             ``is_blind``.
     """

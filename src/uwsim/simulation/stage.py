@@ -18,7 +18,8 @@ from ..geodesy import Geodetic
 from ..geometry import Array
 from ..messages import SpawnMarker, String
 from ..network import Channel, Network
-from ..scene.spec import SceneSpec
+from ..scene.sim_params import Integrator
+from ..scene.spec import SceneSpec, with_integrator
 from ..schema import diagnostic_at
 from ..sensors.sensor import Sensor
 from ..topics.frames import Frame
@@ -44,6 +45,7 @@ class SceneStage(SceneWorld):
 
     Args:
         scene: spec of the scene.
+        integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
         udp_address: of this computer, at which ``<fdm>`` takes packets; None: it takes none.
         options: those of `SceneWorld`.
     """
@@ -55,8 +57,15 @@ class SceneStage(SceneWorld):
     )
     """Attributes of its state, for snapshots."""
 
-    def __init__(self, scene: SceneSpec, *, udp_address: str | None = None, **options: Any) -> None:
-        super().__init__(scene, **options)
+    def __init__(
+        self,
+        scene: SceneSpec,
+        *,
+        integrator: Integrator | None = None,
+        udp_address: str | None = None,
+        **options: Any,
+    ) -> None:
+        super().__init__(with_integrator(scene, integrator), **options)
         self.network = Network(
             self.stream,
             surface=self.scene.ocean_state.ocean_surface_height,

@@ -19,8 +19,7 @@ from ..geometry import Intrinsics, Pose
 from ..physics.engine import Engine
 from ..rng import stream
 from ..scene.reader import scene_warnings
-from ..scene.sim_params import Integrator
-from ..scene.spec import SceneSpec, with_integrator
+from ..scene.spec import SceneSpec
 from ..scene.variation import varied
 from ..sensors.pinhole import cast_depth
 from ..sensors.sensor import BindsSensor, Sensor
@@ -48,7 +47,6 @@ class SceneWorld:
         seed: the run's seed.
         stream_prefix: prefix of the name of every random stream.
         timestep: length of a step [s].
-        integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
         data_path: folders in which files are looked for.
         compatibility: names of the compatibility quirks that are on.
         runs_code: let Python code that the scene names run; without it that water is still.
@@ -63,7 +61,6 @@ class SceneWorld:
         seed: int = 0,
         stream_prefix: str = "",
         timestep: float = TIMESTEP,
-        integrator: Integrator | None = None,
         data_path: tuple[Path, ...] = (),
         compatibility: frozenset[str] = frozenset(),
         runs_code: bool = True,
@@ -71,7 +68,7 @@ class SceneWorld:
         is_blind: bool = False,
     ) -> None:
         data_path = tuple(Path(folder) for folder in data_path)
-        scene = with_integrator(varied(scene, seed), integrator)
+        scene = varied(scene, seed)
         self.robots = read_robots(scene, data_path)
         """The robot of each vehicle, by its number in the scene."""
         self._as_written = scene

@@ -45,7 +45,7 @@ class Outside(Bridge):
         self.said.append(topic)
         self.on_message(message)
 
-    def publish_clock(self) -> None:
+    def _publish_clock(self) -> None:
         self.said.append("clock")
         self.on_clock(self.clock())
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 from tests.waiting import LIMIT, free_port, until
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
-from uwsim.middleware.ros1 import Master, Ros1Bridge
+from uwsim.middleware.ros1 import Master, Ros1Bridge, Waits
 
 TIMESTEP = 0.002
+NONE: Mapping[str, Any] = MappingProxyType({})
 
 
 class Graph:
@@ -25,8 +28,10 @@ class Graph:
         self.master = master(self.log, port=free_port())
         self.nodes: list[Ros1Bridge] = []
 
-    def node(self, name: str = "/uwsim", **options: Any) -> Ros1Bridge:
-        """Add a node with a bus of its own."""
+    def node(
+        self, name: str = "/uwsim", parameters: Mapping[str, Any] = NONE, **waits: float
+    ) -> Ros1Bridge:
+        """Add a node with a bus of its own; how long it waits for peers [s]."""
         bus = Bus()
         bridge = Ros1Bridge(
             bus,
@@ -34,7 +39,8 @@ class Graph:
             master=self.master.uri,
             node=name,
             log=self.log,
-            **{"poll": 0.05, "parameters": {}, **options},
+            parameters=parameters,
+            waits=Waits(**{"poll": 0.05, **waits}),
         )
         self.nodes.append(bridge)
         return bridge

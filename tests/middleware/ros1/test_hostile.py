@@ -105,7 +105,7 @@ def test_garbage_on_the_port_is_reported(graph: Graph, sent: bytes, said: str) -
 
 
 def test_a_client_that_sends_no_header_is_left(graph: Graph) -> None:
-    sim = graph.node(header_timeout=0.05)
+    sim = graph.node(header=0.05)
     graph.ready()
     with connect(port_of(sim)) as peer:
         assert peer.recv(1) == b""
@@ -113,7 +113,7 @@ def test_a_client_that_sends_no_header_is_left(graph: Graph) -> None:
 
 
 def test_a_subscriber_that_stalls_costs_bounded_memory(graph: Graph) -> None:
-    sim = graph.node(send_timeout=LIMIT)
+    sim = graph.node(send=LIMIT)
     publish = sim.bus.publisher("camera", Image)
     graph.ready()
     with subscribe(sim, "/camera"):
@@ -128,7 +128,7 @@ def test_a_subscriber_that_stalls_costs_bounded_memory(graph: Graph) -> None:
 
 
 def test_a_subscriber_that_stalls_is_left(graph: Graph) -> None:
-    sim = graph.node(send_timeout=0.2)
+    sim = graph.node(send=0.2)
     publish = sim.bus.publisher("camera", Image)
     graph.ready()
     message = image(np.zeros((480, 640, 3), np.uint8), time=0.0)

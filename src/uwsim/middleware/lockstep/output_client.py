@@ -74,7 +74,7 @@ class OutputClient(OutsideProgram):
         """Wait for something, and tell the time meanwhile; returns whether it came."""
         n_glances = math.ceil(limit / GLANCE_S)
         for _ in range(n_glances):
-            self._bridge.send_clock()
+            self._bridge.clock_topic.send()
             if self._bridge.wait_for(until, limit / n_glances):
                 return True
         return False
@@ -106,7 +106,7 @@ class OutputClient(OutsideProgram):
         inputs = dict.fromkeys(o.follows for o in outputs if o.follows is not None)
         nobody += [f"nobody reads /{name}" for name in inputs if not bridge.is_wanted(name)]
         has_timer = any(o.rate is not None for o in outputs)
-        if has_timer and not bridge.clock_is_read:
+        if has_timer and not bridge.clock_topic.is_read:
             nobody.append("nobody reads /clock (use_sim_time must be true before the node starts)")
         return nobody
 
@@ -114,13 +114,13 @@ class OutputClient(OutsideProgram):
         """Tell the time, and wait for the outputs that are due."""
         bridge = self._bridge
         due = {output.topic: self._n_due(output) for output in self._spec.outputs}
-        if due == self._due and not bridge.clock_is_due:
+        if due == self._due and not bridge.clock_topic.is_due:
             return
         self._due = due
         if bridge.n_sent > self._n_sent and self._spec.settling:
             bridge.wait_for(_never, self._spec.settling)
         self._n_sent = bridge.n_sent
-        bridge.send_clock()
+        bridge.clock_topic.send()
         for topic, n in due.items():
             if not bridge.wait_for(partial(self._has_arrived, topic, n), self._spec.limit):
                 raise ClientLost(

@@ -13,14 +13,17 @@ from concurrent.futures import Future
 
 from ...bus import Node
 from ...errors import ClientLost, NeverStarted
-from ...messages.simulation_control import Result, StepSimulation, StepSimulationResponse
+from ...messages.simulation_control import (
+    MAX_STEPS,
+    Result,
+    StepSimulation,
+    StepSimulationResponse,
+)
 from ..bridge import Bridge
 from .outside_program import OutsideProgram
 from .spec import ClientSpec
 
 SERVICE = "step_simulation"
-MAX_STEPS = 10_000_000
-"""Most steps of one call."""
 
 
 class StepClient(OutsideProgram):
@@ -46,7 +49,7 @@ class StepClient(OutsideProgram):
             NeverStarted: there was none within the limit.
         """
         self._node = node
-        self._bridge.answer_later(SERVICE, StepSimulation, self._asked)
+        self._bridge.later.offer(SERVICE, StepSimulation, self._asked)
         self._bridge.step()
         if not self._next():
             raise NeverStarted(

@@ -6,8 +6,8 @@ starts a small one where there is none. Everything listens on loopback unless to
 
 from __future__ import annotations
 
-from .bridge import Ros1Bridge
+from .bridge import Ros1Bridge, Waits
 from .connect import Ros1Options, connect
 from .master import Master
 
-__all__ = ["Master", "Ros1Bridge", "Ros1Options", "connect"]
+__all__ = ["Master", "Ros1Bridge", "Ros1Options", "Waits", "connect"]

@@ -12,6 +12,7 @@ import os
 import threading
 from collections.abc import Callable, Hashable, Mapping
 from concurrent.futures import Future
+from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
 from typing import Any, cast
@@ -33,11 +34,21 @@ from .subscription import Subscription
 from .tcpros import PeerError
 from .xmlrpc import Answer, Refused, XmlRpcServer
 
-SEND_TIMEOUT = 30.0
-"""How long a subscriber may take to read a message before it is left [s]."""
 NODE = "/uwsim"
 USE_SIM_TIME = MappingProxyType({"/use_sim_time": True})
 """Parameter by which nodes read the time from ``/clock``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Waits:
+    """How long a node waits for its peers."""
+
+    send: float = 30.0
+    """How long a subscriber may take to read a message before it is left [s]."""
+    header: float = HEADER_TIMEOUT
+    """How long a client may take to send its header [s]."""
+    poll: float = POLL
+    """How often the master is looked for [s]."""
 
 
 class Ros1Bridge(Bridge):
@@ -51,9 +62,7 @@ class Ros1Bridge(Bridge):
         node: name of the node in the graph.
         log: where it reports.
         parameters: set on the master while the node is there.
-        send_timeout: how long a subscriber may take to read a message [s].
-        header_timeout: how long a client may take to send its header [s].
-        poll: how often the master is looked for [s].
+        waits: how long it waits for peers.
     """
 
     must_meet = True
@@ -68,20 +77,19 @@ class Ros1Bridge(Bridge):
         node: str = NODE,
         log: Log | None = None,
         parameters: Mapping[str, Any] = USE_SIM_TIME,
-        send_timeout: float = SEND_TIMEOUT,
-        header_timeout: float = HEADER_TIMEOUT,
-        poll: float = POLL,
+        waits: Waits | None = None,
     ) -> None:
         super().__init__(bus, clock, log or Log("ros1"))
-        self._master, self._host, self._node, self._send_timeout = master, host, node, send_timeout
+        self._master, self._host, self._node = master, host, node
+        self._waits = waits = waits or Waits()
         self._publications: dict[str, Publication] = {}
         self._subscriptions: dict[str, Subscription] = {}
         self._offered: dict[str, WireService] = {}
         self._clock = self._publication("/clock", "rosgraph_msgs/Clock")
-        self._rosout = rosout(node, self.log, clock, send_timeout)
+        self._rosout = rosout(node, self.log, clock, waits.send)
         self._publications["/rosout"] = self._rosout
         try:
-            self._listener = Listener(host, self.log, self._choose, header_timeout=header_timeout)
+            self._listener = Listener(host, self.log, self._choose, header_timeout=waits.header)
         except OSError as error:
             raise BadSetting(f"ROS 1 cannot listen on {host}: {error.strerror or error}") from None
         methods = {name: getattr(self, f"_{name}") for name in SLAVE_METHODS}
@@ -89,7 +97,7 @@ class Ros1Bridge(Bridge):
         self.uri = f"http://{host}:{self._server.port}/"
         """Address of the node's own XML-RPC server."""
         self._registrar = Registrar(
-            master, node, self.uri, self.log, self._update, parameters=parameters, poll=poll
+            master, node, self.uri, self.log, self._update, parameters=parameters, poll=waits.poll
         )
         self._stop_elsewhere = bus.services.serve_elsewhere(self._is_offered_outside, self._ask)
         self._register()
@@ -133,7 +141,7 @@ class Ros1Bridge(Bridge):
                     kind,
                     self._node,
                     self.log,
-                    self._send_timeout,
+                    self._waits.send,
                     is_latched=name in LATCHED,
                 )
             if topic in to_read and topic not in subscriptions:
@@ -159,12 +167,11 @@ class Ros1Bridge(Bridge):
         if publication is not None:
             publication.send(message)
 
-    def publish_clock(self) -> None:
+    def _publish_clock(self) -> None:
         """Publish the time."""
         self._clock.send(self._clock.kind.message(clock=clock_time(self.clock())))
 
-    @property
-    def clock_is_read(self) -> bool:
+    def _clock_is_read(self) -> bool:
         """Whether anybody has subscribed to ``/clock``."""
         return self._clock.n_subscribers > 0
 
@@ -189,7 +196,7 @@ class Ros1Bridge(Bridge):
         """Advertise a topic that is not of the bus."""
         kind = wire_type(message_class(type_name))
         assert kind is not None
-        found = Publication(topic, kind, self._node, self.log, self._send_timeout)
+        found = Publication(topic, kind, self._node, self.log, self._waits.send)
         self._publications[topic] = found
         return found
 

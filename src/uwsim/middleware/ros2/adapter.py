@@ -99,19 +99,18 @@ class Ros2(Bridge):
             self._readers.pop(name).close()
             self._add_reader(name, self._topics[name].type)
 
-    def tick(self) -> None:
+    def _tick(self) -> None:
         """Tell the time when it is due, and whether the thread of the node has ended."""
         if self._node.error is not None:
             self.log.say(f"stopped: {self._node.error}", kind="stopped")
-        super().tick()
+        super()._tick()
 
-    def publish_clock(self) -> None:
+    def _publish_clock(self) -> None:
         """Publish the time, if anybody reads it."""
         if self._n_clocks:
             self.send(CLOCK, self._clock_class(clock=clock_time(self.clock())))
 
-    @property
-    def clock_is_read(self) -> bool:
+    def _clock_is_read(self) -> bool:
         """Whether a reader matches the writer of ``/clock``."""
         return self._n_clocks > 0
 
@@ -140,7 +139,7 @@ class Ros2(Bridge):
 
     def _on_clocks(self, n_readers: int) -> None:
         self._n_clocks = n_readers
-        self._next_clock = 0.0
+        self.clock_topic.send_at_next_step()
 
     def _add_writer(self, name: str, type: type, on_readers: Callable[[int], None]) -> None:
         self._writers[name] = self._node.writer(name, type, quality_of(name), on_readers)

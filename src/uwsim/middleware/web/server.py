@@ -110,7 +110,7 @@ class WebBridge(Bridge):
             for session, subscription in self._readers.get(topic, ()):
                 session.post(subscription, outgoing)
 
-    def tick(self) -> None:
+    def _tick(self) -> None:
         """Serve those who came before the first step, and tell the time when it is due.
 
         Until then nobody knows what is on the bus.
@@ -118,16 +118,15 @@ class WebBridge(Bridge):
         if not self._has_begun:
             self._has_begun = True
             self._loop.call_soon_threadsafe(self._begun.set)
-        super().tick()
+        super()._tick()
 
-    def publish_clock(self) -> None:
+    def _publish_clock(self) -> None:
         """Publish ``/clock`` for those who read it."""
         if CLOCK in self._readers and CLOCK not in self._ends:
             clock = message_class("rosgraph_msgs/Clock")
             self.send(CLOCK, clock(clock=clock_time(self.clock())))
 
-    @property
-    def clock_is_read(self) -> bool:
+    def _clock_is_read(self) -> bool:
         """Whether a client has subscribed to ``/clock``."""
         return CLOCK in self._readers
 
@@ -177,7 +176,7 @@ class WebBridge(Bridge):
         if latched is not None:
             session.post(subscription, latched)
         if topic == CLOCK:
-            self._next_clock = 0.0  # it has the time at once
+            self.clock_topic.send_at_next_step()
         else:
             self.want(topic)
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from ...errors import UwsimError
 from ...messages.simulation_control import (
+    MAX_STEPS,
     GetSimulationState,
     GetSimulationStateResponse,
     GetSimulatorFeatures,
@@ -48,8 +49,6 @@ INFO = (
 )
 GLANCE_S = 0.002
 """How often a paused simulation looks for calls [s]."""
-MAX_STEPS = 10_000_000
-"""Most steps of one call."""
 
 
 class Quit(Exception):
