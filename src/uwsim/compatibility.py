@@ -24,6 +24,7 @@ COMPATIBILITY: dict[str, str] = {
     "last-norm": "an estimate of any age is scored; without a new one the last norm is kept",
     "multibeam-images": "multibeams are depth images: blind to 0.8 m, interpolated between pixels",
     "never-started": "a measure that never started is 0 (positionError 100, collision 1)",
+    "no-markers": "SpawnMarker is not offered in a benchmark",
     "path-frame": "to the points of a path the place of its frame in W is added",
     "path-ise": "the ISE of a path is the integral of the error, not of its square",
     "path-point": "a path of one point is none",

@@ -1,11 +1,13 @@
 """Motion tracks: where everything was during a trial, 30 times a second, in a small file.
 
-`packing` is the law of the bytes, `motion_track` what they mean, `dug_sand` what a dredge took.
+`packing` is the law of the bytes, `motion_track` what they mean, `dug_sand` what a dredge took,
+`marker_log` what programs spawned.
 """
 
 from __future__ import annotations
 
 from .dug_sand import GRAIN, DugSand, Spot
+from .marker_log import MarkerChange, MarkerLook, markers_at
 from .motion_track import (
     RATE,
     MotionTrack,
@@ -20,11 +22,14 @@ __all__ = [
     "GRAIN",
     "RATE",
     "DugSand",
+    "MarkerChange",
+    "MarkerLook",
     "MotionTrack",
     "Signal",
     "Spot",
     "TrackLevel",
     "load_track",
+    "markers_at",
     "read_track",
     "track_bytes",
 ]

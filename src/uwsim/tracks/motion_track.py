@@ -11,9 +11,10 @@ Row k is of the time start + k/rate since the simulation began. It holds seven n
 body, its position in W [m] and its quaternion (wxyz), and then one of every signal; each is stored
 as a whole number of its step. Equal tracks give equal bytes.
 
-Version 2 is a track in which sand was taken (`dug_sand`): its head has
-``"sand":{"n":412,"grain":0.000001}``, and a second table of n rows, packed by itself, follows the
-first. A track without is of version 1.
+Version 2 is a track in which sand was taken (`dug_sand`) or markers were spawned (`marker_log`).
+Its head has ``"sand":{"n":412,"grain":0.000001}``, and a second table of n rows, packed by itself,
+follows the first; or ``"markers":{"shapes":[...],"changes":[...]}``, or both. A track without is
+of version 1.
 """
 
 from __future__ import annotations
@@ -32,6 +33,7 @@ import numpy.typing as npt
 
 from ..errors import ResultError
 from .dug_sand import COLUMNS, GRAIN, NOTHING, DugSand
+from .marker_log import MarkerChange, as_json, from_json
 from .packing import BYTES, Table, shuffled, unshuffled
 
 Array = npt.NDArray[np.float64]
@@ -94,6 +96,8 @@ class MotionTrack:
     """Frames a second [Hz]."""
     sand: DugSand = field(default_factory=DugSand)
     """Where sand was taken."""
+    markers: tuple[MarkerChange, ...] = ()
+    """The markers that programs spawned, in the order of their frames."""
 
     @property
     def n_frames(self) -> int:
@@ -138,6 +142,7 @@ def track_bytes(
     rate: float = RATE,
     *,
     sand: DugSand | None = None,
+    markers: Sequence[MarkerChange] = (),
 ) -> bytes:
     """Return the file of a track.
 
@@ -148,10 +153,11 @@ def track_bytes(
         levels: in order.
         rate: frames a second [Hz].
         sand: where sand was taken; None: nowhere.
+        markers: that programs spawned, in the order of their frames.
     """
     digs = (sand or DugSand()).table
     head = {
-        FORMAT: VERSIONS[1 if len(digs) else 0],
+        FORMAT: VERSIONS[1 if len(digs) or markers else 0],
         "rate": rate,
         "n": len(table),
         "start": 0.0,
@@ -163,6 +169,8 @@ def track_bytes(
     }
     if len(digs):
         head["sand"] = {"n": len(digs), "grain": GRAIN}
+    if markers:
+        head["markers"] = as_json(markers)
     text = json.dumps(head, allow_nan=False, ensure_ascii=True, separators=(",", ":"))
     content = text.encode() + b"\n" + shuffled(table) + shuffled(digs)
     return gzip.compress(content, compresslevel=9, mtime=0)
@@ -231,6 +239,7 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
         levels=tuple(TrackLevel(**each) for each in head["levels"]),
         rate=rate,
         sand=_dug(head.get("sand", {"n": 0}), rest[size:]),
+        markers=from_json(head.get("markers", {"shapes": (), "changes": ()})),
     )
 
 

@@ -73,6 +73,9 @@ second table of n rows follows, packed in the same way: frame, number of the hea
 corner in grains. From that frame on each column whose top is nearer than ``reach`` to the place is
 ``bite`` lower, down to the corner; a place of int32 minima puts all sand of the heap back.
 
+Where programs spawned markers the version is 2, too, and ``"markers"`` is in the line, as
+`uwsim.tracks.marker_log` says.
+
 Names of bodies: ``vehicle/link``, of links that fixed joints hold together the one nearest to the
 root (`uwsim.simulation.tracked_bodies`); the object's name for objects. Names of signals, all
 optional::

@@ -12,11 +12,11 @@ from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, MeasureSpec
 from ...geometry import Array
 from ...simulation import Simulation
 from ...simulation.tracked_state import BRIGHTNESS, LAMP, TrackedState
-from ...tracks import RATE, DugSand, Signal, Spot, TrackLevel, track_bytes
-from ...tracks.dug_sand import COLUMNS, NOTHING
+from ...tracks import RATE, Signal, TrackLevel, track_bytes
 from ...tracks.motion_track import quantised, steps_of
 from ...tracks.packing import Table
 from .level_row import LevelRow
+from .motion_events import MarkerLog, SandLog
 from .triggered_measure import TriggeredMeasure
 
 CORNERS = 8
@@ -46,7 +46,7 @@ class MotionRecorder:
         self._rows: list[Array] = []  # the newest, not yet quantised
         self._n_rows = 0
         self._levels: list[TrackLevel] = []
-        self._sand = _SandLog(simulation)
+        self._sand, self._markers = SandLog(simulation), MarkerLog(simulation)
         self._due = 0
         simulation.watch(self._look)
 
@@ -78,12 +78,15 @@ class MotionRecorder:
         self._pack()
         table = np.concatenate(self._tables or [np.zeros((0, len(self._steps)), np.int32)])
         signals = switched(self._signals, table)
-        return track_bytes(self._state.bodies, signals, table, self._levels, sand=self._sand.dug())
+        sand, markers = self._sand.dug(), self._markers.changes
+        bodies, levels = self._state.bodies, self._levels
+        return track_bytes(bodies, signals, table, levels, sand=sand, markers=markers)
 
     def _look(self) -> None:
         while self._simulation.step >= self._due:
             self._rows.append(self._row())
             self._sand.look(self._n_rows)
+            self._markers.look(self._n_rows)
             self._n_rows += 1
             self._due = round(self._n_rows / (RATE * self._simulation.timestep))
             if len(self._rows) == BATCH:
@@ -107,37 +110,6 @@ class MotionRecorder:
             is_whole = quad is not None and quad.shape == (CORNERS,)
             found += quad.tolist() if quad is not None and is_whole else [np.nan] * CORNERS
         return found
-
-
-class _SandLog:
-    """Notes where sand was taken between one frame and the next.
-
-    Args:
-        simulation: whose sand it is.
-    """
-
-    def __init__(self, simulation: Simulation) -> None:
-        self._heaps = simulation.world.scenery.heaps
-        self._seen: list[list[Spot]] = [[] for _ in self._heaps]
-        self._versions = [heap.version for heap in self._heaps]
-        self._rows: list[tuple[int, ...]] = []
-
-    def look(self, frame: int) -> None:
-        """Note what was taken until a frame."""
-        for number, heap in enumerate(self._heaps):
-            if heap.version == self._versions[number]:
-                continue
-            self._versions[number] = heap.version
-            n = len(self._seen[number])
-            if heap.taken[:n] != self._seen[number]:  # it was put back meanwhile
-                self._rows.append((frame, number, NOTHING, NOTHING, NOTHING))
-                n = 0
-            self._rows += [(frame, number, *spot) for spot in heap.taken[n:]]
-            self._seen[number] = list(heap.taken)
-
-    def dug(self) -> DugSand:
-        """Return all so far."""
-        return DugSand(table=np.array(self._rows, np.int32).reshape(-1, COLUMNS))
 
 
 def switched(signals: Sequence[Signal], table: Table) -> tuple[Signal, ...]:

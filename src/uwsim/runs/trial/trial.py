@@ -124,9 +124,8 @@ class _Execution:
         self._fingerprinter = Fingerprinter(simulation)
         self._motion = MotionRecorder(simulation, benchmark.measures)
         self._updaters = bind_updaters(self._updater, simulation.world)
-        simulation.bus.services.withdraw(
-            SPAWN_MARKER
-        )  # not offered in a benchmark, as in the original
+        if "no-markers" in plan.compatibility:
+            simulation.bus.services.withdraw(SPAWN_MARKER)
         simulation.bus.keeps_unread = False  # all who read subscribe
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # as they are bound for the next level

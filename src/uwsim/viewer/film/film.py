@@ -16,6 +16,7 @@ from ..recorded import RecordedLevel, RecordedTrial
 from . import overlay
 from .curves import CurvePanel, chosen
 from .encoder import Chapter, encoder_of
+from .markers import draw_markers
 from .overlay import Pixels
 from .paths import CameraPath, ViewKind
 from .puppets import Puppets, scene_of
@@ -161,15 +162,17 @@ class Film:
             assert self._camera is not None
             return self._seen(self._camera, self.spec.size, time)
         scenery = self._puppets.simulation.world.scenery
+        pose, lens = self._path.pose(time), self._path.intrinsics
         rendered = scenery.render_view(
-            self._path.pose(time),
-            self._path.intrinsics,
+            pose,
+            lens,
             targets={"colour"},
             fog=None if self.spec.fog else 0.0,
             samples=self.spec.samples,
         )
         assert rendered.colour is not None
-        return rendered.colour.view(np.uint8)
+        markers = self._puppets.markers(time)
+        return draw_markers(rendered.colour.view(np.uint8), markers, pose, lens, self._letters)
 
     def _seen(self, name: str, size: tuple[int, int], time: float) -> Pixels:
         """What a camera sees, without noise, with the corners of truth and estimate."""

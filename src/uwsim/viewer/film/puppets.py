@@ -11,7 +11,7 @@ from ...geometry import Array
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
 from ...simulation.tracked_state import LAMP
-from ...tracks import MotionTrack
+from ...tracks import MarkerLook, MotionTrack, markers_at
 from ..recorded import RecordedTrial
 
 
@@ -61,6 +61,10 @@ class Puppets:
         """Return a signal in a frame; None where there is none."""
         values = self.track.signal(name)
         return None if values is None or math.isnan(values[frame]) else float(values[frame])
+
+    def markers(self, time: float) -> dict[str, MarkerLook]:
+        """Return the markers that were there at a time since the simulation began [s]."""
+        return markers_at(self.track.markers, frame_at(self.track, time)[0])
 
     def corners(self, kind: str, camera: str, time: float) -> Array | None:
         """Return four corners in a camera's image at a time, (4, 2) [px]; None: there are none.

@@ -25,13 +25,13 @@ from ...messages import Marker
 from ...runs.trial.level_row import LevelRow
 from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
+from ...simulation.markers.lines import described, looks_of
 from ...simulation.snapshot import packed, put_state, state_of, unpacked
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import view_from_pose
 from .clock import NAP, Clock
 from .head import head_of
 from .mapping import PilotMapping, merged
-from .marker_lines import described
 from .server import LiveServer, Message
 
 RATE = 30.0
@@ -218,7 +218,7 @@ class LiveView:
         if list(map(id, shown.values())) == list(map(id, self._markers.values())):
             return
         self._markers = shown
-        markers = described(shown, world.world_from_localized)
+        markers = described(looks_of(shown, world.world_from_localized))
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_sand(self) -> None:

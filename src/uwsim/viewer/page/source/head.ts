@@ -107,6 +107,9 @@ export interface Trial {
   curves: Curve[];
 }
 
+/** From a frame on a marker has a shape, a colour and a pose in W, or is gone. */
+export type MarkerChange = [number, string] | [number, string, number, string, number[]];
+
 export interface MotionHead {
   rate: number;
   n: number;
@@ -116,6 +119,7 @@ export interface MotionHead {
   quaternion: number;
   signals: { name: string; unit: string; step: number }[];
   sand?: { n: number; grain: number };
+  markers?: { shapes: number[][][][]; changes: MarkerChange[] };
 }
 
 export interface Head {

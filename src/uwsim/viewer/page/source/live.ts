@@ -104,7 +104,7 @@ export class Link {
       page.keyboard.help();
     } else if (message.type === "levels") stream.setLevels(message.levels);
     else if (message.type === "samples") for (const each of message.samples) stream.sample(...each);
-    else if (message.type === "markers") page.picture.markers = message.markers;
+    else if (message.type === "markers") stream.spawn(message.markers);
     else if (message.type === "end") this.end(message.why);
   }
 

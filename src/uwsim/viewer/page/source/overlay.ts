@@ -96,11 +96,12 @@ function cut(from: number[], to: number[]): number[] {
 
 export function drawOverlay(
   context: CanvasRenderingContext2D, worldFromCamera: Matrix, lens: Lens, head: Head,
-  models: Models, player: Player, moment: Moment, shown: Shown, since: number, markers: Marker[],
+  models: Models, player: Player, moment: Moment, shown: Shown, since: number,
 ): void {
   const pen = new Pen(context, worldFromCamera, lens);
-  for (const { name, at, colour, lines } of markers) {
+  for (const { name, at, colour, lines } of player.markers(moment.time)) {
     for (const line of lines) pen.line(line, colour);
+    if (!lines.length) pen.dot(at, colour, 3);
     if (shown.labels || !lines.length) pen.word(at, name);
   }
   if (shown.trails) drawTrails(pen, head, player, moment, since);

@@ -2,7 +2,7 @@
 import type { Camera, Head, Water } from "./head";
 import type { ShiningLamp } from "./light";
 import { Models } from "./models";
-import { drawOverlay, drawQuads, type Marker, type Shown } from "./overlay";
+import { drawOverlay, drawQuads, type Shown } from "./overlay";
 import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
 import type { Moment, Player } from "./player";
@@ -69,8 +69,6 @@ class Pace {
 
 export class Picture {
   readonly canvas = element<HTMLCanvasElement>("image");
-  /** What programs have spawned. */
-  markers: Marker[] = [];
   private readonly overlay = element<HTMLCanvasElement>("overlay");
   private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
@@ -120,8 +118,7 @@ export class Picture {
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
-    const since = switches.since;
-    drawOverlay(context, worldFromCamera, sight.lens, head, models, player, moment, switches, since, this.markers);
+    drawOverlay(context, worldFromCamera, sight.lens, head, models, player, moment, switches, switches.since);
     if (sight.camera) drawQuads(context, sight.camera, sight.lens, 0, 0, moment);
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === sight.camera));
     this.drawPictures(context, water, lamps, moment, switches, ratio, h);

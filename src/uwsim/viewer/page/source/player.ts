@@ -1,6 +1,7 @@
 // What is shown when: the trials of a replay, or what a running simulation sends.
-import type { Head, Level, MotionHead } from "./head";
-import { fromPose, type Matrix } from "./geometry";
+import type { Head, Level, MarkerChange, MotionHead } from "./head";
+import { fromPose, transform, type Matrix } from "./geometry";
+import type { Marker } from "./overlay";
 import { readMotion, type Motion, type Pack } from "./pack";
 import type { Dig } from "./sand";
 
@@ -59,6 +60,8 @@ export interface Player {
   moment(time: number): Moment;
   /** Where a body was, from the beginning until a time, a few times a second. */
   trail(body: string, until: number): number[][];
+  /** What programs have spawned by a time. */
+  markers(time: number): Marker[];
   /** Where sand of a heap had been taken by a time, in order, or the heights of its columns. */
   sand(heap: number, time: number): Dig[] | Float32Array;
   select(trial: number): Promise<void>;
@@ -114,6 +117,23 @@ export class Replay implements Player {
     return new Moment(time, this.motion?.head ?? null, this.motion?.at(time) ?? null, placed);
   }
 
+  markers(time: number): Marker[] {
+    const [motion, spawned] = [this.motion, this.motion?.head.markers];
+    if (!motion || !spawned) return [];
+    const frame = motion.frame(time);
+    const there = new Map<string, MarkerChange>();
+    for (const change of spawned.changes) {
+      if (change[0] > frame) break;
+      if (change.length > 2) there.set(change[1], change);
+      else there.delete(change[1]);
+    }
+    return [...there.values()].map(([, name, shape, colour, pose]) => {
+      const place = fromPose(pose!);
+      const lines = spawned.shapes[shape!].map((line) => line.map((point) => transform(place, point)));
+      return { name, at: pose!.slice(0, 3), colour: colour!, lines };
+    });
+  }
+
   sand(heap: number, time: number): Dig[] {
     const frame = this.motion?.frame(time) ?? -1;
     return this.motion?.digs.filter((dig) => dig.heap === heap && dig.frame <= frame) ?? [];
@@ -145,6 +165,7 @@ export class Stream implements Player {
   title: string;
   version = 0;
   /** Number of a heap -> heights of its columns, of those from which sand was taken. */
+  private spawned: Marker[] = [];
   private readonly heights = new Map<number, Float32Array>();
   private row: ArrayLike<number> | null = null;
   private readonly trails: { time: number; row: ArrayLike<number> }[] = [];
@@ -180,6 +201,15 @@ export class Stream implements Player {
 
   moment(): Moment {
     return new Moment(this.end, this.head.motion ?? null, this.row);
+  }
+
+  spawn(markers: Marker[]): void {
+    this.spawned = markers;
+    this.version += 1;
+  }
+
+  markers(): Marker[] {
+    return this.spawned;
   }
 
   dig(heap: number, heights: Float32Array): void {

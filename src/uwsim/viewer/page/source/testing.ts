@@ -16,6 +16,8 @@ export function expose(page: Page): void {
       curves: () => Object.fromEntries(player.curves.map((c) => [c.name, valueAt(c, page.time)])),
       /** World from body, 4 x 4, row by row. */
       body: (name: string) => Array.from(picture.models.body(name)),
+      /** What programs have spawned, now. */
+      markers: () => player.markers(page.time),
       /** Heights of the columns of a heap of sand [m]. */
       sand: (number: number) => Array.from(picture.models.heights(number)),
       /** A camera's image in its own size, RGBA, base64. */

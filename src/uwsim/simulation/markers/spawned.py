@@ -12,10 +12,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..geometry import Pose
-from ..messages import Marker, SpawnMarker, SpawnMarkerResponse
-from ..messages.build import NANOSECONDS
-from ..topics.frames import Frame
+from ...geometry import Pose
+from ...messages import Marker, SpawnMarker, SpawnMarkerResponse
+from ...messages.build import NANOSECONDS
+from ...topics.frames import Frame
 
 SERVICE = "SpawnMarker"
 TYPES = {

@@ -1,7 +1,7 @@
-"""Markers that a program has spawned, as lines that the page draws over its view.
+"""Spawned markers as lines that viewers draw over their images.
 
 Cubes, spheres, cylinders and arrows are outlines; lists of points and of shapes a cross at each;
-what is a mesh or a text is known by the name beside it.
+what is a mesh or a text is a dot with its name.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import numpy as np
 
 from ...geometry import Array, Pose
 from ...messages import Marker
+from ...tracks import MarkerLook
 
 MAX_POINTS = 2000
 """Of all markers together; lines beyond are left out."""
@@ -21,24 +22,53 @@ CROSS = 0.1
 """Size of a cross [m]."""
 CIRCLE = [(math.cos(turn), math.sin(turn)) for turn in np.linspace(0.0, 2.0 * math.pi, 17).tolist()]
 SQUARE = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]
+NAMED = (Marker.MESH_RESOURCE, Marker.TEXT_VIEW_FACING)
+"""Types of which viewers show a dot with the name."""
 Line = list[tuple[float, float, float]]
 
 
-def described(markers: Mapping[str, Marker], world_from_localized: Pose) -> list[dict[str, Any]]:
+def look_of(marker: Marker, world_from_localized: Pose, room: int = MAX_POINTS) -> MarkerLook:
+    """Return how a marker is drawn.
+
+    Args:
+        marker: the one, its pose in L.
+        world_from_localized: where L is.
+        room: points that its lines may have; lines beyond are left out.
+    """
+    kept = []
+    for line in filter(None, _lines(marker)):
+        room -= len(line)
+        if room < 0:
+            break
+        kept.append(tuple(tuple(round(value, 4) for value in point) for point in line))
+    pose = world_from_localized @ _pose(marker)
+    row = (*np.round(pose.position, 4).tolist(), *np.round(pose.quaternion, 5).tolist())
+    return MarkerLook(colour=_colour(marker), pose=row, lines=tuple(kept))
+
+
+def n_points(look: MarkerLook) -> int:
+    """Return how many points the lines of a marker have."""
+    return sum(map(len, look.lines))
+
+
+def looks_of(markers: Mapping[str, Marker], world_from_localized: Pose) -> dict[str, MarkerLook]:
+    """Return how markers are drawn, `MAX_POINTS` of all together."""
+    looks, room = {}, MAX_POINTS
+    for name, marker in markers.items():
+        looks[name] = look_of(marker, world_from_localized, room)
+        room -= n_points(looks[name])
+    return looks
+
+
+def described(looks: Mapping[str, MarkerLook]) -> list[dict[str, Any]]:
     """Return name, colour and lines in W of each marker, as `uwsim.viewer.head` says."""
     found: list[dict[str, Any]] = []
-    left = MAX_POINTS
-    for name, marker in markers.items():
-        pose = world_from_localized @ _pose(marker)
-        lines = [pose.transform(np.array(line)) for line in _lines(marker) if line]
-        kept: list[list[list[float]]] = []
-        for line in lines:
-            left -= len(line)
-            if left < 0:
-                break
-            kept.append(np.round(line, 4).tolist())
-        where = np.round(pose.position, 4).tolist()
-        found.append({"name": name, "at": where, "colour": _colour(marker), "lines": kept})
+    for name, look in looks.items():
+        pose = Pose.from_quaternion(np.array(look.pose[:3]), np.array(look.pose[3:]))
+        lines = [np.round(pose.transform(np.array(line)), 4).tolist() for line in look.lines]
+        found.append(
+            {"name": name, "at": list(look.pose[:3]), "colour": look.colour, "lines": lines}
+        )
     return found
 
 
@@ -59,7 +89,7 @@ def _colour(marker: Marker) -> str:
 def _lines(marker: Marker) -> list[Line]:
     """Lines in the frame of a marker [m]."""
     half = 0.5 * np.array([marker.scale.x, marker.scale.y, marker.scale.z])
-    if not np.isfinite(half).all():
+    if not np.isfinite(half).all() or marker.type in NAMED:
         return []
     points = [(each.x, each.y, each.z) for each in marker.points[:MAX_POINTS]]
     points = [point for point in points if all(map(math.isfinite, point))]

@@ -1,0 +1,7 @@
+"""Markers that programs spawn: `spawned` keeps them, `lines` draws them for viewers."""
+
+from __future__ import annotations
+
+from .spawned import SERVICE, TYPES, Markers
+
+__all__ = ["SERVICE", "TYPES", "Markers"]
