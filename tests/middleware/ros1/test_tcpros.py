@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import fcntl
+import resource
 import socket
 from collections.abc import Iterator
 
@@ -72,6 +74,21 @@ def test_a_frame_is_read_and_the_end_is_none(pair: tuple[socket.socket, socket.s
     there.shutdown(socket.SHUT_WR)
     assert [read_frame(here), read_frame(here), read_frame(here)] == [b"abc", b"", None]
     assert has_left(here)
+
+
+def test_a_peer_is_still_there_when_more_than_a_thousand_files_are_open(
+    pair: tuple[socket.socket, socket.socket],
+) -> None:
+    here, there = pair
+    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+    try:
+        with socket.socket(fileno=fcntl.fcntl(here, fcntl.F_DUPFD, 1024)) as high:
+            assert not has_left(high)
+            there.shutdown(socket.SHUT_WR)
+            assert has_left(high)
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
 
 
 def test_a_long_frame_is_refused_before_it_is_read(

@@ -121,8 +121,9 @@ def framed(data: bytes | memoryview) -> bytes:
 def has_left(connection: socket.socket) -> bool:
     """Whether the peer has closed a connection on which it sends nothing."""
     try:
-        readable, _, _ = select.select([connection], [], [], 0)
-        return bool(readable) and connection.recv(1, socket.MSG_PEEK) == b""
+        readable = select.poll()  # select.select takes no number of a file above 1023
+        readable.register(connection, select.POLLIN)
+        return bool(readable.poll(0)) and connection.recv(1, socket.MSG_PEEK) == b""
     except (OSError, ValueError):
         return True
 
