@@ -15,6 +15,7 @@ import sys
 
 import poses
 import rospy
+from arguments import numbers
 from nav_msgs.msg import Odometry
 from visualization_msgs.msg import (
     InteractiveMarker,
@@ -103,9 +104,9 @@ def main() -> None:
     topic, *given = rospy.myargv()[1:] or [""]
     if not topic or len(given) not in (0, 6, 8, 11):
         sys.exit(__doc__)
+    pose = numbers(given, __doc__)
     rospy.init_node("follow_marker", anonymous=True)
-    numbers = [float(number) for number in given]
-    Server(topic, [*numbers, *DEFAULTS[len(numbers) :]])
+    Server(topic, [*pose, *DEFAULTS[len(pose) :]])
     rospy.spin()
 
 

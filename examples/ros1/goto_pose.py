@@ -16,6 +16,7 @@ import sys
 
 import poses
 import rospy
+from arguments import numbers
 from nav_msgs.msg import Odometry
 
 SHARE, NEAR = 0.15, 0.01
@@ -26,8 +27,8 @@ def main() -> None:
     words = rospy.myargv()[1:]
     if len(words) != 9 or words[0] not in MAX_STEP:
         sys.exit(__doc__)
-    kind, odometry_topic, control_topic, *numbers = words
-    x, y, z, *angles = (float(number) for number in numbers)
+    kind, odometry_topic, control_topic, *given = words
+    x, y, z, *angles = numbers(given, __doc__)
     rospy.init_node("goto_pose", anonymous=True)
     publisher = rospy.Publisher(control_topic, Odometry, queue_size=1)
     newest = []
@@ -35,6 +36,8 @@ def main() -> None:
     rate = rospy.Rate(30)
     while not newest and not rospy.is_shutdown():
         rate.sleep()
+    if not newest:
+        return
     start, attitude = newest[0]
     goal, turned = (x, y, z), poses.quaternion(*angles)
     if kind == "relative":
@@ -48,7 +51,7 @@ def main() -> None:
         step = 1.0 if away < NEAR else min(SHARE * away, MAX_STEP[kind]) / away
         command = Odometry()
         command.header.stamp = rospy.Time.now()
-        done = 1.0 if away < NEAR else max(0.0, 1.0 - away / whole)
+        done = 1.0 if away < NEAR else max(0.0, 1.0 - away / max(whole, NEAR))
         poses.write(
             command.pose.pose,
             [p + step * (g - p) for p, g in zip(place, goal, strict=True)],

@@ -13,6 +13,7 @@ import math
 import sys
 
 import rospy
+from arguments import numbers
 from geometry_msgs.msg import Pose
 from nav_msgs.msg import Odometry
 
@@ -22,8 +23,8 @@ SHARE, MAX_STEP, NEAR = 0.15, 0.1, 0.01
 def main() -> None:
     if len(rospy.myargv()) != 6:
         sys.exit(__doc__)
-    odometry_topic, pose_topic, *numbers = rospy.myargv()[1:]
-    goal = [float(number) for number in numbers]
+    odometry_topic, pose_topic, *given = rospy.myargv()[1:]
+    goal = numbers(given, __doc__)
     rospy.init_node("goto_position", anonymous=True)
     newest = []
     rospy.Subscriber(odometry_topic, Odometry, lambda message: newest.append(message.pose.pose))

@@ -10,6 +10,7 @@ import contextlib
 import sys
 
 import rospy
+from arguments import numbers
 from sensor_msgs.msg import Image
 
 
@@ -17,10 +18,11 @@ def main() -> None:
     if len(rospy.myargv()) not in (2, 3):
         sys.exit(__doc__)
     topic, *rest = rospy.myargv()[1:]
+    (n,) = numbers(rest or ["10"], __doc__, int)
     rospy.init_node("image_echo", anonymous=True)
-    for _ in range(int(rest[0]) if rest else 10):
+    for _ in range(n):
         image = rospy.wait_for_message(topic, Image)
-        mean = sum(image.data) / len(image.data)
+        mean = sum(image.data) / max(1, len(image.data))
         print(
             f"{image.header.stamp.to_sec():.3f} s: {image.width}x{image.height} {image.encoding}, "
             f"mean {mean:.1f}",

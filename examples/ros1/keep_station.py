@@ -17,6 +17,7 @@ import contextlib
 import sys
 
 import rospy
+from arguments import numbers
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
 from std_srvs.srv import Empty
@@ -43,7 +44,9 @@ class KeepStation:
             return
         if not self.has_begun:
             self.has_begun = True
-            with contextlib.suppress(rospy.ServiceException):  # `uwsim run` has no benchmark
+            with contextlib.suppress(
+                rospy.ServiceException, rospy.ROSException
+            ):  # `uwsim run` has none
                 rospy.ServiceProxy("startBench", Empty)()
         command = TwistStamped()
         command.header.stamp = rospy.Time.now()
@@ -71,11 +74,13 @@ def cross(a: list, b: list) -> list:
 def main() -> None:
     if len(rospy.myargv()) != 6:
         sys.exit(__doc__)
-    odometry_topic, twist_topic, *numbers = rospy.myargv()[1:]
+    odometry_topic, twist_topic, *given = rospy.myargv()[1:]
+    goal = numbers(given, __doc__)
     rospy.init_node("keep_station")
-    while rospy.Time.now().is_zero():  # no /clock yet; a timer would fire twice at the first
+    # no /clock yet; a timer would fire twice at the first
+    while rospy.Time.now().is_zero() and not rospy.is_shutdown():
         rospy.rostime.wallsleep(0.01)
-    KeepStation(odometry_topic, twist_topic, [float(number) for number in numbers])
+    KeepStation(odometry_topic, twist_topic, goal)
     rospy.spin()
 
 

@@ -52,6 +52,8 @@ class LockStep:
         self._arrived, self._handled, self._published = {}, {}, {}
         self._timers, self._ticks, self._services = [], [], []
         self._readers, self._node, self._sent = {}, None, set()
+        self._uri = ""  # of the simulation's node
+        self._error = None  # what the simulation has refused
 
     def subscribe(self, topic, kind, callback):
         """Have a callback called with each message of a topic."""
@@ -104,6 +106,8 @@ class LockStep:
             if not self._is_complete():
                 break
             self._answer(ack)
+        if not rospy.is_shutdown() and self._was_killed():
+            raise SystemExit(f"{self._client}: the simulation is gone without having ended.")
         for end in (*outs.values(), *self._readers.values()):
             end.unregister()
         for service in self._services:
@@ -170,7 +174,7 @@ class LockStep:
         """Whether each topic that it shares with the simulation has a connection."""
         try:
             uri = rosgraph.Master(rospy.get_name()).lookupNode(SIMULATOR)
-            self._node = ServerProxy(uri)
+            self._node, self._uri = ServerProxy(uri), uri
             sends = {topic for topic, _ in self._node.getPublications("/x")[2]}
             reads = {topic for topic, _ in self._node.getSubscriptions("/x")[2]}
         except (OSError, rosgraph.MasterException):
@@ -211,6 +215,8 @@ class LockStep:
         end = time.monotonic() + patience
         with self._news:
             while not condition():
+                if self._error is not None:
+                    raise SystemExit(f"{self._client}: {self._error}")
                 if rospy.is_shutdown() or time.monotonic() > end:
                     return False
                 self._news.wait(GLANCE)
@@ -220,7 +226,10 @@ class LockStep:
         tick = json.loads(message.data)
         if tick.get("client") == self._client:
             with self._news:
-                self._ticks.append(tick)
+                if "error" in tick:
+                    self._error = tick["error"]
+                else:
+                    self._ticks.append(tick)
                 self._news.notify()
 
     def _receiver(self, topic):
@@ -235,6 +244,22 @@ class LockStep:
     def _has_left(self, simulator):
         """Whether none of these connections is there any more."""
         return not any(each in simulator for each in self._readers[TICK].impl.connections)
+
+    def _was_killed(self):
+        """Whether the simulation that ticked it is still registered, and not there."""
+        if not self._is_registered():
+            return False  # it has left the graph, or a master of its own has gone with it
+        try:
+            ServerProxy(self._uri).getPid("/x")
+        except OSError:
+            return self._is_registered()  # it may have been leaving just then
+        return False
+
+    def _is_registered(self):
+        try:
+            return rosgraph.Master(rospy.get_name()).lookupNode(SIMULATOR) == self._uri
+        except (OSError, rosgraph.MasterException):
+            return False
 
     def _next(self):
         return min((_due(timer) for timer in self._timers), default=None)

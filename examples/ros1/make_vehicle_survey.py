@@ -14,14 +14,15 @@ import sys
 
 import poses
 import rospy
+from arguments import numbers
 from nav_msgs.msg import Odometry
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:] or [""]
-    if len(numbers) != 6:
+    topic, *given = rospy.myargv()[1:] or [""]
+    if not topic or len(given) != 6:
         sys.exit(__doc__)
-    x, y, z, _, long, step = (float(number) for number in numbers)
+    x, y, z, _, long, step = numbers(given, __doc__)
     rospy.init_node("make_vehicle_survey", anonymous=True)
     publisher = rospy.Publisher(topic, Odometry, queue_size=1)
     rate, a = rospy.Rate(20), 0.0

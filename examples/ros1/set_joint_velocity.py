@@ -10,20 +10,22 @@ import contextlib
 import sys
 
 import rospy
+from arguments import numbers
 from sensor_msgs.msg import JointState
 
 NAMES = ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:] or [""]
-    if len(numbers) != len(NAMES):
+    topic, *given = rospy.myargv()[1:] or [""]
+    if not topic or len(given) != len(NAMES):
         sys.exit(__doc__)
+    commands = numbers(given, __doc__)
     rospy.init_node("set_joint_velocity", anonymous=True)
     publisher = rospy.Publisher(topic, JointState, queue_size=1)
     rate = rospy.Rate(30)
     while not rospy.is_shutdown():
-        message = JointState(name=NAMES, velocity=[float(number) for number in numbers])
+        message = JointState(name=NAMES, velocity=commands)
         message.header.stamp = rospy.Time.now()
         publisher.publish(message)
         rate.sleep()

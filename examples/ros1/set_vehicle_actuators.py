@@ -11,16 +11,18 @@ import contextlib
 import sys
 
 import rospy
+from arguments import numbers
 from std_msgs.msg import Float64MultiArray
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:] or [""]
-    if not numbers:
+    topic, *given = rospy.myargv()[1:] or [""]
+    if not topic or not given:
         sys.exit(__doc__)
+    commands = numbers(given, __doc__)
     rospy.init_node("set_vehicle_actuators", anonymous=True)
     publisher = rospy.Publisher(topic, Float64MultiArray, queue_size=1)
-    message = Float64MultiArray(data=[float(number) for number in numbers])
+    message = Float64MultiArray(data=commands)
     rate = rospy.Rate(5)
     while not rospy.is_shutdown():
         publisher.publish(message)

@@ -15,6 +15,7 @@ import sys
 
 import poses
 import rospy
+from arguments import numbers
 from nav_msgs.msg import Odometry
 
 
@@ -22,7 +23,7 @@ def main() -> None:
     words = rospy.myargv()[1:]
     if len(words) != 8:
         sys.exit(__doc__)
-    x, y, z, *angles = (float(number) for number in words[2:])
+    x, y, z, *angles = numbers(words[2:], __doc__)
     rospy.init_node("set_vehicle_disturbances", anonymous=True)
     publisher = rospy.Publisher(words[1], Odometry, queue_size=1)
     start, attitude = poses.read(rospy.wait_for_message(words[0], Odometry).pose.pose)

@@ -11,14 +11,15 @@ import sys
 
 import poses
 import rospy
+from arguments import numbers
 from geometry_msgs.msg import Pose
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:] or [""]
-    if len(numbers) != 6:
+    topic, *given = rospy.myargv()[1:] or [""]
+    if not topic or len(given) != 6:
         sys.exit(__doc__)
-    x, y, z, *angles = (float(number) for number in numbers)
+    x, y, z, *angles = numbers(given, __doc__)
     rospy.init_node("set_vehicle_pose", anonymous=True)
     publisher = rospy.Publisher(topic, Pose, queue_size=1)
     message = Pose()

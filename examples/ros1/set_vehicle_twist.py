@@ -10,13 +10,15 @@ import contextlib
 import sys
 
 import rospy
+from arguments import numbers
 from geometry_msgs.msg import TwistStamped
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:] or [""]
-    if len(numbers) != 6:
+    topic, *given = rospy.myargv()[1:] or [""]
+    if not topic or len(given) != 6:
         sys.exit(__doc__)
+    twist = numbers(given, __doc__)
     rospy.init_node("set_vehicle_twist", anonymous=True)
     publisher = rospy.Publisher(topic, TwistStamped, queue_size=1)
     rate = rospy.Rate(25)
@@ -24,7 +26,7 @@ def main() -> None:
         message = TwistStamped()
         message.header.stamp = rospy.Time.now()
         linear, angular = message.twist.linear, message.twist.angular
-        linear.x, linear.y, linear.z, angular.x, angular.y, angular.z = map(float, numbers)
+        linear.x, linear.y, linear.z, angular.x, angular.y, angular.z = twist
         publisher.publish(message)
         rate.sleep()
 

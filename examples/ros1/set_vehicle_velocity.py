@@ -10,14 +10,15 @@ import contextlib
 import sys
 
 import rospy
+from arguments import numbers
 from nav_msgs.msg import Odometry
 
 
 def main() -> None:
-    topic, *numbers = rospy.myargv()[1:] or [""]
-    velocity = [float(number) for number in numbers]
-    if len(velocity) != 6:
+    topic, *given = rospy.myargv()[1:] or [""]
+    if not topic or len(given) != 6:
         sys.exit(__doc__)
+    velocity = numbers(given, __doc__)
     rospy.init_node("set_vehicle_velocity", anonymous=True)
     publisher = rospy.Publisher(topic, Odometry, queue_size=1)
     rate = rospy.Rate(25)

@@ -7,10 +7,13 @@ It knows nothing of uwsim, and needs rclpy, nav_msgs and geometry_msgs.
 """
 
 import argparse
+import contextlib
+import math
 
 import rclpy
 from geometry_msgs.msg import TwistStamped
 from nav_msgs.msg import Odometry
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 
 
@@ -60,13 +63,16 @@ def main() -> None:
     parser.add_argument("--odometry", default="/uwsim/girona500/odom")
     parser.add_argument("--command", default="/g500/twist")
     options = parser.parse_args()
+    if not all(map(math.isfinite, (*options.goal, options.near, options.speed))):
+        parser.error("expected finite numbers")
     rclpy.init()
     node = GotoPosition(options.goal, options)
-    while node.distance > options.near:
-        rclpy.spin_once(node, timeout_sec=0.1)
-    node.out.publish(TwistStamped())  # stay
-    print(f"reached {options.goal}: {node.distance:.2f} m away")
-    rclpy.shutdown()
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+        while node.distance > options.near:
+            rclpy.spin_once(node, timeout_sec=0.1)
+        node.out.publish(TwistStamped())  # stay
+        print(f"reached {options.goal}: {node.distance:.2f} m away")
+    rclpy.try_shutdown()
 
 
 if __name__ == "__main__":

@@ -17,10 +17,13 @@ of a step are there; whatever they publish takes effect in the same step. Servic
 simulation calls (`autoInit`) are offered by `LockStep.serve`.
 """
 
+import contextlib
 import json
+import sys
 import time
 
 import rclpy
+from rclpy.executors import ExternalShutdownException
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String
@@ -144,9 +147,11 @@ class LockStep:
         tick = json.loads(message.data)
         if tick.get("client") != self._client:
             return
+        if "error" in tick and tick["run"] == self.run:
+            raise SystemExit(f"{self._client}: {tick['error']}")
         if tick.get("tick") == 0:  # a simulation invites
             self.next_run = tick["run"]
-        elif tick["run"] == self.run:
+        elif tick["run"] == self.run and "error" not in tick:
             self._ticks.append(tick)
 
     def _publisher(self, topic: str, kind: type):
@@ -179,6 +184,16 @@ def run(client: str, algorithm, *, period: float = 0.0, patience: float = 60.0) 
     """
     rclpy.init()
     before = ""
+    with contextlib.suppress(KeyboardInterrupt, ExternalShutdownException):
+        before = take_part(client, algorithm, period, patience)
+    if not before:
+        sys.exit(f"{client}: took part in no trial; no simulation has invited it.")
+    rclpy.try_shutdown()
+
+
+def take_part(client: str, algorithm, period: float, patience: float) -> str:
+    """Take part in trial after trial; returns what tells the last, empty if there was none."""
+    before = ""
     while (lockstep := begin(client, algorithm, period, patience, before)) is not None:
         before = lockstep.run
         while lockstep.next_run == before and lockstep.is_connected():
@@ -187,7 +202,7 @@ def run(client: str, algorithm, *, period: float = 0.0, patience: float = 60.0) 
                 rclpy.spin_once(lockstep.node, timeout_sec=GLANCE)
                 lockstep.answer()
         lockstep.node.destroy_node()
-    rclpy.shutdown()
+    return before
 
 
 def begin(client: str, algorithm, period: float, patience: float, before: str):

@@ -14,10 +14,11 @@ import random
 import time
 
 from lockstep import connected
-from websockets.exceptions import ConnectionClosed
 
 GOAL, KP = (-9.0, -8.0, 10.0), 0.4
 TIMESTEP, PERIOD = 0.002, 0.1
+DONE = 1
+"""Of simulation_interfaces/Result."""
 
 
 class Simulation:
@@ -40,12 +41,18 @@ class Simulation:
             frame = json.loads(self._socket.recv())
             if frame["op"] == "publish":
                 self.newest[frame["topic"]] = frame["msg"]
+            elif frame["op"] == "status":
+                raise SystemExit(frame["msg"])
             elif frame["op"] == "service_response" and frame["id"] == str(self._n_calls):
+                if not frame["result"]:
+                    raise SystemExit(f"{service}: {frame['values']}")
                 return frame["values"]
 
     def step(self, seconds: float) -> None:
         """Let simulation time pass."""
-        self.call("/step_simulation", steps=round(seconds / TIMESTEP))
+        answer = self.call("/step_simulation", steps=round(seconds / TIMESTEP))
+        if answer["result"]["result"] != DONE:
+            raise SystemExit(f"/step_simulation: {answer['result']['error_message']}")
 
 
 def velocity(odometry: dict) -> list[float]:
@@ -78,15 +85,15 @@ def main() -> None:
         simulation.send(op="advertise", topic="/g500/twist", type="geometry_msgs/TwistStamped")
         simulation.step(PERIOD)
         simulation.call("/startBench")
-        try:
-            while True:
-                x, y, z = velocity(simulation.newest["/g500/odom"])
-                time.sleep(options.delay / 1000.0 * random.random())
-                twist = {"linear": {"x": x, "y": y, "z": z}}
-                simulation.send(op="publish", topic="/g500/twist", msg={"twist": twist})
-                simulation.step(PERIOD)
-        except ConnectionClosed:
-            print("The benchmark is over.")
+        while True:
+            if "/g500/odom" not in simulation.newest:
+                raise SystemExit("No odometry comes on /g500/odom.")
+            x, y, z = velocity(simulation.newest["/g500/odom"])
+            time.sleep(options.delay / 1000.0 * random.random())
+            twist = {"linear": {"x": x, "y": y, "z": z}}
+            simulation.send(op="publish", topic="/g500/twist", msg={"twist": twist})
+            simulation.step(PERIOD)
+    print("The simulation has ended.")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,12 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
-from websockets.exceptions import ConnectionClosed
+from websockets.exceptions import (
+    ConnectionClosed,
+    ConnectionClosedOK,
+    InvalidHandshake,
+    InvalidURI,
+)
 from websockets.sync.client import ClientConnection, connect
 
 JOIN, TICK, ACK = (f"/uwsim/lockstep/{name}" for name in ("join", "tick", "ack"))
@@ -82,7 +87,7 @@ class Client:
         self._send(op="advertise", topic=ACK, type=TEXT)
         self._send(op="subscribe", topic=TICK)
         self._say(JOIN, topics=list(self._callbacks), next=self._next())
-        with suppress(ConnectionClosed):
+        with suppress(ConnectionClosedOK):
             while True:
                 self._handle(self._receive())
 
@@ -96,10 +101,12 @@ class Client:
         elif frame["op"] == "publish":
             self._waiting.append((frame["topic"], frame["msg"]))
         elif frame["op"] == "status":
-            raise RuntimeError(frame["msg"])
+            raise SystemExit(f"{self._name}: {frame['msg']}")
 
     def _tick(self, tick: dict[str, Any]) -> None:
         """Do what is due: messages in their order, then timers; then let time go on."""
+        if "error" in tick:
+            raise SystemExit(f"{self._name}: {tick['error']}")
         self.now = tick["time"]
         while self._waiting:
             topic, message = self._waiting.pop(0)
@@ -133,15 +140,26 @@ def _due(timer: list[float]) -> float:
 
 @contextmanager
 def connected(uri: str, limit: float = 60.0) -> Iterator[ClientConnection]:
-    """Open a connection; tries again until the simulation listens, at most ``limit`` seconds."""
+    """Open a connection; tries again until the simulation listens, at most ``limit`` seconds.
+
+    The block ends when the simulation closes it. A program whose connection is lost otherwise, or
+    never comes, ends with one line and exit status 1.
+    """
     deadline = time.monotonic() + limit
     while True:
         try:
             opened = connect(uri, max_size=2**26, open_timeout=limit)
             break
-        except OSError:
+        except OSError as error:
             if time.monotonic() > deadline:
-                raise
+                raise SystemExit(f"{uri}: {error}") from None
             time.sleep(0.05)
+        except (InvalidHandshake, InvalidURI) as error:
+            raise SystemExit(f"{uri}: {error}") from None
     with opened as socket:
-        yield socket
+        try:
+            yield socket
+        except ConnectionClosedOK:
+            return
+        except ConnectionClosed as error:
+            raise SystemExit(f"{uri}: the connection was lost: {error}") from None

@@ -102,7 +102,10 @@ def main() -> None:
     parser.add_argument("--delay", type=float, default=0.0, help="longest random delay [ms]")
     given = parser.parse_args()
     module, _, name = given.algorithm.partition(":")
-    algorithm = getattr(importlib.import_module(module), name)
+    try:
+        algorithm = getattr(importlib.import_module(module), name)
+    except (ImportError, AttributeError, ValueError) as error:
+        parser.error(f"{given.algorithm}: expected module:Class: {error}")
 
     def dawdle() -> None:
         time.sleep(random.uniform(0.0, given.delay / 1000.0))

@@ -16,6 +16,7 @@ import math
 import sys
 from typing import Any
 
+from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
 ADD, DELETE, MESH = 0, 2, 10
@@ -62,11 +63,14 @@ def main() -> None:
     parser.add_argument("--uri", default="ws://127.0.0.1:9090")
     asked = parser.parse_args()
     call = {"op": "call_service", "id": "1", "service": "/SpawnMarker"}
-    with connect(asked.uri) as socket:
-        socket.send(json.dumps({**call, "args": {"marker": marker(asked)}}))
-        while (answer := json.loads(socket.recv())).get("op") != "service_response":
-            if answer.get("op") == "status":
-                sys.exit(answer["msg"])
+    try:
+        with connect(asked.uri) as socket:
+            socket.send(json.dumps({**call, "args": {"marker": marker(asked)}}))
+            while (answer := json.loads(socket.recv())).get("op") != "service_response":
+                if answer.get("op") == "status":
+                    sys.exit(answer["msg"])
+    except (OSError, WebSocketException) as error:
+        sys.exit(f"{asked.uri}: {error}")
     if not answer["result"]:
         sys.exit(str(answer["values"]))
     print(answer["values"]["status_message"])

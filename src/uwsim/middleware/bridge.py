@@ -22,8 +22,8 @@ Any thread of the transport may call:
 - ``offer(name, service)`` and ``withdraw(name)``: somebody outside offers a service to the bus. A
   call of it is handed to ``call_outside``, and the simulation waits for the response; calls that
   come in meanwhile are answered, so that the one asked may ask back.
-- ``tap(topic, receive)``: have the messages of a topic from outside at once, in the thread in which
-  they come, instead of at a step boundary (`uwsim.middleware.lockstep`).
+- ``tap(topic, receive)``: have the messages of a topic from outside at once, with who sent them, in
+  the thread in which they come, instead of at a step boundary (`uwsim.middleware.lockstep`).
 
 `step` is the boundary: call it at the end of each step (`Simulation.watch(bridge.step)`), and
 before the first. There it follows the bus, answers requests in their order, publishes what came
@@ -66,6 +66,8 @@ LATCHED = ("tf_static", "robot_description", "scene")
 DEPTH, LATCHED_DEPTH = 10, 100
 """Messages of a topic that ROS 2 keeps for a reader that is behind, or late."""
 CLOSED = "The simulation has ended."
+Tap = Callable[[object, str], None]
+"""Called with a message, and who sent it."""
 
 
 class Bridge(ABC):
@@ -97,7 +99,7 @@ class Bridge(ABC):
         self._offers: list[tuple[str, Service | None]] = []
         self._is_urgent = False  # something waits that is done also while the simulation waits
         self._woken = threading.Event()
-        self._taps: dict[str, list[Callable[[object], None]]] = {}
+        self._taps: dict[str, list[Tap]] = {}
         self._from_outside: set[str] = set()
         self.n_arrived: Counter[str] = Counter()
         """Messages that have come from outside so far, by topic."""
@@ -172,7 +174,7 @@ class Bridge(ABC):
             self._has_news = self._is_urgent = True
         self._woken.set()
 
-    def tap(self, topic: str, receive: Callable[[object], None]) -> None:
+    def tap(self, topic: str, receive: Tap) -> None:
         """Call ``receive`` with each message of a topic from outside, at once, in its thread.
 
         Those that wait already come first, in this thread.
@@ -181,8 +183,14 @@ class Bridge(ABC):
         with self._lock:
             waiting = self._incoming.pop(name, None)
             self._taps.setdefault(name, []).append(receive)
-        for message, _ in waiting.take() if waiting is not None else ():
-            receive(message)
+        for message, by in waiting.take() if waiting is not None else ():
+            receive(message, by)
+
+    def tell(self, by: str, text: str) -> None:  # noqa: B027 - not every transport can
+        """Tell a program outside what is wrong with what it sent, where there is a way. Any thread.
+
+        ``by`` is how its messages name it.
+        """
 
     def put(self, topic: str, message: object, by: str = "") -> None:
         """Take in a message from outside, for the next step boundary. Any thread.
@@ -201,7 +209,7 @@ class Bridge(ABC):
                 self.n_arrived[name] += 1
                 self._has_news = True
         for receive in taps:
-            receive(message)
+            receive(message, by)
         self._woken.set()
         if is_full:
             self.log.say(

@@ -168,3 +168,32 @@ def test_a_program_without_arguments_says_how_it_is_called(sea: Sea, program: st
     assert running.returncode != 0
     assert program in errors
     assert "Traceback" not in errors
+
+
+RUBBISH = {
+    "goto_pose.py": "absolute /odom /command 1 2 x 0 0 0",
+    "goto_position.py": "/odom /pose 1 2 nan",
+    "image_echo.py": "/camera 1.5",
+    "keep_station.py": "/odom /twist 1 2 deep",
+    "set_vehicle_pose.py": "/pose 1 2 3 0 0 inf",
+    "set_vehicle_position.py": "/command 1 2 3 0 0 east",
+    "set_vehicle_velocity.py": "/command 1 2 3 0 0 -",
+    "set_vehicle_twist.py": "/twist 1 2 3 0 0 ''",
+    "set_vehicle_actuators.py": "/thrusters 0.1 full",
+    "set_vehicle_disturbances.py": "/odom /command 1 2 3 0 0 1e999",
+    "make_vehicle_survey.py": "/command 1 2 3 0 0 x",
+    "set_joint_position.py": "/arm 1 2 3 0 open",
+    "set_joint_velocity.py": "/arm 1 2 3 0 fast",
+    "follow_marker.py": "/command 1 2 3 0 0 up",
+}
+
+
+@pytest.mark.parametrize("program", RUBBISH)
+def test_arguments_that_are_none_end_a_program_with_its_usage(sea: Sea, program: str) -> None:
+    words = RUBBISH[program].split()
+    running = sea.peers.start(program, *(word.strip("'") for word in words))
+    _, errors = running.communicate(timeout=LIMIT)
+    assert running.returncode in (1, 2)
+    assert "Traceback" not in errors
+    assert program in errors  # the usage
+    assert words[-1].strip("'") in errors or words[0] in errors

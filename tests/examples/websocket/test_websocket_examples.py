@@ -145,3 +145,127 @@ def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
             assert spawn("del", "0", "0", "0") == (1, "object 1 toys not found.\n")
         finally:
             bridge.close()
+
+
+SERVER = """
+import json, os, signal, sys
+from websockets.sync.server import serve
+
+def attend(socket):
+    n = 0
+    for text in socket:
+        asked = json.loads(text)
+        if asked["op"] == "subscribe" and asked["topic"] == "/g500/odom":
+            pose = {"position": {"x": 0, "y": 0, "z": 0}}
+            pose["orientation"] = {"x": 0, "y": 0, "z": 0, "w": 1}
+            odometry = {"pose": {"pose": pose}}
+            socket.send(json.dumps({"op": "publish", "topic": "/g500/odom", "msg": odometry}))
+        elif asked["op"] == "call_service":
+            n += 1
+            if n == 4:
+                os.kill(os.getpid(), signal.SIGKILL)
+            values = {"result": {"result": int(sys.argv[1]), "error_message": "not now"}}
+            answer = {"op": "service_response", "id": asked["id"], "values": values}
+            socket.send(json.dumps({**answer, "result": True}))
+
+with serve(attend, "127.0.0.1", 0) as server:
+    print(server.socket.getsockname()[1], flush=True)
+    server.serve_forever()
+"""
+"""Stands for a simulation that is killed; its argument is the result of each step."""
+
+
+def met_by(server_argument: str, *program: str) -> tuple[int, str, str]:
+    """Run a program with that server; returns its exit status and what it printed."""
+    words = [sys.executable, "-c", SERVER, server_argument]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            assert server.stdout is not None
+            uri = f"ws://127.0.0.1:{server.stdout.readline().strip()}"
+            done = subprocess.run(
+                [sys.executable, *program, "--uri", uri],
+                cwd=EXAMPLES,
+                text=True,
+                capture_output=True,
+                timeout=LIMIT,
+                check=False,
+            )
+        finally:
+            server.kill()
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_a_program_whose_simulation_is_killed_says_that_the_connection_was_lost() -> None:
+    status, printed, errors = met_by("1", "keep_station.py")
+    assert (status, printed) == (1, "")
+    assert "the connection was lost" in errors
+    assert "Traceback" not in errors
+
+
+def test_a_program_that_is_refused_a_step_says_why() -> None:
+    status, _, errors = met_by("3", "keep_station.py")
+    assert (status, errors) == (1, "/step_simulation: not now\n")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["spawn_marker.py", "add", "a", "1", "buoy.stl", *"123456"],
+        ["keep_station.py"],
+        ["run_algorithm.py", "uwsim.algorithms:P", "--name", "a"],
+    ],
+    ids=lambda words: str(words[0]),
+)
+def test_an_address_at_which_nothing_is_is_one_line(words: list[str]) -> None:
+    done = subprocess.run(
+        [sys.executable, *words, "--uri", "http://127.0.0.1"],
+        cwd=EXAMPLES,
+        text=True,
+        capture_output=True,
+        timeout=LIMIT,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith("http://127.0.0.1: ")
+    assert len(done.stderr.splitlines()) == 1
+
+
+LEAVES = """
+import json, sys
+from lockstep import connected, ACK, JOIN, TEXT, TICK
+with connected(sys.argv[2]) as socket:
+    def say(topic, **content):
+        text = json.dumps({"client": "outside", **content})
+        socket.send(json.dumps({"op": "publish", "topic": topic, "msg": {"data": text}}))
+    for topic in (JOIN, ACK):
+        socket.send(json.dumps({"op": "advertise", "topic": topic, "type": TEXT}))
+    socket.send(json.dumps({"op": "subscribe", "topic": TICK}))
+    say(JOIN, topics=[], next=ANSWER)
+    while json.loads(socket.recv()).get("op") != "publish":
+        pass
+    say(ACK, tick=1, next=ANSWER)
+    socket.recv()
+"""
+"""Joins, answers the first tick and leaves."""
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        ("0.0", "'outside' left at 0.002 s: the run is invalid."),
+        ("'0.0'", 'its join was refused: next is "0.0"; expected a time >= 0 [s]'),
+    ],
+)
+def test_a_run_whose_client_leaves_or_is_wrong_says_what_is_kept(
+    tmp_path: Path, answer: str, said: str
+) -> None:
+    program = tmp_path / "leaves.py"
+    folder = f"import sys; sys.path.insert(0, {str(EXAMPLES)!r})\n"
+    program.write_text(folder + LEAVES.replace("ANSWER", answer))
+    benchmark = short_benchmark(tmp_path)
+    words = ("--client-limit", "5")
+    _, errors = scored_outside(benchmark, tmp_path / "out", [str(program)], *words)
+    assert said in errors
+    assert "Traceback" not in errors
+    kept = "Finished rows are kept; continue with --resume." in errors
+    assert kept == ("left" in said)

@@ -32,6 +32,8 @@ class Outside(Bridge):
         super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", self.lines.append))
         self.answer = answer
         self.ticks: list[dict[str, Any]] = []
+        self.errors: list[str] = []
+        self.told: list[tuple[str, str]] = []
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         pass
@@ -41,11 +43,18 @@ class Outside(Bridge):
 
     def send(self, topic: str, message: object) -> None:
         if topic == TICK and isinstance(message, String):
-            self.ticks.append(json.loads(message.data))
-            self.answer(self, self.ticks[-1])
+            said = json.loads(message.data)
+            if "error" in said:
+                self.errors.append(said["error"])
+                return
+            self.ticks.append(said)
+            self.answer(self, said)
 
-    def says(self, topic: str, **content: Any) -> None:
-        self.put(topic, String(data=json.dumps(content)))
+    def says(self, topic: str, *, by: str = "", **content: Any) -> None:
+        self.put(topic, String(data=json.dumps(content)), by)
+
+    def tell(self, by: str, text: str) -> None:
+        self.told.append((by, text))
 
 
 def echoes(outside: Outside, tick: dict[str, Any]) -> None:
@@ -293,6 +302,140 @@ def test_a_client_that_answers_itself_without_end_is_stopped() -> None:
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match="without end"):
         step(bus, nodes)
+
+
+TIME = "expected a time >= 0 [s], or null for none"
+NAMES = "expected a list of at most 1000 names"
+JOINS: dict[str, tuple[dict[str, Any], str]] = {
+    "no topics": ({"topics": None}, f"topics is null; {NAMES}"),
+    "one topic": ({"topics": "/odom"}, f'topics is "/odom"; {NAMES}'),
+    "numbers": ({"topics": [1]}, f"topics is [1]; {NAMES}"),
+    "a text": ({"next": "soon"}, f'next is "soon"; {TIME}'),
+    "negative": ({"next": -0.1}, f"next is -0.1; {TIME}"),
+    "no number": ({"next": float("nan")}, f"next is NaN; {TIME}"),
+    "a boolean": ({"next": True}, f"next is true; {TIME}"),
+    "a list": (
+        {"publishes": ["/cmd"]},
+        'publishes is ["/cmd"]; expected an object with a type for each name',
+    ),
+    "no type": (
+        {"publishes": {"/cmd": "geometry_msgs/Twyst"}},
+        "publishes, \"/cmd\": No message type is called 'geometry_msgs/Twyst'.",
+    ),
+    "another type": (
+        {"publishes": {"/answer": "std_msgs/Bool"}},
+        'publishes, "/answer" is "std_msgs/Bool"; expected std_msgs/msg/Float64',
+    ),
+    "no service": ({"services": {"/x": "a/b"}}, 'services, "/x": No service type is called'),
+}
+
+
+@pytest.mark.parametrize("case", JOINS)
+def test_a_join_that_is_wrong_is_refused_with_the_field_and_the_client_told(case: str) -> None:
+    bus = Bus()
+    bus.inbox("answer", Float64)
+    outside = Outside(bus, echoes)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    wrong, said = JOINS[case]
+    outside.says(JOIN, client="a", **{"topics": ["/depth"], **wrong}, by="who")
+    outside.says(JOIN, client="a", topics=["/depth"])
+    nodes = [node_of(bus, client)]
+    assert said in outside.errors[0]
+    assert outside.errors[0].startswith("its join was refused: ")
+    assert outside.told == [("who", f"client 'a': {outside.errors[0]}")]
+    assert outside.lines == [f"uwsim: test: client 'a' (who): {outside.errors[0]}"]
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert len(outside.ticks) == 1
+
+
+def test_a_run_whose_client_does_not_join_rightly_says_what_was_wrong() -> None:
+    bus = Bus()
+    outside = Outside(bus, is_silent)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=0.05)
+    outside.says(JOIN, client="a")
+    with pytest.raises(NeverStarted, match="its join was refused: topics is missing; expected a l"):
+        node_of(bus, client)
+
+
+ANSWERS: dict[str, tuple[dict[str, Any], str]] = {
+    "no tick": ({"tick": None}, "tick is null; expected the whole number of the tick"),
+    "a text": ({"tick": "1"}, 'tick is "1"; expected the whole number of the tick'),
+    "a boolean": ({"tick": True}, "tick is true; expected the whole number of the tick"),
+    "a next": ({"next": "0.1"}, f'next is "0.1"; {TIME}'),
+    "a past": ({"next": -1}, f"next is -1; {TIME}"),
+    "a large next": ({"next": [10**400]}, "next is [1000"),
+    "counts": (
+        {"published": {"/cmd": 1.5}},
+        'published is {"/cmd": 1.5}; expected an object with a whole number >= 0 for each topic',
+    ),
+    "calls": ({"calls": "startBench"}, f'calls is "startBench"; {NAMES}'),
+}
+
+
+@pytest.mark.parametrize("case", ANSWERS)
+def test_an_answer_that_is_wrong_ends_the_run_at_once_and_the_client_is_told(case: str) -> None:
+    bus = Bus()
+    wrong, said = ANSWERS[case]
+
+    def answer(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", **{"tick": tick["tick"], **wrong})
+
+    outside = Outside(bus, answer)
+    nodes = started(bus, outside, "a")
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    with pytest.raises(ClientLost) as raised:
+        step(bus, nodes)
+    assert f"Client 'a': at 0.1 s its answer was refused: {said}" in str(raised.value)
+    assert outside.errors[0].startswith(f"its answer was refused: {said}")
+
+
+def test_an_answer_to_a_call_that_is_wrong_ends_the_run() -> None:
+    bus = Bus()
+
+    def answer(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", call=tick["call"], values=[1])
+
+    outside = Outside(bus, answer)
+    started(bus, outside, "a", services={"/init": "underwater_sensor_msgs/srv/GTpublish"})
+    with pytest.raises(
+        ClientLost, match=r"call of /init was refused: values is \[1\]; expected an"
+    ):
+        bus.services.call("init", GTpublish(groundTruth=np.zeros(8, np.float32)))
+
+
+def test_a_wish_may_lie_beyond_all_times() -> None:
+    bus = Bus()
+
+    def answer(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", tick=tick["tick"], next=float("inf"))
+
+    outside = Outside(bus, answer)
+    nodes = started(bus, outside, "a", next=10**400)
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    for _ in range(3):
+        step(bus, nodes)
+    assert len(outside.ticks) == 1
+
+
+def test_another_program_of_the_same_name_is_told_and_changes_nothing() -> None:
+    bus = Bus()
+
+    def answer(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(JOIN, client="a", topics=["/depth"], by="second")
+        outside.says(ACK, client="a", tick=99, by="second")
+        outside.says(JOIN, client="a", left=True, by="second")
+        outside.says(ACK, client="a", tick=tick["tick"], by="first")
+
+    outside = Outside(bus, answer)
+    nodes = started(bus, outside, "a", by="first")
+    for _ in range(2):
+        bus.publisher("depth", Float64)(Float64(data=1.0))
+        step(bus, nodes)
+    assert len(outside.ticks) == 2
+    said = "client 'a' is first already; second is not heard"
+    assert outside.told == 4 * [("second", said)]
+    assert f"uwsim: test: {said}" in outside.lines
 
 
 def test_a_client_that_does_not_join_is_one_line() -> None:

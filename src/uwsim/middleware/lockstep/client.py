@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import math
 import secrets
+import sys
+import time
 from collections import Counter, deque
 from collections.abc import Sequence
 from functools import partial
@@ -18,6 +20,7 @@ from ..bridge import Bridge
 from ..json_encoding import from_json, to_json
 from ..stamps import inward, outward
 from ..types import message_class, service
+from .contract import given, names, wrong_in_answer, wrong_in_join, wrong_in_reply
 from .topics import ACK, JOIN, TICK
 
 MAX_ROUNDS = 1000
@@ -36,7 +39,9 @@ class LockStepClient:
 
     def __init__(self, bridge: Bridge, name: str, *, timestep: float, limit: float) -> None:
         self._bridge, self._name, self._timestep, self._limit = bridge, name, timestep, limit
-        self._joins: deque[dict[str, Any]] = deque()
+        self._joins: deque[tuple[dict[str, Any], str]] = deque()
+        self._by = ""  # who has joined, where the transport can tell
+        self._takes_part = False
         self._acks: deque[dict[str, Any]] = deque()
         self._replies: dict[int, dict[str, Any]] = {}
         self._sent: Counter[str] = Counter()
@@ -63,29 +68,53 @@ class LockStepClient:
         if bridge.invites:
             invitation = {"client": self._name, "tick": 0, "run": self._run}
             bridge.send(TICK, String(data=json.dumps(invitation)))
-        if not bridge.wait_for(lambda: bool(self._joins), self._limit):
-            raise NeverStarted(
-                f"No client {self._name!r} has joined within {self._limit:g} s of wall time "
-                "(--client-limit)."
-            )
-        joined = self._joins.popleft()
+        joined = self._joined()
         self._wish(joined)
         self._connect(joined)
         node.every(self._timestep, self._barrier)
 
+    def _joined(self) -> dict[str, Any]:
+        """Wait for a join that is as it should be; others are refused.
+
+        Raises:
+            NeverStarted: there was none within the limit.
+        """
+        end, wrong = time.monotonic() + self._limit, None
+        while self._bridge.wait_for(lambda: bool(self._joins), end - time.monotonic()):
+            said, by = self._joins.popleft()
+            if said.get("left"):
+                continue
+            wrong = wrong_in_join(said, self._bridge.bus)
+            if wrong is None:
+                self._by = by
+                return said
+            self._refuse("join", wrong, by)
+        raise NeverStarted(
+            f"No client {self._name!r} has joined within {self._limit:g} s of wall time "
+            f"(--client-limit){f'; its join was refused: {wrong}' if wrong else ''}."
+        )
+
+    def _refuse(self, what: str, wrong: str, by: str) -> None:
+        """Tell the client, and the log, that what it said is not heard."""
+        text = f"its {what} was refused: {wrong}"
+        self._bridge.log.say(f"client {self._name!r}{f' ({by})' if by else ''}: {text}")
+        who = {"client": self._name, "run": self._run}
+        self._bridge.send(TICK, String(data=json.dumps({**who, "error": text})))
+        self._bridge.tell(by, f"client {self._name!r}: {text}")
+
     def _connect(self, joined: dict[str, Any]) -> None:
         """Subscribe for the client, and read what it will publish."""
-        bridge, topics = self._bridge, _texts(joined.get("topics"))
-        publishes = _object(joined.get("publishes"))
+        bridge, topics = self._bridge, names(joined, "topics")
+        publishes = given(joined, "publishes")
         for topic, kind in publishes.items():
             bridge.read_all(topic)
-            bridge.bus.subscribe(topic, message_class(str(kind)), _nothing)
-        for name, kind in _object(joined.get("services")).items():
-            of = service(str(kind))
+            bridge.bus.subscribe(topic, message_class(kind), _nothing)
+        for name, kind in given(joined, "services").items():
+            of = service(kind)
             self._node.serve(name, of.request, partial(self._ask, name, of))
         bridge.step()
         # what the client publishes itself it has from itself
-        own = {topic.lstrip("/") for topic in (*publishes, *_texts(joined.get("own")))}
+        own = {topic.lstrip("/") for topic in (*publishes, *names(joined, "own"))}
         read = [topic.lstrip("/") for topic in topics]
         met = [TICK, *(topic for topic in read if topic not in own and self._is_sent(topic))]
         if not bridge.wait_for(
@@ -107,15 +136,27 @@ class LockStepClient:
         """Those of the client are its own."""
         return {}
 
-    def hear(self, topic: str, content: dict[str, Any]) -> None:
-        """Take in what the client says on one of the topics of lock-step. Any thread."""
+    def hear(self, topic: str, content: dict[str, Any], by: str) -> None:
+        """Take in what the client says on one of the topics of lock-step. Any thread.
+
+        ``by`` is who says it, where the transport can tell: another program of the same name is
+        not heard.
+        """
         if content.get("run", self._run) != self._run:
             return  # to a simulation before this one
-        if topic == ACK and "call" in content:
-            if content["call"] == self._n_calls:
+        if by and self._by and by != self._by:
+            if not content.get("left"):
+                text = f"client {self._name!r} is {self._by} already; {by} is not heard"
+                self._bridge.log.say(text)
+                self._bridge.tell(by, text)
+        elif topic == JOIN:
+            if not self._takes_part or content.get("left"):
+                self._joins.append((content, by))
+        elif "call" in content:
+            if content["call"] == self._n_calls or wrong_in_reply(content):
                 self._replies[self._n_calls] = content
         else:
-            (self._joins if topic == JOIN else self._acks).append(content)
+            self._acks.append(content)
 
     def _counter(self, topic: str) -> Any:
         def count(message: object) -> None:
@@ -151,13 +192,14 @@ class LockStepClient:
                 "is invalid."
             )
         answer = self._acks.popleft()
+        self._takes_part = True
         self._wish(answer)
         self._call(answer)
         bridge.step()
 
     def _call(self, answer: dict[str, Any]) -> None:
         """Call the services of std_srvs/Empty that an answer names."""
-        for name in _texts(answer.get("calls")):
+        for name in names(answer, "calls"):
             if self._bridge.bus.services.serves(name):
                 self._node.call(name, Empty())
             else:
@@ -181,6 +223,7 @@ class LockStepClient:
                 f"{self._limit:g} s of wall time (--client-limit): the run is invalid."
             )
         answer = self._replies.pop(number)
+        self._check(wrong_in_reply(answer), f"answer to the call of {name}")
         self._call(answer)
         try:
             response: object = inward(from_json(of.response, answer.get("values") or {}))
@@ -191,14 +234,17 @@ class LockStepClient:
     def _wish(self, said: dict[str, Any]) -> None:
         """Take note of when the client wants its next tick at the latest."""
         wish = said.get("next")
-        if isinstance(wish, int | float) and not isinstance(wish, bool):
-            self._next_time = float(wish)
+        if wish is not None:
+            self._next_time = min(wish, sys.float_info.max)
 
     def _is_answered(self, number: int) -> bool:
         """Whether the ack of a tick is there, and all that it announces."""
-        while self._acks and self._acks[0].get("tick") != number:
-            self._other = self._acks.popleft().get("tick")  # an earlier one, or none
-        for gone in self._joins:
+        while self._acks:
+            self._check(wrong_in_answer(self._acks[0]), "answer")
+            if self._acks[0]["tick"] == number:
+                break
+            self._other = self._acks.popleft()["tick"]  # an earlier one
+        for gone, _ in self._joins:
             if gone.get("left"):
                 now = self._node.now
                 raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")
@@ -206,10 +252,19 @@ class LockStepClient:
             return False
         return self._has_arrived(self._acks[0])
 
+    def _check(self, wrong: str | None, what: str) -> None:
+        """Refuse an answer in which something is wrong; raises ClientLost."""
+        if wrong is not None:
+            self._refuse(what, wrong, self._by)
+            raise ClientLost(
+                f"Client {self._name!r}: at {self._node.now:g} s its {what} was refused: {wrong}: "
+                "the run is invalid."
+            )
+
     def _instead(self, number: int) -> str:
         """Say what came in the place of the answer to a tick."""
         if self._acks:
-            said = _object(self._acks[0].get("published"))
+            said = given(self._acks[0], "published")
             late = [
                 f"{n} messages on {topic}, of which {self._bridge.n_arrived[topic.lstrip('/')]} "
                 "have come"
@@ -223,14 +278,17 @@ class LockStepClient:
 
     def _is_replied(self, number: int) -> bool:
         """Whether the answer to a call is there, and all that it announces."""
-        return number in self._replies and self._has_arrived(self._replies[number])
+        if number not in self._replies:
+            return False
+        return bool(wrong_in_reply(self._replies[number])) or self._has_arrived(
+            self._replies[number]
+        )
 
     def _has_arrived(self, answer: dict[str, Any]) -> bool:
         """Whether all messages that an answer announces are there."""
         return all(
             self._bridge.n_arrived[topic.lstrip("/")] >= n
-            for topic, n in _object(answer.get("published")).items()
-            if isinstance(n, int)
+            for topic, n in given(answer, "published").items()
         )
 
 
@@ -256,15 +314,18 @@ def lockstep_clients(
         name: LockStepClient(bridge, name, timestep=timestep, limit=limit) for name in ordered
     }
 
-    def hear(topic: str, message: object) -> None:
+    def hear(topic: str, message: object, by: str) -> None:
         content = _object_in(message)
         client = clients.get(str(content.get("client")))
         if client is not None:
-            client.hear(topic, content)
-        elif "client" not in content:
-            bridge.log.say(f"/{topic}: a message is no JSON object with a 'client'")
+            client.hear(topic, content, by)
+            return
+        if "client" not in content:
+            wrong = f"/{topic}: a message is no JSON object with a 'client'"
         else:
-            bridge.log.say(f"/{topic}: no client of this run: {str(content.get('client'))[:100]!r}")
+            wrong = f"/{topic}: no client of this run: {str(content.get('client'))[:100]!r}"
+        bridge.log.say(wrong)
+        bridge.tell(by, wrong)
 
     for topic in (JOIN, ACK):
         bridge.read_all(topic)
@@ -283,13 +344,4 @@ def _object_in(message: object) -> dict[str, Any]:
         found = json.loads(message.data) if isinstance(message, String) else None
     except (ValueError, RecursionError):
         return {}
-    return _object(found)
-
-
-def _object(value: object) -> dict[str, Any]:
-    return value if isinstance(value, dict) else {}
-
-
-def _texts(value: object) -> list[str]:
-    found = value if isinstance(value, list) else []
-    return list(dict.fromkeys(each for each in found if isinstance(each, str)))
+    return found if isinstance(found, dict) else {}

@@ -134,6 +134,12 @@ class WebBridge(Bridge):
         """Whether a client has advertised ``topic``."""
         return any(session.advertises(topic) for session in tuple(self._sessions))
 
+    def tell(self, by: str, text: str) -> None:
+        """Send a client a status."""
+        for session in tuple(self._sessions):
+            if session.name == by:
+                session.reply({"op": "status", "level": "error", "msg": text})
+
     def call_outside(self, name: str, request: object) -> Future[object]:
         """Call a service of a client."""
         session = self._offerers.get(name)

@@ -107,6 +107,11 @@ class Session:
                 kind=f"{self._name} is slow",
             )
 
+    @property
+    def name(self) -> str:
+        """Its name in the log."""
+        return self._name
+
     def reply(self, content: dict[str, Any]) -> None:
         """Send an object, behind what waits already. Any thread."""
         text = json.dumps({key: value for key, value in content.items() if value is not None})
@@ -155,7 +160,7 @@ class Session:
                 future.set_exception(UwsimError(f"{self._name} has left."))
         if self._joined_as is not None:
             left = {"client": self._joined_as, "left": True}
-            self._bridge.put(JOIN, String(data=json.dumps(left)))
+            self._bridge.put(JOIN, String(data=json.dumps(left)), self._name)
 
     def _wake(self) -> None:
         with suppress(RuntimeError):  # the server has ended

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from ...errors import RUN_ERRORS, RunFailed, UwsimError
+from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimError
 from ...interrupts import is_of_user, raise_if_interrupted
 from ...results.journal import path_of
 from ...results.result import Result
@@ -27,6 +27,8 @@ from ..trial.onlooker import Onlooker
 from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]
+KEPT = "Finished rows are kept; continue with --resume."
+"""What to do about a run that has failed."""
 MAX_RETRIES = 3
 """How often a trial is repeated after it has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
@@ -132,10 +134,7 @@ class JobQueue:
         times = self._losses[job]
         self.failed(
             job,
-            RunFailed(
-                f"{job} lost its worker {times} times, the last time {why}. "
-                "Finished rows are kept; continue with --resume."
-            ),
+            RunFailed(f"{job} lost its worker {times} times, the last time {why}. {KEPT}"),
         )
 
     def stopped(self, job: Job, cut: Cut) -> None:
@@ -147,7 +146,12 @@ class JobQueue:
     def failed(self, job: Job, error: Exception) -> None:
         """It failed."""
         if all(run is not job.run for run, _ in self.failures):
-            self.failures.append((job.run, found_by_running(error)))
+            found = found_by_running(error)
+            if isinstance(found, ClientLost) or (
+                isinstance(found, NeverStarted) and job.run.n_finished() > 0
+            ):
+                found = type(found)(f"{found} {KEPT}")
+            self.failures.append((job.run, found))
         self._waiting = deque(other for other in self._waiting if other.run is not job.run)
 
 
