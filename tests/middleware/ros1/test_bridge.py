@@ -240,3 +240,21 @@ def test_a_late_node_gets_the_newest_message_of_a_latched_topic(graph: Graph) ->
     heard = heard_by(other, "scene", MarkerArray)
     until(lambda: heard, graph.step)
     assert [each.ns for each in heard[-1].markers] == ["second"]
+
+
+def test_a_topic_whose_name_is_none_of_ros_is_told_and_the_others_are_there(graph: Graph) -> None:
+    sim, other = graph.node(), graph.node("/other")
+    for name in ("a b", "tiefe-µ", "two//slashes"):
+        sim.bus.publisher(name, Float64)
+        sim.bus.subscribe(f"{name}/command", Float64, print)
+    publish = sim.bus.publisher("zz", Float64)
+    found = heard_by(other, "zz", Float64)
+    graph.ready()
+    graph.connected("/zz")
+    publish(Float64(data=1.0))
+    until(lambda: found, graph.step)
+    told = [line for line in graph.printed if "not on the graph" in line]
+    assert len(told) == 6
+    assert "uwsim: test: not on the graph: /a b: " in told[0]
+    assert "parameter [topic] contains illegal chars" in told[0]
+    assert not any("tried again" in line for line in graph.printed)

@@ -180,3 +180,69 @@ def test_what_is_no_answer_of_ros_is_one_clean_error(printed: list[str]) -> None
     server.close()
     with pytest.raises(PeerError, match="does not answer"):
         call(uri, "getUri", "/x")
+
+
+WRONG: dict[str, tuple[str, tuple[Any, ...], str, object]] = {
+    "no caller": ("getPid", (), "missing required caller_id parameter", -1),
+    "a number for a caller": ("getPid", (5,), "caller_id must be a string", -1),
+    "too few": ("registerPublisher", ("/x", "/odom"), "wrong number of arguments (2); expec", []),
+    "too many": ("getUri", ("/x", 1), "wrong number of arguments (2); expected caller_id", ""),
+    "a number for a topic": (
+        "registerSubscriber",
+        ("/x", 5, "*", NODE),
+        "parameter [topic] must be a non-empty string",
+        [],
+    ),
+    "a space": (
+        "registerPublisher",
+        ("/x", "/a b", "*", NODE),
+        "parameter [topic] contains illegal chars",
+        [],
+    ),
+    "no topic": (
+        "unregisterPublisher",
+        ("/x", "/", NODE),
+        "parameter [topic] cannot be the global namespace",
+        0,
+    ),
+    "a type": (
+        "registerPublisher",
+        ("/x", "/a", "Odometry", NODE),
+        "parameter [topic_type] is not a valid package resource name",
+        [],
+    ),
+    "an address": (
+        "registerService",
+        ("/x", "/a", "rosrpc://127.0.0.1:1", "here"),
+        "parameter [caller_api] is not an RPC URI",
+        0,
+    ),
+    "a list for a key": ("getParam", ("/x", []), "parameter [key] must be a non-empty string", 0),
+    "no value": ("setParam", ("/x", "/a", None), "parameter [value] must be specified", 0),
+    "an object": (
+        "lookupNode",
+        ("/x", {"a": 1}),
+        "parameter [node] must be a non-empty string",
+        "",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_wrong_call_is_answered_with_a_code_and_what_was_expected(
+    master: Master, case: str
+) -> None:
+    method, arguments, said, value = WRONG[case]
+    with xmlrpc.client.ServerProxy(master.uri, allow_none=True) as proxy:
+        code, text, found = getattr(proxy, method)(*arguments)
+    assert (code, found) == (-1, value)
+    assert text.startswith(said)
+
+
+def test_a_method_that_is_none_is_a_fault_that_names_it(master: Master) -> None:
+    with xmlrpc.client.ServerProxy(master.uri) as proxy:
+        with pytest.raises(xmlrpc.client.Fault, match="method 'registerAll' is not supported"):
+            proxy.registerAll("/x")
+        with pytest.raises(xmlrpc.client.Fault) as raised:
+            proxy.registerAll("/x")
+    assert "class" not in raised.value.faultString

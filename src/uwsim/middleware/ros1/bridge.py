@@ -26,6 +26,7 @@ from ..log import Log
 from ..stamps import clock_time
 from ..types import WireService, message_class, service_of, wire_service, wire_type
 from . import services as tcp_services
+from .arguments import NODE_METHODS, checked
 from .listener import HEADER_TIMEOUT, Listener, Serve
 from .publication import Publication
 from .registrar import POLL, Registrar, Wanted
@@ -92,7 +93,10 @@ class Ros1Bridge(Bridge):
             self._listener = Listener(host, self.log, self._choose, header_timeout=waits.header)
         except OSError as error:
             raise BadSetting(f"ROS 1 cannot listen on {host}: {error.strerror or error}") from None
-        methods = {name: getattr(self, f"_{name}") for name in SLAVE_METHODS}
+        methods = {
+            name: checked(method, getattr(self, f"_{name}"))
+            for name, method in NODE_METHODS.items()
+        }
         self._server = XmlRpcServer(host, 0, methods, self.log, "node")
         self.uri = f"http://{host}:{self._server.port}/"
         """Address of the node's own XML-RPC server."""
@@ -318,13 +322,6 @@ class Ros1Bridge(Bridge):
         self.log.say(f"{caller[:100]} asks this node to leave the graph: {why[:200]}")
         self._registrar.give_up()
         return [1, "", 0]
-
-
-SLAVE_METHODS = (
-    *("publisherUpdate", "requestTopic", "getBusStats", "getBusInfo", "getMasterUri", "getPid"),
-    *("getSubscriptions", "getPublications", "paramUpdate", "shutdown", "getArrived"),
-)
-"""Methods that every node of ROS 1 serves, and one more."""
 
 
 def _topics_to_read(topics: Mapping[str, TopicEnds]) -> set[str]:

@@ -14,6 +14,7 @@ from contextlib import suppress
 from typing import Any
 
 from ..log import Log
+from .arguments import MASTER_METHODS, PARAMETER_METHODS, checked
 from .parameters import Parameters, resolve
 from .tcpros import PeerError
 from .xmlrpc import Answer, XmlRpcServer, call
@@ -43,8 +44,13 @@ class Master:
         self._types: dict[str, str] = {}
         self._parameters = Parameters()
         self._updates = ThreadPoolExecutor(4, thread_name_prefix="ros1-master")
-        methods = {name: getattr(self, f"_{_snake(name)}") for name in METHODS}
-        methods |= {name: self._guarded(name) for name in PARAMETER_METHODS}
+        methods = {
+            name: checked(method, getattr(self, f"_{_snake(name)}"))
+            for name, method in MASTER_METHODS.items()
+        }
+        methods |= {
+            name: checked(method, self._guarded(name)) for name, method in PARAMETER_METHODS.items()
+        }
         self._server = XmlRpcServer(host, port, methods, log, "master")
         self.uri = f"http://{host}:{self._server.port}/"
         """Its address, as ``ROS_MASTER_URI``."""
@@ -190,17 +196,6 @@ class Master:
 
         with suppress(RuntimeError):  # closed
             self._updates.submit(run)
-
-
-METHODS = (
-    *("registerPublisher", "unregisterPublisher", "registerSubscriber", "unregisterSubscriber"),
-    *("registerService", "unregisterService", "lookupService", "lookupNode"),
-    *("getPublishedTopics", "getTopicTypes", "getSystemState", "getUri", "getPid"),
-)
-PARAMETER_METHODS = (
-    *("setParam", "getParam", "deleteParam", "hasParam", "searchParam", "getParamNames"),
-    *("subscribeParam", "unsubscribeParam"),
-)
 
 
 def _snake(name: str) -> str:

@@ -159,13 +159,17 @@ class Registrar:
             self._settled.notify_all()
 
     def _register(self, item: tuple[str, str, str]) -> None:
+        """Register one; where the master refuses it, the others are registered all the same."""
         kind, name, value = item
-        if kind == "publishers":
-            self.call("registerPublisher", name, value, self._uri)
-        elif kind == "subscribers":
-            self._subscribe(name, value)
-        else:
-            self.call("registerService", name, value, self._uri)
+        try:
+            if kind == "publishers":
+                self.call("registerPublisher", name, value, self._uri)
+            elif kind == "subscribers":
+                self._subscribe(name, value)
+            else:
+                self.call("registerService", name, value, self._uri)
+        except Refused as error:
+            self._log.say(f"not on the graph: {name}: {error}")
         with self._lock:
             self._registered.add(item)
 
@@ -180,12 +184,13 @@ class Registrar:
 
     def _unregister(self, item: tuple[str, str, str]) -> None:
         kind, name, value = item
-        if kind == "publishers":
-            self.call("unregisterPublisher", name, self._uri)
-        elif kind == "subscribers":
-            self.call("unregisterSubscriber", name, self._uri)
-        else:
-            self.call("unregisterService", name, value)
+        with suppress(Refused):  # as when it was registered
+            if kind == "publishers":
+                self.call("unregisterPublisher", name, self._uri)
+            elif kind == "subscribers":
+                self.call("unregisterSubscriber", name, self._uri)
+            else:
+                self.call("unregisterService", name, value)
         with self._lock:
             self._registered.discard(item)
 
