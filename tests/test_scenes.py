@@ -14,6 +14,7 @@ from uwsim.assets.bundled import bundled
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.sonar.message import amplitudes
 from uwsim.simulation import Simulation
+from uwsim.simulation.views import viewer_view
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 SCENES = bundled("scenes")
@@ -80,3 +81,23 @@ def test_the_side_scan_of_the_survey_hears_no_echo_of_its_vehicle() -> None:
 def test_each_topic_of_an_original_scene_for_ten_seconds(name: str) -> None:
     [path] = Path(ORIGINALS or "").rglob(f"{name}.xml")
     assert_sound(run_scene(path, 10.0))
+
+
+@pytest.mark.parametrize("shape", [(640, 360), (640, 480)])
+@pytest.mark.parametrize("name", sorted(SCENES))
+def test_the_first_view_of_a_bundled_scene_has_the_whole_vehicle_and_what_it_is_about(
+    name: str, shape: tuple[int, int]
+) -> None:
+    with Simulation(read_scene(SCENES[name]), is_blind=True) as simulation:
+        world = simulation.world
+        camera = world.scene.camera
+        assert camera is not None
+        view = viewer_view(simulation, camera, shape)
+        camera_from_world = view.world_from_camera.inverse()
+        shown = [part for part in world.scenery.parts if part.vehicle == 0]
+        shown += [part for part in world.scenery.parts if part.name == "blackbox"]
+        for part in shown:
+            corners = camera_from_world.transform(world.scenery.corners(part))
+            places = view.intrinsics.project(corners)
+            assert (places > 0.0).all(), part.name
+            assert (places < np.array(shape)).all(), part.name

@@ -14,7 +14,7 @@ from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob, packed
 
 pytestmark = pytest.mark.slow
-EVIL = """a "quoted" <b onclick='x()'>name</b> </script><script>window.evil = 1</script> ${x} \u202e日本 🐟"""
+EVIL = """a "quoted" <b onclick='x()'>name</b> </script><script>evil = 1</script> \u202e日本 🐟"""
 LONG = "a-benchmark-with-a-long-name, package.module:AlgorithmOfALongName, seed 123456"
 SIZES = ((1920, 1080), (1024, 768), (1000, 700), (800, 600), (390, 800))
 TWO_FRAMES = """() => new Promise(done =>
@@ -58,5 +58,7 @@ def test_nothing_is_cut_off(tab: Any, tmp_path: Path, name: str) -> None:
         assert tab.evaluate(CUT_OFF) == [], (width, height)
         assert tab.evaluate("document.documentElement.scrollWidth") <= width
     assert tab.evaluate("window.evil") is None
+    wide, narrow = (tab.evaluate(f"uwsim.page.views.sight({w}, 600).lens") for w in (800, 200))
+    assert narrow["fx"] / narrow["width"] == pytest.approx(wide["fx"] / wide["width"])
     assert tab.title() == " ".join(name.split())
     assert tab.locator("#title").inner_text() == name

@@ -18,6 +18,7 @@ from tests.short_benchmark import run, write_benchmark
 from tests.simulation.test_lamp import LAMP, night
 from uwsim.cli import main
 from uwsim.results.journal import recorded_trials, track_path
+from uwsim.simulation.views import focus_of
 from uwsim.tracks import Signal
 from uwsim.viewer.film.curves import chosen
 from uwsim.viewer.film.film import Film, FilmSpec, record
@@ -115,6 +116,16 @@ def test_a_measure_alone_is_drawn_with_the_further_columns_of_its_log() -> None:
     assert [one.measure for one in chosen(alone, ("a.y", "a"))] == ["a.y", "a"]
 
 
+def test_what_is_written_and_curves_hide_nothing_that_matters(trial: RecordedTrial) -> None:
+    film = Film(trial, FilmSpec(size=(480, 360), curves=("corners",), inset=False))
+    simulation, pose = film._puppets.simulation, film._path.pose(film.start)
+    corners = pose.inverse().transform(focus_of(simulation).corners)
+    rows = film._path.intrinsics.project(corners)[:, 1]
+    assert rows.min() > 0.04 * 360  # below the title
+    assert rows.max() < 0.88 * 360  # above the curve
+    film.close()
+
+
 def test_bodies_are_put_where_they_were_and_cameras_go_with_them(trial: RecordedTrial) -> None:
     number = trial.track.bodies.index("girona500/base_link")
     poses = trial.track.poses.copy()
@@ -171,12 +182,12 @@ def test_every_view_shows_something(trial: RecordedTrial, view: str) -> None:
 def test_a_smooth_view_is_the_mean_of_a_larger_one(trial: RecordedTrial) -> None:
     plain = {"inset": False, "has_curves": False, "view": "fixed"}
     frames = []
-    for size, samples in (((160, 160), 2), ((320, 320), 1)):
+    for size, samples in (((160, 496), 2), ((320, 992), 1)):  # letters of 11 and 22 pixels
         film = Film(trial, FilmSpec(size=size, samples=samples, **plain))  # type: ignore[arg-type]
         frames.append(film.draw(0.5).astype(float))
         film.close()
-    means = frames[1].reshape(160, 2, 160, 2, 3).mean(axis=(1, 3))
-    rows = slice(40, 150)  # without what is written over it
+    means = frames[1].reshape(496, 2, 160, 2, 3).mean(axis=(1, 3))
+    rows = slice(40, 480)  # without what is written over it
     off = np.abs(frames[0][rows] - means[rows]).max(axis=2)
     assert (off > 1.0).mean() < 0.01  # pixels at edges
 

@@ -23,6 +23,8 @@ from .puppets import Puppets, scene_of
 
 MARGIN = 12
 """Between panels and the edge [px]."""
+CURVE, FOOT = 0.1, 0.16
+"""Height of a curve, and of what is kept free for all of them, as parts of the film's."""
 BAR = 4
 """Height of the bar that shows how far the film is [px]."""
 
@@ -91,10 +93,11 @@ class Film:
         self._puppets = Puppets(trial, simulation)
         self._puppets.put(self.start)
         self._camera = self._chosen_camera()
-        self._path = CameraPath(self._puppets, spec.view, spec.size, self.start)
+        self._letters = max(11, round(spec.size[1] / 45))
+        margins = self._head_height, self._foot_height()
+        self._path = CameraPath(self._puppets, spec.view, spec.size, self.start, margins)
         self._panels: dict[int, CurvePanel] = {}
         self._inset: tuple[float, Pixels] | None = None
-        self._letters = max(11, round(spec.size[1] / 45))
 
     def time_of(self, frame: int) -> float:
         """Return the simulation time of an image [s]."""
@@ -204,11 +207,23 @@ class Film:
         x, y = self.spec.size[0] - width - MARGIN, self.spec.size[1] - height - MARGIN - BAR
         overlay.paste(frame, self._inset[1], x, y)
 
+    @property
+    def _head_height(self) -> int:
+        """Height of what is written above [px]."""
+        return round(2.2 * self._letters)
+
+    def _foot_height(self) -> int:
+        """Height of what is kept free for curves below [px]."""
+        if not self.spec.has_curves:
+            return 0
+        numbers = [len(chosen(level, self.spec.curves)) for _, level in self._shown_levels()]
+        return round(min(FOOT, CURVE * max(numbers, default=0)) * self.spec.size[1])
+
     def _panel(self, number: int, level: RecordedLevel) -> CurvePanel:
         if number not in self._panels:
             width, height = self.spec.size
             n = max(1, len(chosen(level, self.spec.curves)))
-            tall = round(min(0.34, 0.1 * n) * height)
+            tall = round(min(0.34, CURVE * n) * height)
             wide = round(0.42 * width)
             box = MARGIN, height - tall - MARGIN - BAR, wide, tall
             self._panels = {number: CurvePanel(level, self.spec.curves, box, self._letters)}
@@ -218,7 +233,7 @@ class Film:
         """Write title, level and clock above, and draw below how far the film is."""
         width, height = self.spec.size
         size = self._letters
-        overlay.shade(frame, 0, 0, width, round(2.2 * size))
+        overlay.shade(frame, 0, 0, width, self._head_height)
         top = round(0.4 * size)
         at = MARGIN + overlay.write(frame, self._trial.title, (MARGIN, top), size) + 2 * size
         if level is not None:

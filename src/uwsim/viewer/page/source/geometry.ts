@@ -133,8 +133,9 @@ export function looking(eye: Vector, at: Vector, up: Vector = [0, 0, 1]): Matrix
   ]);
 }
 
+/** Of a vertical field of view; in a window narrower than 4:3 as much is seen to the sides as in 4:3. */
 export function lensOf(width: number, height: number, fovy: number): Lens {
-  const focal = height / (2 * Math.tan(fovy / 2));
+  const focal = Math.min(height, 0.75 * width) / (2 * Math.tan(fovy / 2));
   const centre = { cx: (width - 1) / 2, cy: (height - 1) / 2 };
   return { width, height, fx: focal, fy: focal, ...centre, skew: 0, near: 0.05, far: 2000 };
 }
