@@ -1,6 +1,7 @@
 """``uwsim bench`` with several algorithms, other workers, and algorithms that break."""
 
 import os
+import socket
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -42,6 +43,23 @@ def test_each_of_several_algorithms_has_a_result_of_its_own(
     assert main(["bench", benchmark, *names, "--out", str(both), "--overwrite"]) == 2
     assert "holds 'notes.txt'" in capsys.readouterr().err
     assert load(both / "esm").rows
+
+
+def test_a_port_that_is_taken_leaves_no_folder_and_an_earlier_result_as_it_was(
+    benchmark: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = str(other.getsockname()[1])
+        view = ["--view", "--port", port, "--out", str(tmp_path / "out")]
+        assert main(["bench", benchmark, *view]) == 2
+        assert capsys.readouterr().err == (
+            f"uwsim: --port {port}: cannot be opened: Address already in use.\n"
+        )
+        assert not (tmp_path / "out").exists()
+        assert main(["bench", benchmark, "--level", "fog=0", "--out", str(tmp_path / "out")]) == 0
+        before = fingerprint(tmp_path / "out")
+        assert main(["bench", benchmark, *view, "--overwrite"]) == 2
+        assert fingerprint(tmp_path / "out") == before
 
 
 def test_an_algorithm_given_twice_is_refused(

@@ -171,8 +171,8 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         print(note, file=sys.stderr)
     with (
         running(),
+        looked_at(options.live, plans) as onlooker,  # first: a port that is taken changes nothing
         prepared(options.directory, **how, results=folders),
-        looked_at(options.live, plans) as onlooker,
     ):
         if onlooker is not None:
             from ..runs.executors.executor import SerialExecutor

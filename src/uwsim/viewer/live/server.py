@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import hmac
 import json
+import os
 import secrets
 import threading
 from collections import deque
@@ -93,7 +94,8 @@ class LiveServer:
         self._started.wait(START)
         if self._failure is not None:
             self._thread.join(START)
-            raise BadSetting(f"--port {port}: cannot be opened: {self._failure.strerror}.")
+            why = os.strerror(self._failure.errno or 0)  # asyncio's own text repeats the address
+            raise BadSetting(f"--port {port}: cannot be opened: {why}.")
 
     @property
     def url(self) -> str:
