@@ -13,7 +13,7 @@ from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import EmptyResponse, Float64, String, Twist
 from uwsim.messages.services import EMPTY, Empty, Service
 from uwsim.middleware.bridge import Bridge
-from uwsim.middleware.log import MAX_OF_A_KIND, Log
+from uwsim.middleware.log import MAX_KINDS, MAX_OF_A_KIND, Log
 from uwsim.middleware.queues import LatestQueue
 
 
@@ -131,6 +131,19 @@ def test_a_flood_drops_the_oldest_and_is_reported_few_times(bus: Bus, bridge: Se
     assert len(bridge.printed) == MAX_OF_A_KIND + 1
     assert "dropped" in bridge.printed[0]
     assert "not shown" in bridge.printed[-1]
+
+
+def test_a_log_of_too_many_kinds_says_so_once_and_keeps_those_it_knows() -> None:
+    printed: list[str] = []
+    log = Log("test", printed.append)
+    for i in range(MAX_KINDS + 10):
+        log.say(f"event {i}")
+    log.say("event 0")
+    assert len(printed) == MAX_KINDS + 2
+    assert printed[-2:] == [
+        f"uwsim: test: more than {MAX_KINDS} kinds of events; others are not shown",
+        "uwsim: test: event 0",
+    ]
 
 
 def test_a_service_is_answered_at_the_step(bus: Bus, bridge: Seen) -> None:

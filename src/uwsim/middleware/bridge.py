@@ -86,6 +86,9 @@ class Bridge(ABC):
     must_meet: ClassVar[bool] = False
     """Whether messages are lost before both ends of a topic know each other."""
 
+    sees_leaving: ClassVar[bool] = False
+    """Whether it is known at once that a subscriber outside is gone, and a client says nothing."""
+
     invites: ClassVar[bool] = False
     """Whether a client in lock-step joins when it is invited, and not of its own accord."""
 

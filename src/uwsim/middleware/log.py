@@ -12,7 +12,7 @@ from ..terminal import printable
 MAX_OF_A_KIND = 5
 """Lines of one kind that are printed; the next says that there are more."""
 MAX_KINDS = 1000
-"""Kinds that are counted; of more, nothing is printed."""
+"""Kinds that are counted; that there are more is printed once."""
 
 
 def to_standard_error(line: str) -> None:
@@ -41,7 +41,9 @@ class Log:
         key = kind or line
         with self._lock:
             if key not in self._counts and len(self._counts) >= MAX_KINDS:
-                return
+                line = key = f"more than {MAX_KINDS} kinds of events; others are not shown"
+                if key in self._counts:
+                    return
             self._counts[key] += 1
             n = self._counts[key]
             if n > MAX_OF_A_KIND + 1:

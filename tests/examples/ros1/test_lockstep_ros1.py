@@ -35,6 +35,20 @@ class Forgetful(lockstep.LockStep):
 lockstep.LockStep = Forgetful
 run_algorithm.main()
 """
+DIES = f"""
+import os, signal, sys
+sys.path.insert(0, {str(EXAMPLES)!r})
+import run_algorithm, lockstep
+
+class Mortal(lockstep.LockStep):
+    def _answer(self, ack):
+        if self.now > 0.2:
+            os.kill(os.getpid(), signal.SIGKILL)
+        super()._answer(ack)
+
+lockstep.LockStep = Mortal
+run_algorithm.main()
+"""
 TOTAL = LIMIT
 """Nothing takes longer unless it hangs [s]."""
 
@@ -81,6 +95,18 @@ def scored_outside(
     finally:
         client.kill()
         client.wait()
+
+
+def test_a_program_that_is_killed_ends_the_run_at_once(graph: Peers, tmp_path: Path) -> None:
+    (tmp_path / "dies.py").write_text(DIES)
+    program, file = ("uwsim.algorithms:P",), tmp_path / "dies.py"
+    with pytest.raises(AssertionError) as raised:  # long before the limit of 200 s
+        scored_outside(
+            graph, short_currents(tmp_path), tmp_path / "out", program=program, file=file
+        )
+    assert "Client 'outside' left at 0." in str(raised.value)
+    assert "Finished rows are kept; continue with --resume." in str(raised.value)
+    assert "Traceback" not in str(raised.value)
 
 
 def test_a_tracker_of_rospy_scores_the_same_rows_also_when_it_dawdles(

@@ -291,6 +291,20 @@ def test_a_client_that_leaves_ends_the_run_at_once() -> None:
         step(bus, nodes)
 
 
+def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -> None:
+    bus = Bus()
+    outside = Outside(bus, lambda outside, tick: outside.unwant(TICK))
+    outside.sees_leaving = True  # type: ignore[misc]
+    outside.want(TICK)
+    kind = "underwater_sensor_msgs/srv/GTpublish"
+    nodes = started(bus, outside, "a", services={"/init": kind})
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    with pytest.raises(ClientLost, match=r"'a' left at 0\.1 s"):
+        step(bus, nodes)
+    with pytest.raises(ClientLost, match="'a' left at"):
+        bus.services.call("init", GTpublish(groundTruth=np.zeros(8, np.float32)))
+
+
 def test_a_client_that_answers_itself_without_end_is_stopped() -> None:
     bus = Bus()
 

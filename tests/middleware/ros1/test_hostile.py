@@ -290,3 +290,14 @@ def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPa
         peer.close()
     until(lambda: not sim._listener.n_connections)
     assert QUEUE_LENGTH > 0
+
+
+def test_many_connections_that_break_off_are_few_lines(graph: Graph) -> None:
+    sim = graph.node()
+    graph.ready()
+    port = port_of(sim)
+    for n in range(1, 40):
+        with connect(port) as peer:
+            peer.sendall(struct.pack("<I", 100 + n) + bytes(n))
+    until(lambda: "further such lines" in "".join(graph.printed), graph.step)
+    assert sum("it closed the connection after" in line for line in graph.printed) == 6

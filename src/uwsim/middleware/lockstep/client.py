@@ -244,13 +244,17 @@ class LockStepClient:
             if self._acks[0]["tick"] == number:
                 break
             self._other = self._acks.popleft()["tick"]  # an earlier one
-        for gone, _ in self._joins:
-            if gone.get("left"):
-                now = self._node.now
-                raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")
-        if not self._acks:
-            return False
-        return self._has_arrived(self._acks[0])
+        if self._acks and self._has_arrived(self._acks[0]):
+            return True
+        self._check_presence()
+        return False
+
+    def _check_presence(self) -> None:
+        """Raise ClientLost if the client has left."""
+        has_said = any(said.get("left") for said, _ in self._joins)
+        if has_said or (self._bridge.sees_leaving and not self._bridge.is_wanted(TICK)):
+            now = self._node.now
+            raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")
 
     def _check(self, wrong: str | None, what: str) -> None:
         """Refuse an answer in which something is wrong; raises ClientLost."""
@@ -279,6 +283,7 @@ class LockStepClient:
     def _is_replied(self, number: int) -> bool:
         """Whether the answer to a call is there, and all that it announces."""
         if number not in self._replies:
+            self._check_presence()
             return False
         return bool(wrong_in_reply(self._replies[number])) or self._has_arrived(
             self._replies[number]

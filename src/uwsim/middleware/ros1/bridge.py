@@ -66,7 +66,7 @@ class Ros1Bridge(Bridge):
         waits: how long it waits for peers.
     """
 
-    must_meet = True
+    must_meet = sees_leaving = True
 
     def __init__(
         self,

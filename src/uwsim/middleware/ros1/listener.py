@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import socket
 import threading
 from collections.abc import Callable
@@ -11,6 +12,8 @@ from .tcpros import PeerError, close, encode_header, read_header, write
 
 MAX_CONNECTIONS = 256
 """Connections at the same time; more are closed."""
+NUMBER = re.compile(r"[0-9a-f]{32}|[0-9]+")
+"""What does not tell two kinds of events apart: MD5 sums, lengths."""
 HEADER_TIMEOUT = 10.0
 """How long a client may take to send its header [s]."""
 Serve = Callable[[socket.socket, dict[str, str]], None]
@@ -78,7 +81,9 @@ class Listener:
             serve(connection, header)
         except (PeerError, OSError) as error:
             if not self._is_closed:
-                self._log.say(f"{caller}: {error}", kind=f"connection {type(error)} {error}"[:200])
+                self._log.say(
+                    f"{caller}: {error}", kind=NUMBER.sub("#", f"connection {error}")[:200]
+                )
         finally:
             with self._lock:
                 self._open.discard(connection)
