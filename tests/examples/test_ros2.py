@@ -240,6 +240,36 @@ def test_a_node_in_lock_step_scores_the_rows_of_the_same_algorithm_in_process(
     assert outside["run"]["clients"] == [["dark_box", "lock-step, ros2, grade (a)"]]
 
 
+WRONG = """
+import sys
+sys.path.insert(0, "examples/ros2")
+import lockstep
+
+class Wrong(lockstep.LockStep):
+    def _next(self, time):
+        return {"next": "soon"}
+
+lockstep.LockStep = Wrong
+lockstep.run("wrong", lambda lockstep: None, patience=240.0)
+"""
+
+
+@pytest.mark.slow
+def test_a_node_whose_join_is_wrong_is_told(tmp_path: Path) -> None:
+    benchmark = write_benchmark(tmp_path, "0.2")
+    command = [sys.executable, "-m", "uwsim", "bench", str(benchmark), "--out", tmp_path / "out"]
+    with free_domain() as domain, peer(WRONG, domain, prelude="") as node:
+        options = ("--ros2", "--domain", str(domain), "--client", "wrong", "--client-limit", "20")
+        done = subprocess.run(
+            [*command, *options], timeout=BOUND_S, capture_output=True, text=True, check=False
+        )
+        said = 'its join was refused: next is "soon"; expected a time >= 0 [s], or null for none'
+        assert done.returncode == 3
+        assert done.stderr.count(said) == 2  # at once, and at the end
+        assert node.process.wait(BOUND_S) == 1
+        assert f"wrong: {said}" in node.errors()
+
+
 BUNDLED = """
 import sys
 sys.path[:0] = ["examples/ros2", *{ours!r}]

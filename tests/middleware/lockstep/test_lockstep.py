@@ -305,6 +305,19 @@ def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -
         bus.services.call("init", GTpublish(groundTruth=np.zeros(8, np.float32)))
 
 
+def test_a_program_that_left_before_the_start_gives_way_to_the_next_of_its_name() -> None:
+    bus = Bus()
+    outside = Outside(bus, echoes)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    outside.says(JOIN, client="a", topics=["/nothing"], by="first")
+    outside.says(JOIN, client="a", left=True, by="first")
+    outside.says(JOIN, client="a", topics=["/depth"], by="second")
+    nodes = [node_of(bus, client)]
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert len(outside.ticks) == 1
+
+
 def test_a_client_that_answers_itself_without_end_is_stopped() -> None:
     bus = Bus()
 

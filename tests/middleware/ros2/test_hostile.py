@@ -17,7 +17,7 @@ import numpy as np
 import pytest
 
 from tests.ros2_peers import needs_rclpy, peer, until
-from uwsim.messages import Image, String
+from uwsim.messages import Empty, EmptyResponse, Image, String
 from uwsim.messages.build import image
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
@@ -234,3 +234,21 @@ def test_a_writer_killed_in_the_middle_of_an_image_does_no_harm(
     mine.write(text("still here"))
     until(lambda: texts.last is not None, simulator.step)
     assert all(each.data.size == 960 * 1280 * 3 for each in inbox.take())
+
+
+def test_names_that_are_none_of_ros_2_are_told_and_the_others_are_there(
+    simulator: Simulator, other: Participant
+) -> None:
+    bus = simulator.bus
+    for name in ("a b", "two//slashes", "tiefe-µ", "1st", "x" * 300, "{a}"):
+        bus.publisher(name, String)
+        bus.subscribe(f"{name}/command", String, print)
+        bus.services.serve(f"{name}/reset", Empty, lambda _: EmptyResponse())
+    publish = bus.publisher("zz", String)
+    got: list[bytes] = []
+    kind = raw_type(ros2_store(), "std_msgs/msg/String")
+    other.reader("rt/zz", kind, Quality(), lambda sample: got.append(sample.data))
+    until(lambda: got, lambda: (publish(String(data="here")), simulator.step()))
+    told = [line for line in simulator.lines if "not on the graph: /" in line]
+    assert len(told) == 3 * 6
+    assert any("not on the graph: /a b. A name of ROS 2 has letters" in line for line in told)

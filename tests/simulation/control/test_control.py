@@ -185,6 +185,15 @@ def test_entities_are_listed_placed_and_spawned(controlled: Controlled) -> None:
             ),
             Result.OPERATION_FAILED,
         ),
+        (
+            "set_entity_state",
+            SetEntityState(
+                entity="rov",
+                set_pose=True,
+                state=EntityState(pose=messages.Pose(position=messages.Point(x=1e300))),
+            ),
+            Result.OPERATION_FAILED,
+        ),
         ("spawn_entity", SpawnEntity(name="a b"), SpawnEntityResponse.NO_RESOURCE),
     ],
 )
@@ -194,3 +203,17 @@ def test_what_cannot_be_done_has_a_code(
     answer = controlled.bus.services.call(service, request_)
     assert answer.result.result == code
     assert answer.result.error_message
+
+
+@pytest.mark.parametrize("filter", ["(a+)+$", "a?" * 30 + "a" * 30, "a*a*a*a*a*b", "(a|a){40}b"])
+def test_an_expression_that_may_take_for_ever_is_refused(
+    controlled: Controlled, filter: str
+) -> None:
+    spawn = SpawnEntity(name="a" * 60 + ".", entity_resource=Resource(uri="buoy.obj"))
+    assert controlled.bus.services.call("spawn_entity", spawn).result.result == Result.OK
+    request = GetEntities(filters=EntityFilters(filter=filter))
+    answer = controlled.bus.services.call("get_entities", request)
+    assert answer.result.result == Result.OPERATION_FAILED
+    assert "repetitions" in answer.result.error_message
+    usual = GetEntities(filters=EntityFilters(filter="^(rov|a+)[._].*|x?$"))
+    assert controlled.bus.services.call("get_entities", usual).result.result == Result.OK

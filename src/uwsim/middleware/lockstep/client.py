@@ -82,8 +82,8 @@ class LockStepClient:
         end, wrong = time.monotonic() + self._limit, None
         while self._bridge.wait_for(lambda: bool(self._joins), end - time.monotonic()):
             said, by = self._joins.popleft()
-            if said.get("left"):
-                continue
+            if said.get("left") or ({"client": said["client"], "left": True}, by) in self._joins:
+                continue  # who left before it could take part
             wrong = wrong_in_join(said, self._bridge.bus)
             if wrong is None:
                 self._by = by

@@ -22,6 +22,7 @@ from ..log import Log
 from ..queues import MAX_ITEMS, LatestQueue
 from ..stamps import clock_time, inward, outward
 from ..types import message_class, wire_service
+from .names import MAX_NAME, is_legal
 from .node import BytesReader, BytesWriter, Endpoint, Ros2Node
 from .quality import CLOCK, Quality, quality_of
 
@@ -48,6 +49,7 @@ class Ros2(Bridge):
         self._readers: dict[str, BytesReader] = {}
         self._servers: dict[str, Endpoint] = {}
         self._whole: set[str] = set()
+        self._left_out: set[str] = set()
         self._outgoing: LatestQueue[tuple[str, object]] = LatestQueue()
         self._clock_class = message_class("rosgraph_msgs/Clock")
         self._n_clocks = 0
@@ -59,8 +61,9 @@ class Ros2(Bridge):
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Make writers for what is published on the bus, readers for what is read there."""
-        published = {name: ends for name, ends in topics.items() if ends.is_published}
-        read = {name: ends for name, ends in topics.items() if ends.is_read}
+        legal = {name: ends for name, ends in topics.items() if self._is_legal(name)}
+        published = {name: ends for name, ends in legal.items() if ends.is_published}
+        read = {name: ends for name, ends in legal.items() if ends.is_read}
         for name in sorted(set(self._writers) - set(published) - {CLOCK}):
             self._writers.pop(name).close()
         for name in sorted(set(self._readers) - set(read)):
@@ -73,12 +76,26 @@ class Ros2(Bridge):
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Offer the services of the bus."""
-        for name in sorted(set(self._servers) - set(services)):
+        legal = set(filter(self._is_legal, services))
+        for name in sorted(set(self._servers) - legal):
             self._servers.pop(name).close()
-        for name in sorted(set(services) - set(self._servers)):
+        for name in sorted(legal - set(self._servers)):
             kind = wire_service(services[name])
             self._servers[name] = self._node.server(name, kind, partial(self.request, name))
         self._node.tell()
+
+    def _is_legal(self, name: str) -> bool:
+        """Whether ROS 2 allows a name; says once that it does not."""
+        if is_legal(name):
+            return True
+        if name not in self._left_out:
+            self._left_out.add(name)
+            self.log.say(
+                f"not on the graph: /{name[:300]}. A name of ROS 2 has letters, digits and _ "
+                f"between slashes, no part begins with a digit, and it has {MAX_NAME} letters at "
+                "most"
+            )
+        return False
 
     def send(self, topic: str, message: object) -> None:
         """Queue a message; the oldest are dropped while readers are too slow."""

@@ -2,8 +2,19 @@
 
 from __future__ import annotations
 
+import re
+
+LEGAL = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
+"""A name of ROS 2, without its leading slash."""
+MAX_NAME = 240
+"""Letters of such a name; DDS has 255, with what ROS 2 puts around it."""
 DISCOVERY_TOPIC = "ros_discovery_info"
 """On it each participant says which nodes and endpoints it has; it has no prefix."""
+
+
+def is_legal(name: str) -> bool:
+    """Whether ROS 2 allows a name of a topic or service, given without its leading slash."""
+    return len(name) <= MAX_NAME and LEGAL.fullmatch(name) is not None
 
 
 def topic_name(topic: str) -> str:

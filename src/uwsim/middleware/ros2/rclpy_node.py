@@ -17,10 +17,9 @@ from typing import Any, ClassVar
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
-from rclpy.exceptions import InvalidHandle, NameValidationException
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
-from rclpy.validate_full_topic_name import validate_full_topic_name
 
 from ...environment import environment
 from ...errors import UwsimError
@@ -85,7 +84,7 @@ class RclpyNode:
         self, topic: str, type: type, quality: Quality, on_readers: Callable[[int], None]
     ) -> BytesWriter:
         """Make a writer."""
-        found = self._class_of(type, topic)
+        found = self._types.message(type, topic)
         if found is None:
             return Nowhere()
         echoes = self._echoes_of(topic)
@@ -111,7 +110,7 @@ class RclpyNode:
         on_refused: Callable[[], None],
     ) -> BytesReader:
         """Make a reader."""
-        found = self._class_of(type, topic)
+        found = self._types.message(type, topic)
         if found is None:
             return Nowhere()
         made = RclpyReader(partial(self._drop_reader, topic), partial(self._n_writers, topic))
@@ -170,15 +169,6 @@ class RclpyNode:
         self._node.destroy_node()
         self._executor.shutdown()
         self._context.try_shutdown()
-
-    def _class_of(self, type: type, topic: str) -> Any | None:
-        """Return rclpy's class for a topic; None, with a reason told, if it cannot be there."""
-        try:
-            validate_full_topic_name(f"/{topic}")
-        except NameValidationException as error:
-            self._log.say(f"not on the graph: /{topic}. {' '.join(str(error).split())}")
-            return None
-        return self._types.message(type, topic)
 
     def _n_writers(self, topic: str) -> int:
         """How many of this node's own write a topic."""

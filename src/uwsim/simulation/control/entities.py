@@ -34,14 +34,19 @@ from ...messages.simulation_control import (
     SpawnEntityResponse,
 )
 from ...numerics.linear import turned
+from ...vehicle import MAX_COMMAND
 from ..simulation import Simulation
 
+FARTHEST = MAX_COMMAND
+"""A vehicle is not put farther from the origin [m]."""
 NAMESPACE = "spawned"
 """Namespace of the markers that are spawned as entities."""
 NAME = re.compile(r"[A-Za-z0-9_./-]{1,100}")
 """What an entity may be called."""
 MAX_FILTER = 100
 """Longest expression over names."""
+MAX_REPETITIONS = 3
+"""Repetitions in such an expression; none of a group."""
 
 
 class Entities:
@@ -77,8 +82,7 @@ class Entities:
             message = "Entities are filtered by name only."
             return GetEntitiesResponse(Result(Result.FEATURE_UNSUPPORTED, message))
         try:
-            if len(filters.filter) > MAX_FILTER:
-                raise re.error(f"it has more than {MAX_FILTER} characters")
+            check_filter(filters.filter)
             wanted = re.compile(filters.filter)
         except re.error as error:
             message = f"The filter is no regular expression: {error}."
@@ -112,7 +116,7 @@ class Entities:
             return SetEntityStateResponse(Result(Result.FEATURE_UNSUPPORTED, message))
         pose = _pose(request.state.pose)
         if pose is None:
-            message = "The pose is not finite, or its quaternion is zero."
+            message = f"Expected finite numbers, {FARTHEST:g} m at most, and a quaternion not zero."
             return SetEntityStateResponse(Result(Result.OPERATION_FAILED, message))
         if request.set_pose:
             world.vehicle(name).place(world.world_from_localized @ pose)
@@ -153,6 +157,14 @@ class Entities:
         return DeleteEntityResponse()
 
 
+def check_filter(filter: str) -> None:
+    """Raise re.error if an expression may take for ever: how long it takes cannot be bounded."""
+    if len(filter) > MAX_FILTER:
+        raise re.error(f"it has more than {MAX_FILTER} characters")
+    if len(re.findall(r"[*+?{]", filter)) > MAX_REPETITIONS or re.search(r"\)[*+?{]", filter):
+        raise re.error(f"it has more than {MAX_REPETITIONS} repetitions, or one of a group")
+
+
 def _not_found(name: str) -> Result:
     return Result(Result.NOT_FOUND, f"There is no entity {name!r}.")
 
@@ -169,6 +181,8 @@ def _pose(message: Any) -> Pose | None:
     position = np.array([place.x, place.y, place.z])
     quaternion = np.array([turn.w, turn.x, turn.y, turn.z])
     if not all(map(math.isfinite, (*position, *quaternion))) or not quaternion.any():
+        return None
+    if float(np.abs(position).max()) > FARTHEST:
         return None
     try:
         return Pose.from_quaternion(position, quaternion)
