@@ -19,6 +19,7 @@ simulation calls (`autoInit`) are offered by `LockStep.serve`.
 
 import contextlib
 import json
+import secrets
 import sys
 import time
 
@@ -42,6 +43,10 @@ class LockStep:
     def __init__(self, node: Node, client: str, period: float) -> None:
         self.node, self.now = node, 0.0
         self._client, self._period = client, period
+        self._who = {
+            "client": client,
+            "id": secrets.token_hex(4),
+        }  # of two of one name one is heard
         self._callbacks, self._waiting, self._arrived, self._published = {}, {}, {}, {}
         self._calls, self._publishers, self._ticks, self._types = [], [], [], {}
         self._handlers, self._services, self._timers = {}, {}, []
@@ -159,7 +164,7 @@ class LockStep:
         return self._publishers[-1]
 
     def _say(self, out, **content) -> None:
-        out.publish(String(data=json.dumps({"client": self._client, "run": self.run, **content})))
+        out.publish(String(data=json.dumps({**self._who, "run": self.run, **content})))
 
 
 def due(timer: list) -> float:

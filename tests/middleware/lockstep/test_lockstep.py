@@ -305,6 +305,35 @@ def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -
         bus.services.call("init", GTpublish(groundTruth=np.zeros(8, np.float32)))
 
 
+def test_a_program_is_told_from_another_by_its_id_where_the_transport_cannot_tell() -> None:
+    bus = Bus()
+
+    def answer(outside: Outside, tick: dict[str, Any]) -> None:
+        outside.says(ACK, client="a", tick=tick["tick"], id="second", next="soon")
+        outside.says(ACK, client="a", tick=tick["tick"], id="first")
+
+    outside = Outside(bus, answer)
+    nodes = started(bus, outside, "a", id="first")
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert len(outside.ticks) == 1
+    assert "client 'a' is another program already; a second one is not heard" in outside.lines[0]
+
+
+def test_a_second_program_that_joined_and_left_before_the_start_changes_nothing() -> None:
+    bus = Bus()
+    outside = Outside(bus, echoes)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    outside.says(JOIN, client="a", topics=["/depth"], by="first")
+    outside.says(JOIN, client="a", topics=["/depth"], by="second")
+    outside.says(JOIN, client="a", left=True, by="second")
+    nodes = [node_of(bus, client)]
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert len(outside.ticks) == 1
+    assert outside.told == [("second", "client 'a' is first already; second is not heard")]
+
+
 def test_a_program_that_left_before_the_start_gives_way_to_the_next_of_its_name() -> None:
     bus = Bus()
     outside = Outside(bus, echoes)

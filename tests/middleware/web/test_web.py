@@ -427,3 +427,14 @@ def test_the_clock_of_ros_is_served(setting: Setting) -> None:
     setting.step_until(lambda: "clock" in setting.bridge._readers)
     setting.bridge.step()
     assert heard(client)["msg"] == {"clock": {"sec": 1, "nanosec": 250_000_000}}
+
+
+def test_more_clients_than_are_served_are_refused_with_a_line(
+    setting: Setting, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("uwsim.middleware.web.server.MAX_CLIENTS", 1)
+    setting.bridge.step()
+    setting.client()
+    with pytest.raises(InvalidStatus, match="503"):
+        setting.client()
+    assert "uwsim: web: more than 1 clients; one is refused" in setting.lines

@@ -41,6 +41,7 @@ class LockStepClient:
         self._bridge, self._name, self._timestep, self._limit = bridge, name, timestep, limit
         self._joins: deque[tuple[dict[str, Any], str]] = deque()
         self._by = ""  # who has joined, where the transport can tell
+        self._id: object = None  # what it calls itself, if it does
         self._takes_part = False
         self._acks: deque[dict[str, Any]] = deque()
         self._replies: dict[int, dict[str, Any]] = {}
@@ -86,7 +87,10 @@ class LockStepClient:
                 continue  # who left before it could take part
             wrong = wrong_in_join(said, self._bridge.bus)
             if wrong is None:
-                self._by = by
+                self._id, self._by = said.get("id"), by
+                for other, its in tuple(self._joins):
+                    if self._is_other(other, its):
+                        self._turn_away(other, its)
                 return said
             self._refuse("join", wrong, by)
         raise NeverStarted(
@@ -144,11 +148,8 @@ class LockStepClient:
         """
         if content.get("run", self._run) != self._run:
             return  # to a simulation before this one
-        if by and self._by and by != self._by:
-            if not content.get("left"):
-                text = f"client {self._name!r} is {self._by} already; {by} is not heard"
-                self._bridge.log.say(text)
-                self._bridge.tell(by, text)
+        if self._is_other(content, by):
+            self._turn_away(content, by)
         elif topic == JOIN:
             if not self._takes_part or content.get("left"):
                 self._joins.append((content, by))
@@ -157,6 +158,20 @@ class LockStepClient:
                 self._replies[self._n_calls] = content
         else:
             self._acks.append(content)
+
+    def _is_other(self, content: dict[str, Any], by: str) -> bool:
+        """Whether another program than the one that has joined says something."""
+        its = content.get("id")
+        has_other_id = self._id is not None and its is not None and its != self._id
+        return has_other_id or bool(by and self._by and by != self._by)
+
+    def _turn_away(self, content: dict[str, Any], by: str) -> None:
+        """Tell another program of the same name, and the log, that it is not heard."""
+        if not content.get("left"):
+            first, second = self._by or "another program", by or "a second one"
+            text = f"client {self._name!r} is {first} already; {second} is not heard"
+            self._bridge.log.say(text)
+            self._bridge.tell(by, text)
 
     def _counter(self, topic: str) -> Any:
         def count(message: object) -> None:
@@ -251,7 +266,9 @@ class LockStepClient:
 
     def _check_presence(self) -> None:
         """Raise ClientLost if the client has left."""
-        has_said = any(said.get("left") for said, _ in self._joins)
+        has_said = any(
+            said.get("left") and not self._is_other(said, by) for said, by in tuple(self._joins)
+        )
         if has_said or (self._bridge.sees_leaving and not self._bridge.is_wanted(TICK)):
             now = self._node.now
             raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")

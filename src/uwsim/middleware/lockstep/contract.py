@@ -120,7 +120,15 @@ COUNTS: Field = (
     lambda value: _of_names(value, _is_count),
     "an object with a whole number >= 0 for each topic",
 )
-JOIN_FIELDS = {"topics": NAMES, "next": TIME, "own": NAMES, "publishes": TYPES, "services": TYPES}
+ID: Field = (_is_name, "a text")
+JOIN_FIELDS = {
+    "id": ID,
+    "topics": NAMES,
+    "next": TIME,
+    "own": NAMES,
+    "publishes": TYPES,
+    "services": TYPES,
+}
 ANSWER_FIELDS: Mapping[str, Field] = {
     "tick": (_is_count, "the whole number of the tick"),
     "next": TIME,

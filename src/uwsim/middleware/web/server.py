@@ -248,6 +248,7 @@ class WebBridge(Bridge):
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         """Refuse who has no token, and more clients than are served."""
         if len(self._sessions) >= MAX_CLIENTS:
+            self.log.say(f"more than {MAX_CLIENTS} clients; one is refused")
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many clients.\n")
         token = self._options.token
         if token and not hmac.compare_digest(_token_of(request).encode(), token.encode()):
