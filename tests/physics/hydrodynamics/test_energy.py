@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 
 import mujoco
 import numpy as np
@@ -13,6 +14,7 @@ from scipy.integrate import solve_ivp
 
 from tests.physics.fossen import Fossen, angle_between, rotation
 from tests.physics.water_models import FAR_BELOW, ROBOTS, free_body, random_added_mass, set_options
+from uwsim.physics.free_objects import box_added_mass, box_drag, ellipsoid_added_mass
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, VehicleHydrodynamics, prepare
 from uwsim.physics.hydrodynamics.file.spec import matrix
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
@@ -68,6 +70,102 @@ def test_dop853_says_how_far_the_tag_falls() -> None:
     start = np.array([*TILTED, *np.zeros(6)])
     found = solve_ivp(oracle.rate, (0, 3), start, method="DOP853", rtol=1e-9, atol=1e-10)
     assert -5.0 - found.y[2, -1] == pytest.approx(FALL, abs=1e-4)
+
+
+ASKEW = np.array([0.9366, 0.281, 0.187, 0.0937]) / math.hypot(0.9366, 0.281, 0.187, 0.0937)
+NEEDLE = (0.1, 0.001, 0.001)  # edges [m]
+SUNK = (-0.0342, -0.0991, -5.7389)  # where a needle of 0.4 g is after 2 s, by DOP853 [m]
+
+
+def loose(
+    edges: tuple[float, ...], mass: float, timestep: float, theta: float = 1.0
+) -> tuple[mujoco.MjModel, Fossen]:
+    """A loose box of any proportions in water, and the oracle of it."""
+    sizes = np.array(edges)
+    added = ellipsoid_added_mass(0.5 * sizes * (6.0 / math.pi) ** (1.0 / 3.0))
+    added[:3] = box_added_mass(sizes)
+    water = BodyHydrodynamics(
+        link="body",
+        added_mass=tuple(1000.0 * added),
+        quadratic_damping=tuple(1000.0 * box_drag(sizes)),
+        volume=float(np.prod(sizes)),
+        implicitness=theta,
+    )
+    squares = sizes**2
+    inertia = mass / 12.0 * (squares.sum() - squares)
+    oracle = Fossen(
+        mass=mass, inertia=np.diag(inertia), centre_of_mass=np.zeros(3),
+        added=matrix(water.added_mass), quadratic=matrix(water.quadratic_damping),
+        displaced=1000.0 * water.volume,
+    )  # fmt: skip
+    return free_body(water, mass=mass, inertia=tuple(inertia), timestep=timestep), oracle
+
+
+def sunk(
+    model: mujoco.MjModel, seconds: float, twist: tuple[float, ...] = (0.0,) * 6,
+    current: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> tuple[np.ndarray, float]:  # fmt: skip
+    """Where a body of 5 m depth is after a time, and its greatest spin [rad/s]."""
+    water, data = install(model), mujoco.MjData(model)
+    data.qpos[2], data.qpos[3:], data.qvel[:] = -5.0, ASKEW, twist
+    water.set_current(data, current)
+    fastest = 0.0
+    for _ in range(round(seconds / model.opt.timestep)):
+        water.step(data)
+        fastest = max(fastest, float(np.abs(data.qvel[3:]).max()))
+    return data.qpos[:3].copy(), fastest
+
+
+@pytest.mark.parametrize(("timestep", "tolerance"), [(0.002, 0.005), (0.01, 0.025)])
+def test_a_needle_that_sinks_does_not_spin_about_its_axis(
+    timestep: float, tolerance: float
+) -> None:
+    model, _ = loose(NEEDLE, 4e-4, timestep)
+    water, data = install(model), mujoco.MjData(model)
+    data.qpos[2], data.qpos[3:] = -5.0, ASKEW
+    for _ in range(round(2.0 / timestep)):
+        water.step(data)
+        assert abs(data.qvel[3]) < 1e-6
+    assert np.abs(data.qpos[:3] - SUNK).max() < tolerance
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("edges", "mass"),
+    [(NEEDLE, 4e-4), (NEEDLE, 1.05e-4), ((0.1, 0.1, 0.002), 0.0205), ((0.2, 0.1, 0.001), 0.03),
+     ((0.5, 0.001, 0.001), 2e-3)],
+    ids=["needle", "light needle", "plate", "foil", "wire"],
+)  # fmt: skip
+@pytest.mark.parametrize(
+    ("twist", "current"),
+    [((0.0,) * 6, (0.0, 0.0, 0.0)), ((0.2, 0.1, 0, 2, 3, -2), (0.5, 0.2, 0.0))],
+    ids=["still", "current"],
+)
+def test_thin_bodies_go_where_dop853_says(
+    edges: tuple[float, ...], mass: float, twist: tuple[float, ...],
+    current: tuple[float, float, float],
+) -> None:  # fmt: skip
+    """With implicit drag at the middle of a step the error is of second order."""
+    ends = []
+    for timestep in (0.001, 0.002, 0.005, 0.01):
+        model, oracle = loose(edges, mass, timestep, theta=0.5)
+        ends.append(sunk(model, 1.0, twist, current)[0])
+    oracle.current = lambda _: np.array(current)
+    own = rotation(ASKEW).T @ np.array(twist[:3])
+    start = np.array([0, 0, -5.0, *ASKEW, *own, *twist[3:]])
+    found = solve_ivp(oracle.rate, (0, 1), start, method="DOP853", rtol=1e-8, atol=1e-10)
+    errors = [float(np.abs(end - found.y[:3, -1]).max()) for end in ends]
+    assert errors[1] < 2e-4
+    assert [b / a for a, b in pairwise(errors)] == pytest.approx([4.0, 6.25, 4.0], rel=0.1)
+
+
+@pytest.mark.parametrize("timestep", [0.005, 0.01])
+def test_a_flat_wire_that_flutters_gains_no_energy_from_long_steps(timestep: float) -> None:
+    """It flutters at 160 rad/s, too fast for such steps: Newton's method found no end."""
+    model, _ = loose((0.5, 0.002, 0.001), 4e-3, timestep)
+    place, fastest = sunk(model, 2.0)
+    assert np.linalg.norm(place - (0.0, 0.0, -5.0)) < 3.0
+    assert fastest < 1000.0
 
 
 def tumbled(timestep: float) -> tuple[float, mujoco.MjData]:

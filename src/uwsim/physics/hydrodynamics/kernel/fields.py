@@ -79,3 +79,7 @@ ITERATIONS = _NAMES.index("solver_niter")
 BIAS, WRENCH, FF, FT, TT, MOMENTUM, TOUCHED, ROW = 0, 6, 12, 18, 27, 33, 39, 40
 # FF: force by velocity, symmetric (xx xy xz yy yz zz); FT: force by rotation (3, 3), row by row;
 # TT: torque by rotation, symmetric
+SCRATCH = 60
+"""Numbers behind the rows, for full matrices."""
+DRAG = 21
+"""Behind them for each tree: of FF, FT and TT of the whole what is implicit drag, no inertia."""

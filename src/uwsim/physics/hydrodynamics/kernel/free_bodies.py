@@ -23,6 +23,7 @@ from .midpoint import (
     RATE,
     SIDE,
     STEP,
+    SUM,
     TWIST,
     multiply,
     solve_rate,
@@ -62,6 +63,7 @@ def keep_energy(m: int, d: int, at: Ints64, work: Floats) -> None:
         is_free = n_joints[body] == 1 and n_dofs[body] == 6
         if not is_free or awake[tree] == 0 or work[f.ROW * body + f.TOUCHED] == 0.0:
             continue
+        _inertia(m, d, at, work, tree, b)
         lever = _gather(m, d, at, work, body, b)
         _rigid(m, d, at, work, body, n_bodies[tree], b)
         _applied(m, d, at, body, start[tree], lever, b)
@@ -165,18 +167,22 @@ def _by_quaternion(q: Floats, x: float, y: float, z: float) -> Three:
 @njit
 def _turn_attitude(q: Floats, v: Floats, time: float) -> None:
     """Turn the attitude at the angular velocity for a time."""
-    speed = math.sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5])
-    half = 0.5 * time * speed
-    share = 0.5 * time if abs(half) < 1e-9 else math.sin(half) / speed
-    n, a, b, c = math.cos(half), share * v[3], share * v[4], share * v[5]
+    half2 = 0.25 * time * time * (v[3] * v[3] + v[4] * v[4] + v[5] * v[5])
+    if half2 < 1e-4:  # the series are exact to the last digit
+        n = 1.0 - half2 * (0.5 - half2 * (1.0 / 24.0 - half2 / 720.0))
+        share = 0.5 * time * (1.0 - half2 * (1.0 / 6.0 - half2 * (1.0 / 120.0 - half2 / 5040.0)))
+    else:
+        half = math.sqrt(half2)
+        n, share = math.cos(half), 0.5 * time * math.sin(half) / half
+    a, b, c = share * v[3], share * v[4], share * v[5]
     w, x, y, z = q[3], q[4], q[5], q[6]
     q[3] = w * n - x * a - y * b - z * c
     q[4] = w * a + x * n + y * c - z * b
     q[5] = w * b + y * n + z * a - x * c
     q[6] = w * c + z * n + x * b - y * a
-    size = math.sqrt(q[3] * q[3] + q[4] * q[4] + q[5] * q[5] + q[6] * q[6])
+    inverse = 1.0 / math.sqrt(q[3] * q[3] + q[4] * q[4] + q[5] * q[5] + q[6] * q[6])
     for i in range(3, 7):
-        q[i] /= size
+        q[i] *= inverse
 
 
 @njit
@@ -189,13 +195,11 @@ def _gather(
     water at its base, which counts as one all round. The lever leads to the body's origin [m].
     """
     base = f.ROW * body
-    rigid = floats(word(d + at[f.CRB]) + 80 * body, 10)
     twist = floats(word(d + at[f.CVEL]) + 48 * body, 6)
     water = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, 6)
     place = floats(word(d + at[f.XPOS]) + 24 * body, 3)
     com = floats(word(d + at[f.COM]) + 24 * body, 3)
     rx, ry, rz = place[0] - com[0], place[1] - com[1], place[2] - com[2]
-    _inertia(work, base, rigid, b)
     for i in range(3):
         b[TWIST + i] = twist[i]
         b[TWIST + 3 + i] = twist[3 + i] - water[i]
@@ -211,7 +215,7 @@ def _gather(
     b[RATE + 3] = uy * wz - uz * wy - water[3]
     b[RATE + 4] = uz * wx - ux * wz - water[4]
     b[RATE + 5] = ux * wy - uy * wx - water[5]
-    multiply(b, RATE, SIDE)
+    multiply(b, SUM, RATE, SIDE)
     for i in range(6):
         b[SIDE + i] += work[base + f.WRENCH + i]
     return rx, ry, rz
@@ -285,21 +289,42 @@ def _applied(m: int, d: int, at: Ints64, body: int, dof: int, lever: Three, b: F
 
 
 @njit
-def _inertia(work: Floats, base: int, rigid: Floats, b: Floats) -> None:
-    """The inertia of water and rigid body, (6, 6), rotational part first."""
-    ff, ft, tt, a = base + f.FF, base + f.FT, base + f.TT, INERTIA
-    b[a], b[a + 1], b[a + 2] = work[tt] + rigid[0], work[tt + 1] + rigid[3], work[tt + 2] + rigid[4]
-    b[a + 7], b[a + 8] = work[tt + 3] + rigid[1], work[tt + 4] + rigid[5]
-    b[a + 14] = work[tt + 5] + rigid[2]
-    b[a + 21], b[a + 22], b[a + 23] = work[ff] + rigid[9], work[ff + 1], work[ff + 2]
-    b[a + 28], b[a + 29] = work[ff + 3] + rigid[9], work[ff + 4]
-    b[a + 35] = work[ff + 5] + rigid[9]
+def _inertia(m: int, d: int, at: Ints64, work: Floats, tree: int, b: Floats) -> None:
+    """The inertia of water and rigid bodies of a tree, with and without implicit drag."""
+    body = ints(word(m + at[f.TREE_BODY]), tree + 1)[tree]
+    rigid = floats(word(d + at[f.CRB]) + 80 * body, 10)
+    _unpack(work, f.ROW * body + f.FF, b, SUM)
+    b[SUM] += rigid[0]
+    b[SUM + 1] += rigid[3]
+    b[SUM + 2] += rigid[4]
+    b[SUM + 7] += rigid[1]
+    b[SUM + 8] += rigid[5]
+    b[SUM + 14] += rigid[2]
+    for i in range(21, 36, 7):
+        b[SUM + i] += rigid[9]
+    behind = f.ROW * word(m + at[f.NBODY]) + f.SCRATCH
+    _unpack(work, behind + f.DRAG * tree, b, INERTIA)
+    for i in range(6):
+        for j in range(i, 6):
+            b[INERTIA + 6 * i + j] = b[SUM + 6 * i + j] - b[INERTIA + 6 * i + j]
+            b[INERTIA + 6 * j + i] = b[INERTIA + 6 * i + j]
+            b[SUM + 6 * j + i] = b[SUM + 6 * i + j]
+
+
+@njit
+def _unpack(work: Floats, ff: int, b: Floats, to: int) -> None:
+    """The 21 numbers of an inertia, from ``ff`` on, to their places on and above the diagonal.
+
+    Rotational part first.
+    """
+    ft, tt = ff + f.FT - f.FF, ff + f.TT - f.FF
+    b[to], b[to + 1], b[to + 2] = work[tt], work[tt + 1], work[tt + 2]
+    b[to + 7], b[to + 8], b[to + 14] = work[tt + 3], work[tt + 4], work[tt + 5]
+    b[to + 21], b[to + 22], b[to + 23] = work[ff], work[ff + 1], work[ff + 2]
+    b[to + 28], b[to + 29], b[to + 35] = work[ff + 3], work[ff + 4], work[ff + 5]
     for i in range(3):
         for j in range(3):
-            b[a + 6 * j + 3 + i] = work[ft + 3 * i + j]
-    for i in range(6):
-        for j in range(i):
-            b[a + 6 * i + j] = b[a + 6 * j + i]
+            b[to + 6 * j + 3 + i] = work[ft + 3 * i + j]
 
 
 @njit
@@ -326,7 +351,7 @@ def _bring_to_force(lever: Three, h: float, b: Floats) -> None:
     b[RATE + 3] += ex - (wy * uz - wz * uy)
     b[RATE + 4] += ey - (wz * ux - wx * uz)
     b[RATE + 5] += ez - (wx * uy - wy * ux)
-    multiply(b, RATE, STEP)
+    multiply(b, SUM, RATE, STEP)
     for i in range(6):
         b[SIDE + i] = b[STEP + i] - b[SIDE + i]
 

@@ -54,12 +54,9 @@ from .equations import (
     buoyancy,
     coriolis,
     diagonal_force,
-    diagonal_inertia,
     diagonal_momentum,
     full_force,
     known_rate,
-    move_diagonal_inertia,
-    move_full_inertia,
     move_wrench,
     paces,
     reference_point,
@@ -72,6 +69,13 @@ from .equations import (
 )
 from .fins import add_fin
 from .free_bodies import keep_energy
+from .inertias import (
+    add_diagonal_inertia,
+    add_full_inertia,
+    diagonal_inertia,
+    is_drag_left,
+    is_felt,
+)
 from .memory import Floats, Ints64, floats, ints, real, small, word
 from .stratification import density_ratio
 from .thrusters import add_thrust
@@ -81,8 +85,6 @@ _WET = 1e-300
 _GRAVITY_OFF = 128  # mjDSBL_GRAVITY
 _DIAGEXACT = 32  # mjENBL_DIAGEXACT
 _RK4, _PGS = 1, 0
-
-_SCRATCH = 60  # doubles behind the rows, for full matrices
 
 
 @njit
@@ -113,7 +115,7 @@ def has_water(d: int, at: Ints64) -> bool:
 def add_water(m: int, d: int, at: Ints64) -> None:
     """Add the water to ``d.M`` and ``d.qfrc_passive``; both must be as MuJoCo made them."""
     nv, nbody = word(m + at[f.NV]), word(m + at[f.NBODY])
-    work = np.zeros(f.ROW * nbody + _SCRATCH)
+    work = np.zeros(f.ROW * nbody + f.SCRATCH + f.DRAG * word(m + at[f.NTREE]))
     step = real(m + at[f.TIMESTEP])
     if small(m + at[f.INTEGRATOR]) == _RK4:
         step = 0.0
@@ -178,7 +180,7 @@ def water_wrenches(m: int, d: int, at: Ints64, wrenches: Floats) -> None:
             about the centre of mass of its tree.
     """
     nbody = word(m + at[f.NBODY])
-    work = np.zeros(f.ROW * nbody + _SCRATCH)
+    work = np.zeros(f.ROW * nbody + f.SCRATCH + f.DRAG * word(m + at[f.NTREE]))
     cacc = floats(word(d + at[f.CACC]), 6 * nbody)
     gravity = floats(m + at[f.GRAVITY], 3)
     for body in range(1, nbody):
@@ -291,12 +293,16 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         add_lift(axes, lever, centre, wrench, lift, work, to)
         if not with_mass:
             continue
-        ff, ft, tt = base + f.FF, base + f.FT, base + f.TT
         impulse = move_wrench(axes, lever, wet, momentum)
         for i in range(6):
             work[base + f.MOMENTUM + i] = impulse[i]
+        to, drag = base + f.FF, scratch + f.SCRATCH + f.DRAG * tree[body]
         if table[KIND] == FULL:
-            move_full_inertia(axes, lever, wet, work, scratch, ff, ft, tt)
+            add_full_inertia(axes, lever, wet, work, scratch, to)
+            if is_drag_left(table, work, scratch):
+                add_full_inertia(axes, lever, wet, work, scratch, drag)
         else:
-            inertia = diagonal_inertia(table, slope, wet, step)
-            move_diagonal_inertia(axes, lever, inertia, work, ff, ft, tt)
+            inertia, change = diagonal_inertia(table, slope, wet, step)
+            add_diagonal_inertia(axes, lever, inertia, work, to)
+            if is_felt(inertia, change):
+                add_diagonal_inertia(axes, lever, change, work, drag)

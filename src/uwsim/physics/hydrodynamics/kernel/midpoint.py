@@ -6,13 +6,14 @@ are those of the implicit midpoint rule in the axes of the body. With its twist 
 inertia :math:`A` (rigid and added), its momentum :math:`p` and the rate :math:`\delta` of
 :math:`\nu` over a step of length h,
 
-.. math:: A\delta + \tfrac h2\bigl(\delta\times^*(p + \tfrac h2 A\delta) + \nu\times^* A\delta\bigr)
+.. math:: S\delta + \tfrac h2\bigl(\delta\times^*(p + \tfrac h2 A\delta) + \nu\times^* A\delta\bigr)
           = G
 
-where :math:`G = A\dot\nu` at the start of the step and :math:`\times^*` is the cross product of a
-twist and a momentum. The rule keeps what is quadratic, energy and the lengths of both momenta
-(Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2006, IV.2). The joints of a body count
-as held. Twists and wrenches: rotational part first, as in MuJoCo.
+where :math:`S` is :math:`A` and the drag that is implicit over the step, :math:`G = S\dot\nu` at
+its start, and :math:`\times^*` the cross product of a twist and a momentum, of which drag is no
+part: a needle would spin up about its axis. The rule keeps what is quadratic, energy and the
+lengths of both momenta (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2006, IV.2). The
+joints of a body count as held. Twists and wrenches: rotational part first, as in MuJoCo.
 """
 
 from __future__ import annotations
@@ -22,19 +23,22 @@ import math
 from ....numerics.jit import njit
 from .memory import Floats
 
-INERTIA, TWIST, MOMENTUM, SIDE, RATE = 0, 36, 42, 48, 54
-"""Places in the numbers of one body: A (6, 6), nu, p, G and, found, delta (6) each."""
-_IMAGE, _BASIS, _MATRIX, STEP = 60, 66, 72, 108
-NUMBERS = 114
+INERTIA, TWIST, MOMENTUM, SIDE, RATE, SUM = 0, 36, 42, 48, 54, 60
+"""Places in the numbers of one body: A (6, 6), nu, p, G and, found, delta (6) each, S (6, 6)."""
+_IMAGE, _BASIS, _MATRIX, STEP = 96, 102, 108, 144
+NUMBERS = 150
 """How many there are, with those for reckoning."""
-_ROUNDS, _ENOUGH = 12, 1e-9
+_ROUNDS, _BOUND_ROUNDS = 16, 8
+_ENOUGH, _FAIR, _SLOW = 1e-14, 1e-12, 1e-4
+"""Energy of a correction in that of the rate: it is the last; it would do; and in that of the
+correction before: the matrix is made anew."""
 
 
 @njit
 def solve_rate(b: Floats, h: float) -> None:
     """Find the rate over a step by Newton's method, from the numbers of one body.
 
-    The matrix is that of the first round: it turns little within a step.
+    The matrix is that of the first round as long as that leads there fast.
     """
     for i in range(6):
         b[RATE + i] = 0.0
@@ -42,30 +46,65 @@ def solve_rate(b: Floats, h: float) -> None:
         b[STEP + i] = b[SIDE + i]
     _jacobian(b, h)
     _factorise(b)
-    size = 0.0
-    for i in range(6):
-        size += abs(b[SIDE + i])
+    before, left, size = math.inf, 0.0, 0.0
     for _ in range(_ROUNDS):
-        substitute(b)
+        left = _solve_lower(b)
+        _solve_upper(b)
         for i in range(6):
             b[RATE + i] += b[STEP + i]
-        multiply(b, RATE, _IMAGE)
-        _residual(b, h)
-        left = 0.0
-        for i in range(6):
-            left += abs(b[STEP + i])
         if left <= _ENOUGH * size:
-            break
+            return
+        multiply(b, INERTIA, RATE, _IMAGE)
+        multiply(b, SUM, RATE, STEP)
+        size = 0.0
+        for i in range(6):
+            size += b[RATE + i] * b[STEP + i]
+        if left > _SLOW * before:
+            _jacobian(b, h)
+            _factorise(b)
+        _residual(b, h)
+        before = left
+    if not left <= _FAIR * size:
+        _bound_rate(b, h)
 
 
 @njit
-def multiply(b: Floats, vector: int, to: int) -> None:
-    """The inertia times the six numbers at ``vector``, to ``to``."""
+def _bound_rate(b: Floats, h: float) -> None:
+    r"""Find a rate that gains no energy, where Newton's method finds none.
+
+    A body that turns by more than a radian in a step is lost anyway, but must not gather speed.
+    With the momentum :math:`p + \tfrac h2 A\delta` of the round before the equation is linear,
+    and the cross product does no work on the twist :math:`\nu + \tfrac h2\delta`.
+    """
     for i in range(6):
-        total = 0.0
-        for j in range(6):
-            total += b[INERTIA + 6 * i + j] * b[vector + j]
-        b[to + i] = total
+        b[_IMAGE + i] = 0.0
+    for _ in range(_BOUND_ROUNDS):
+        for i in range(36):
+            b[_MATRIX + i] = b[SUM + i]
+        _subtract_momentum(b, 0.5 * h)
+        _factorise(b)
+        for i in range(6):
+            b[STEP + i] = b[SIDE + i]
+        cross(b, TWIST, _IMAGE, STEP, -0.5 * h)
+        substitute(b)
+        for i in range(6):
+            b[RATE + i] = b[STEP + i]
+        multiply(b, INERTIA, RATE, _IMAGE)
+
+
+@njit
+def multiply(b: Floats, matrix: int, vector: int, to: int) -> None:
+    """The symmetric matrix (6, 6) at ``matrix`` times the six numbers at ``vector``, to ``to``."""
+    t0, t1, t2, t3, t4, t5 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
+    for j in range(6):
+        x, row = b[vector + j], matrix + 6 * j
+        t0 += b[row] * x
+        t1 += b[row + 1] * x
+        t2 += b[row + 2] * x
+        t3 += b[row + 3] * x
+        t4 += b[row + 4] * x
+        t5 += b[row + 5] * x
+    b[to], b[to + 1], b[to + 2], b[to + 3], b[to + 4], b[to + 5] = t0, t1, t2, t3, t4, t5
 
 
 @njit
@@ -88,9 +127,9 @@ def cross(b: Floats, twist: int, momentum: int, to: int, share: float) -> None:
 
 @njit
 def _residual(b: Floats, h: float) -> None:
-    """What is missing, to ``STEP``."""
+    """What is missing, to ``STEP``, where the sum times the rate is."""
     for i in range(6):
-        b[STEP + i] = b[SIDE + i] - b[_IMAGE + i]
+        b[STEP + i] = b[SIDE + i] - b[STEP + i]
         b[_BASIS + i] = b[MOMENTUM + i] + 0.5 * h * b[_IMAGE + i]
     cross(b, RATE, _BASIS, STEP, -0.5 * h)
     cross(b, TWIST, _IMAGE, STEP, -0.5 * h)
@@ -107,12 +146,18 @@ def _jacobian(b: Floats, h: float) -> None:
     for j in range(6):
         a0, a1, a2 = b[INERTIA + j], b[INERTIA + 6 + j], b[INERTIA + 12 + j]
         a3, a4, a5 = b[INERTIA + 18 + j], b[INERTIA + 24 + j], b[INERTIA + 30 + j]
-        b[_MATRIX + j] = a0 + wy * a2 - wz * a1 + vy * a5 - vz * a4
-        b[_MATRIX + 6 + j] = a1 + wz * a0 - wx * a2 + vz * a3 - vx * a5
-        b[_MATRIX + 12 + j] = a2 + wx * a1 - wy * a0 + vx * a4 - vy * a3
-        b[_MATRIX + 18 + j] = a3 + wy * a5 - wz * a4
-        b[_MATRIX + 24 + j] = a4 + wz * a3 - wx * a5
-        b[_MATRIX + 30 + j] = a5 + wx * a4 - wy * a3
+        b[_MATRIX + j] = b[SUM + j] + wy * a2 - wz * a1 + vy * a5 - vz * a4
+        b[_MATRIX + 6 + j] = b[SUM + 6 + j] + wz * a0 - wx * a2 + vz * a3 - vx * a5
+        b[_MATRIX + 12 + j] = b[SUM + 12 + j] + wx * a1 - wy * a0 + vx * a4 - vy * a3
+        b[_MATRIX + 18 + j] = b[SUM + 18 + j] + wy * a5 - wz * a4
+        b[_MATRIX + 24 + j] = b[SUM + 24 + j] + wz * a3 - wx * a5
+        b[_MATRIX + 30 + j] = b[SUM + 30 + j] + wx * a4 - wy * a3
+    _subtract_momentum(b, g)
+
+
+@njit
+def _subtract_momentum(b: Floats, g: float) -> None:
+    """Take the cross product with the momentum at the middle off ``_MATRIX``; g: half the step."""
     for block, part in ((0, 0), (3, 3), (18, 3)):
         _subtract_skew(
             b, _MATRIX + block,
@@ -155,12 +200,26 @@ def _factorise(b: Floats) -> None:
 @njit
 def substitute(b: Floats) -> None:
     """Solve the six equations whose factors are in ``_MATRIX`` for ``STEP``, in place."""
+    _solve_lower(b)
+    _solve_upper(b)
+
+
+@njit
+def _solve_lower(b: Floats) -> float:
+    """The first half of that; returns twice the kinetic energy of what it leads to, roughly."""
+    energy = 0.0
     for i in range(6):
         row = _MATRIX + 6 * i
         total = b[STEP + i]
         for j in range(i):
             total -= b[row + j] * b[STEP + j]
         b[STEP + i] = total
+        energy += total * total * abs(b[row + i])
+    return energy
+
+
+@njit
+def _solve_upper(b: Floats) -> None:
     for i in range(5, -1, -1):
         row = _MATRIX + 6 * i
         total = b[STEP + i]
