@@ -148,11 +148,16 @@ class Scenery:
         return rendered.depth.astype(np.float64)
 
     def render_clean(
-        self, world_from_camera: Pose, intrinsics: Intrinsics, *, fog: float | None = None
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        *,
+        fog: float | None = None,
+        targets: Collection[str] = ALL_TARGETS,
     ) -> RenderedImage:
         """Render a noise-free image with range and ids, optionally at another fog density."""
         water = self.water if fog is None else replace(self.water, fog=fog)
-        return self._draw(world_from_camera, intrinsics, water)
+        return self._draw(world_from_camera, intrinsics, water, targets=frozenset(targets))
 
     def render_view(
         self,

@@ -182,7 +182,7 @@ class Film:
         world = self._puppets.simulation.world
         camera = world.camera(name)
         lens = fitted(camera.intrinsics, size)
-        rendered = world.scenery.render_clean(camera.world_from_camera, lens)
+        rendered = world.scenery.render_clean(camera.world_from_camera, lens, targets={"colour"})
         assert rendered.colour is not None
         image = rendered.colour.view(np.uint8)
         scale = lens.width / camera.intrinsics.width

@@ -22,6 +22,7 @@ from ...benchmark.updaters import Level
 from ...errors import BadSetting
 from ...geometry import Pose, rotation_from_quaternion
 from ...messages import Marker
+from ...rendering.grey import grey_truncated
 from ...runs.trial.level_row import LevelRow
 from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
@@ -90,6 +91,7 @@ class LiveView:
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
         self._views: dict[int, Message] = {}
+        self._widths: dict[int, int] = {}  # of images, of viewers who have said one [px]
         self._mapping, self._waits = mapping, waits
         self._resets, self._first = resets, b""
         self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
@@ -237,16 +239,27 @@ class LiveView:
         world = self._simulation.world
         for index, name in enumerate(world.cameras):
             if (channel := f"?image/{name}") in wanted:
-                self._server.publish(channel, self._header(IMAGE, index) + jpeg(self._image(name)))
+                image = self._image(name, max(self._widths.values(), default=MAX_SIDE))
+                self._server.publish(channel, self._header(IMAGE, index) + jpeg(image))
 
-    def _image(self, camera: str) -> npt.NDArray[np.uint8]:
+    def _image(self, camera: str, width: int = MAX_SIDE) -> npt.NDArray[np.uint8]:
+        """Return what a camera sees, ``width`` wide at most."""
         assert self._simulation is not None
+        world = self._simulation.world
+        view = world.camera(camera)
+        lens = view.intrinsics
+        size = width, max(1, round(width * lens.height / lens.width))
+        is_smaller = width < lens.width
         for images in self._simulation.images.values():
             if images.camera.name == camera and images.last is not None:
-                return images.last
-        colour = self._simulation.image(camera).colour
+                seen = images.last
+                return cv2.resize(seen, size, interpolation=cv2.INTER_AREA) if is_smaller else seen
+        if is_smaller:  # what nobody will see is not drawn
+            lens = lens.resized(*size)
+        colour = world.scenery.render_clean(view.world_from_camera, lens, targets={"colour"}).colour
         assert colour is not None
-        return colour.view(np.uint8)
+        pixels = colour.view(np.uint8)
+        return grey_truncated(pixels) if view.is_grey else pixels
 
     def _send_views(self) -> None:
         """Draw the newest view that a page without WebGL asks for."""
@@ -293,10 +306,13 @@ class LiveView:
             elif kind == "view":
                 self._views.pop(viewer, None)
                 self._views[viewer] = message
+            elif kind == "images":
+                self._widths[viewer] = _width_of(message)
             elif kind == "input" and self._mapping is not None:
                 self._take(viewer, self._mapping.values(message))
             elif kind == "left":
                 self._views.pop(viewer, None)
+                self._widths.pop(viewer, None)
                 if viewer in self._inputs:
                     self._take(viewer, (0.0,) * len(AXES))
 
@@ -322,6 +338,15 @@ def jpeg(image: npt.NDArray[np.uint8]) -> bytes:
         ".jpg", np.ascontiguousarray(ordered), [cv2.IMWRITE_JPEG_QUALITY, QUALITY]
     )
     return bytes(packed.tobytes())
+
+
+def _width_of(message: Message) -> int:
+    """Width of the images that a viewer wants [px]; as they are where it says none."""
+    width = message.get("width")
+    is_right = isinstance(width, int | float) and not isinstance(width, bool)
+    return (
+        round(min(max(float(width), 16.0), MAX_SIDE)) if is_right and width == width else MAX_SIDE
+    )
 
 
 def _asked_for(message: Message) -> tuple[Pose, tuple[int, int]]:

@@ -27,6 +27,7 @@ export class Link {
   private page: Page | null = null;
   private stream: Stream | null = null;
   private asked = "";
+  private readonly numbers: number[] = []; // of the newest image of each camera
   /** Whether all may go back where it began. */
   resets = false;
 
@@ -51,7 +52,7 @@ export class Link {
   /** Ask for the images of the cameras, or for none. */
   subscribe(on: boolean): void {
     const cameras = on ? this.pack.head.cameras.map(({ name }) => name) : [];
-    this.send({ type: "images", cameras, rate: 10 });
+    this.send({ type: "images", cameras, rate: 10, width: this.page?.picture.widest() });
   }
 
   /** Ask for an image of what is looked at, where this browser cannot draw it. */
@@ -91,7 +92,7 @@ export class Link {
     const [kind, index] = [view.getUint8(0), view.getUint8(1)];
     if (kind === 0) location.reload(); // another scene has begun
     if (kind === 1) stream.push(view.getFloat64(8, true), new Float32Array(event.data, HEADER));
-    if (kind === 2) this.showImage(page.picture.frame(index), event.data.slice(HEADER), index);
+    if (kind === 2) void this.showImage(index, event.data.slice(HEADER), page, stream);
     if (kind === 4) stream.dig(index, new Float32Array(event.data, HEADER));
     if (kind === 3 && this.isDrawnThere) this.showView(event.data.slice(HEADER));
   }
@@ -108,16 +109,13 @@ export class Link {
     else if (message.type === "end") this.end(message.why);
   }
 
-  private showImage(frame: HTMLElement | undefined, data: ArrayBuffer, index: number): void {
-    if (!frame) return;
-    let image = frame.querySelector("img");
-    if (!image) {
-      image = document.createElement("img");
-      image.alt = `image of ${this.pack.head.cameras[index].name}`;
-      frame.prepend(image);
-      frame.querySelector("figcaption")!.textContent = this.pack.head.cameras[index].name;
-    }
-    show(image, data);
+  private async showImage(index: number, data: ArrayBuffer, page: Page, stream: Stream): Promise<void> {
+    const number = (this.numbers[index] ?? 0) + 1;
+    this.numbers[index] = number;
+    const image = await createImageBitmap(new Blob([data], { type: "image/jpeg" }));
+    if (this.numbers[index] !== number) return image.close(); // a newer one has come meanwhile
+    page.picture.show(index, image);
+    stream.version += 1;
   }
 
   private showView(data: ArrayBuffer): void {

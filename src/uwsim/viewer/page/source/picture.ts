@@ -72,6 +72,7 @@ export class Picture {
   private readonly overlay = element<HTMLCanvasElement>("overlay");
   private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
+  private readonly sent: ImageBitmap[] = []; // of cameras, by a running simulation
   private readonly pace: Pace | null;
 
   private constructor(
@@ -163,9 +164,18 @@ export class Picture {
     return pixels;
   }
 
-  /** Where in the page a camera's image lies. */
-  frame(camera: number): HTMLElement {
-    return this.frames[camera];
+  /** The width in which images of cameras are shown, the widest of them [px]. */
+  widest(): number {
+    const shapes = this.head.cameras.map(({ width, height }) => width / height);
+    return Math.round(PICTURE_HEIGHT * Math.max(...shapes) * Math.min(devicePixelRatio, 2));
+  }
+
+  /** Show an image of a camera that a simulation has sent, from the next drawing on. */
+  show(camera: number, image: ImageBitmap): void {
+    if (!this.frames[camera]) return;
+    if (this.sent[camera]) this.sent[camera].close();
+    else this.frames[camera].querySelector("figcaption")!.textContent = this.head.cameras[camera].name;
+    this.sent[camera] = image;
   }
 
   private drawPictures(
@@ -180,7 +190,9 @@ export class Picture {
       const place = this.frames[i].getBoundingClientRect();
       const [x, y] = [place.left - origin.left + 1, place.top - origin.top + 1];
       const lens = inside(camera, place.width - 2, place.height - 2);
-      if (!this.frames[i].querySelector("img")) {
+      // an element of its own would have the whole page put together again for each image
+      if (this.sent[i]) context.drawImage(this.sent[i], x, y, place.width - 2, place.height - 2);
+      else {
         const worldFromCamera = this.models.mounted(camera);
         const corner: [number, number] = [
           Math.round(x * ratio), Math.round((height - y - place.height + 2) * ratio),
