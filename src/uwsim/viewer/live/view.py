@@ -253,7 +253,9 @@ class LiveView:
         for images in self._simulation.images.values():
             if images.camera.name == camera and images.last is not None:
                 seen = images.last
-                return cv2.resize(seen, size, interpolation=cv2.INTER_AREA) if is_smaller else seen
+                if is_smaller:
+                    seen = cv2.resize(seen, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
+                return seen
         if is_smaller:  # what nobody will see is not drawn
             lens = lens.resized(*size)
         colour = world.scenery.render_clean(view.world_from_camera, lens, targets={"colour"}).colour
@@ -343,10 +345,9 @@ def jpeg(image: npt.NDArray[np.uint8]) -> bytes:
 def _width_of(message: Message) -> int:
     """Width of the images that a viewer wants [px]; as they are where it says none."""
     width = message.get("width")
-    is_right = isinstance(width, int | float) and not isinstance(width, bool)
-    return (
-        round(min(max(float(width), 16.0), MAX_SIDE)) if is_right and width == width else MAX_SIDE
-    )
+    if not isinstance(width, int | float) or isinstance(width, bool) or math.isnan(width):
+        return MAX_SIDE
+    return round(min(max(float(width), 16.0), MAX_SIDE))
 
 
 def _asked_for(message: Message) -> tuple[Pose, tuple[int, int]]:
