@@ -1,4 +1,4 @@
-"""Sliding joints hold their place, and stop at their limits whatever pushes them."""
+"""Joints hold their place, and stop at their limits whatever pushes them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pytest
 
 import uwsim
 from uwsim.messages import JointState
-from uwsim.physics.joints import BEYOND
+from uwsim.physics.joints import BEYOND, BEYOND_TURN
 
 HULL = """
   <body link="hull">
@@ -42,14 +42,29 @@ SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
   </ROSJointStateToArm> </rosInterfaces>
 </UWSimScene>
 """
+TURNING = """<robot name="lifter">
+  <link name="hull"> <visual> <geometry> <box size="1.2 0.4 0.3"/> </geometry> </visual> </link>
+  <joint name="lift" type="KIND">
+    <parent link="hull"/> <child link="sled"/> <axis xyz="0 1 0"/>
+    LIMIT
+  </joint>
+  <link name="sled"> <inertial> <origin xyz="0.5 0 0"/> <mass value="10"/>
+    <inertia ixx="0.2" iyy="0.2" izz="0.2" ixy="0" ixz="0" iyz="0"/> </inertial> </link>
+</robot>
+"""
+LIMIT = '<limit lower="0" upper="0.5" effort="50" velocity="0.2"/>'
 
 
 @pytest.fixture
 def simulation(tmp_path: Path) -> uwsim.Simulation:
-    (tmp_path / "lifter.xml").write_text(SET)
-    (tmp_path / "lifter.urdf").write_text(ROBOT)
-    (tmp_path / "scene.xml").write_text(SCENE)
-    return uwsim.load(tmp_path / "scene.xml")
+    return loaded(tmp_path, ROBOT)
+
+
+def loaded(folder: Path, robot: str) -> uwsim.Simulation:
+    (folder / "lifter.xml").write_text(SET)
+    (folder / "lifter.urdf").write_text(robot)
+    (folder / "scene.xml").write_text(SCENE)
+    return uwsim.load(folder / "scene.xml")
 
 
 def pull_down(simulation: uwsim.Simulation, newtons: float, seconds: float) -> float:
@@ -89,3 +104,48 @@ def test_a_lift_of_200_newtons_gives_way_by_millimetres_under_35(
     simulation.advance(4.0)
     assert simulation.world.joints("lifter")[0] == pytest.approx(0.2, abs=0.001)
     assert pull_down(simulation, 35.0, 2.0) < 0.206
+
+
+def turning(folder: Path, kind: str = "revolute", limit: str = LIMIT) -> uwsim.Simulation:
+    return loaded(folder, TURNING.replace("KIND", kind).replace("LIMIT", limit))
+
+
+def test_a_held_joint_that_turns_stops_a_little_beyond_its_limit_under_more_than_its_servo_bears(
+    tmp_path: Path,
+) -> None:
+    """400 N at 0.5 m against 50 N m; the hull tilts under it."""
+    farthest = pull_down(turning(tmp_path), 400.0, 2.0)
+    assert 0.5 < farthest < 0.5 + 1.5 * BEYOND_TURN
+
+
+def test_one_that_is_let_go_stops_at_its_limit_and_one_that_is_held_again_beyond(
+    tmp_path: Path,
+) -> None:
+    simulation = turning(tmp_path)
+    simulation.publish("/arm", JointState(name=["lift"], effort=np.array([0.0])))
+    simulation.advance(0.1)
+    assert pull_down(simulation, 400.0, 2.0) < 0.5 + 0.5 * BEYOND_TURN
+    simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.5])))
+    farthest = pull_down(simulation, 400.0, 2.0)
+    assert 0.5 + 0.5 * BEYOND_TURN < farthest < 0.5 + 1.5 * BEYOND_TURN
+
+
+def test_a_servo_that_comes_to_its_limit_under_a_load_does_not_touch_the_stop(
+    tmp_path: Path,
+) -> None:
+    simulation = turning(tmp_path)
+    simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.0])))
+    simulation.advance(4.0)
+    simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.5])))
+    assert pull_down(simulation, 20.0, 4.0) < 0.5 + 0.5 * BEYOND_TURN
+    assert simulation.world.joints("lifter")[0] == pytest.approx(0.5, abs=0.002)
+
+
+def test_a_continuous_joint_without_limits_has_no_stop_while_it_is_held(tmp_path: Path) -> None:
+    simulation = turning(tmp_path, "continuous", "")
+    data = simulation.world.state._data
+    data.qvel[-1] = 20.0
+    for _ in range(100):
+        data.qfrc_applied[-1] = 3000.0
+        simulation.advance(0.01)
+    assert simulation.world.joints("lifter")[0] > 2.0 * np.pi

@@ -20,11 +20,11 @@ STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 GEAR = (500.0, 10.0)
 """Stiffness [N m/rad] and damping between a joint and the one that it mimics; a constraint would
 bind them as well, and cost a solver at every step."""
-BEYOND = 0.02
-"""How far beyond its limits a joint that slides has its stops while a servo holds it, so that one
-that comes to a limit does not hit them [m]."""
+BEYOND, BEYOND_TURN = 0.02, 0.1
+"""How far beyond its limits a joint that slides [m] or turns [rad] has its stops while a servo
+holds it, so that one that comes to a limit does not hit them."""
 NOWHERE = 1e6
-"""As far are those of a joint that turns: it has none while a servo holds it [rad]."""
+"""As far are those of one that turns and turns while a servo holds it [rad]."""
 ROTOR = 0.1
 """Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2]."""
 
@@ -48,7 +48,11 @@ def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: b
 
 def stops(joint: JointSpec, *, is_held: bool) -> tuple[float, float]:
     """Where a joint stops, whatever pushes it; ``is_held`` by a servo [rad or m]."""
-    beyond = (BEYOND if joint.kind == "prismatic" else NOWHERE) if is_held else 0.0
+    beyond = BEYOND if joint.kind == "prismatic" else BEYOND_TURN
+    if joint.kind == "continuous" and joint.upper - joint.lower >= 2.0 * math.pi:
+        beyond = NOWHERE
+    if not is_held:
+        beyond = 0.0
     return joint.lower - beyond, joint.upper + beyond
 
 

@@ -4,9 +4,9 @@ A servo pulls its joint to a target (`servo_kernel`), with a stiffness and dampi
 its strength, and carries what hangs on the joint. How strong it is and how fast its target moves at
 most is said by the URDF. A position sets where the target goes, a velocity moves it until the next
 command, both within the limits of the URDF. An effort switches the servo off and acts on the joint
-alone. The limits are stops where the servo is off, and those of a joint that slides also, a little
-beyond, where it holds. Joints that mimic follow the targets, or where the leader has no servo, its
-position. Not modelled: play, friction of the gear, stops of a joint that turns while it is held.
+alone. The limits are stops where the servo is off, and a little beyond where it holds. Joints that
+mimic follow the targets, or where the leader has no servo, its position. Not modelled: play,
+friction of the gear.
 """
 
 from __future__ import annotations
