@@ -52,7 +52,7 @@ from ..errors import BadMessage, RunFailed, UwsimError
 from ..message_fields import size_of
 from ..messages.services import Service
 from .clock_topic import ClockTopic
-from .later_answers import LaterAnswers
+from .later_answers import LaterAnswers, pass_on
 from .log import Log
 from .queues import LatestQueue
 from .types import service_of, wire_type
@@ -320,7 +320,8 @@ class Bridge(ABC):
             before, self._topics = self._topics, topics
             self.on_topics(topics)
             for name in LATCHED:
-                if name in _published(topics) and name not in _published(before):
+                ends, old = topics.get(name), before.get(name)
+                if ends is not None and ends.is_published and not (old and old.is_published):
                     self._send_latched(name)
         services: dict[str, Service] = {}
         for name in self.bus.services.names:
@@ -406,7 +407,10 @@ class Bridge(ABC):
         if self.later.takes(name, request, future):
             return
         try:
-            future.set_result(self.bus.services.call(name, request))
+            if name in self._from_outside:  # nobody here waits for it
+                pass_on(self.call_outside(name, request), future)
+            else:
+                future.set_result(self.bus.services.call(name, request))
         except UwsimError as error:
             future.set_exception(error)
 
@@ -438,8 +442,3 @@ class Bridge(ABC):
     def _publisher_of(self, topic: str) -> str:
         """Name who publishes a topic outside, where a message does not say it; may be empty."""
         return ""
-
-
-def _published(topics: Mapping[str, TopicEnds]) -> set[str]:
-    """Names of the topics on which anyone publishes."""
-    return {name for name, ends in topics.items() if ends.is_published}

@@ -42,5 +42,17 @@ class LaterAnswers:
         return take is not None
 
 
+def pass_on(answer: Future[object], to: Future[object]) -> None:
+    """Have a future have what another has, when that has it."""
+
+    def take(done: Future[object]) -> None:
+        if (error := done.exception()) is not None:
+            to.set_exception(error)
+        else:
+            to.set_result(done.result())
+
+    answer.add_done_callback(take)
+
+
 def _never_here(request: object) -> object:
     raise UwsimError("This service is for programs outside.")

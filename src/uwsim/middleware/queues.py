@@ -74,4 +74,5 @@ class LatestQueue(Generic[T]):
         return self._is_closed
 
     def __len__(self) -> int:
-        return len(self._items)
+        with self._changed:  # while one is put in there may be one too many
+            return len(self._items)

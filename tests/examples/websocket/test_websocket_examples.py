@@ -14,7 +14,7 @@ import pytest
 from tests.byte_hashes import short_currents
 from tests.keep_station import LEVELS, scored_in_process, short_benchmark
 from tests.short_benchmark import write_benchmark
-from tests.waiting import until
+from tests.waiting import free_port, until
 from uwsim import load
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
@@ -269,3 +269,43 @@ def test_a_run_whose_client_leaves_or_is_wrong_says_what_is_kept(
     assert "Traceback" not in errors
     kept = "Finished rows are kept; continue with --resume." in errors
     assert kept == ("left" in said)
+
+
+MORTAL = f"""
+import os, signal, sys
+sys.path.insert(0, {str(EXAMPLES)!r})
+import lockstep, run_algorithm
+
+class Mortal(lockstep.Client):
+    n_trials = 0
+
+    def __init__(self, *arguments):
+        super().__init__(*arguments)
+        Mortal.n_trials += 1
+
+    def _tick(self, tick):
+        if Mortal.n_trials == 2 and tick["tick"] == 50:
+            os.kill(os.getpid(), signal.SIGKILL)
+        super()._tick(tick)
+
+run_algorithm.Client = Mortal
+run_algorithm.main()
+"""
+"""Is killed in the middle of its second trial."""
+
+
+@pytest.mark.slow
+def test_a_run_whose_client_was_killed_goes_on_where_it_was(tmp_path: Path) -> None:
+    benchmark = short_currents(tmp_path)
+    inside = scored_inside(benchmark, tmp_path / "inside", "p")
+    (tmp_path / "mortal.py").write_text(MORTAL)
+    who = ["uwsim.algorithms.control:P", "--name", "outside"]
+    out = tmp_path / "outside"
+    mortal = [str(tmp_path / "mortal.py"), *who, "--trials", "2"]
+    # one port for both trials
+    killed, said = scored_outside(benchmark, out, mortal, "--web", str(free_port()))
+    assert "'outside' left at " in said
+    assert "Finished rows are kept; continue with --resume." in said
+    assert killed["rows"] == inside["rows"][:1]
+    whole, said = scored_outside(benchmark, out, ["run_algorithm.py", *who], "--resume")
+    assert whole["rows"] == inside["rows"], said

@@ -224,3 +224,20 @@ def test_all_types_of_the_packages_that_rclpy_has_have_our_fields() -> None:
     wrong = [name for name in names if name not in SERVICES and not has_our_fields(name)]
     assert len(names) > 90
     assert wrong == []
+
+
+def test_a_node_whose_command_is_odd_is_named(simulator: Simulator) -> None:
+    simulator.bus.subscribe(
+        "rov/twist", TwistStamped, lambda _: None, remark=lambda _: ("it is odd", "another")
+    )
+    source = """
+from geometry_msgs.msg import TwistStamped
+out = node.create_publisher(TwistStamped, "/rov/twist", 10)
+while True:
+    out.publish(TwistStamped())
+    rclpy.spin_once(node, timeout_sec=0.05)
+"""
+    with peer(source, simulator.domain):
+        until(lambda: any("it is odd" in line for line in simulator.lines), simulator.step)
+    [line] = [line for line in simulator.lines if "it is odd" in line]
+    assert "/rov/twist: in a message of node /peer, it is odd; expected another" in line

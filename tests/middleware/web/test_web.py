@@ -438,3 +438,43 @@ def test_more_clients_than_are_served_are_refused_with_a_line(
     with pytest.raises(InvalidStatus, match="503"):
         setting.client()
     assert "uwsim: web: more than 1 clients; one is refused" in setting.lines
+
+
+def test_a_service_of_a_client_that_does_not_answer_holds_up_who_calls_it_alone(
+    setting: Setting,
+) -> None:
+    kind = "underwater_sensor_msgs/srv/GTpublish"
+    setting.bridge.step()
+    offerer, caller = setting.client(), setting.client()
+    send(offerer, op="advertise_service", service="/slow", type=kind)
+    setting.step_until(lambda: "slow" in setting.bridge.services)
+    send(caller, op="call_service", id="1", service="/slow", args={"groundTruth": [1.0]})
+    began = time.monotonic()
+    asked: list[Any] = []
+
+    def is_asked() -> bool:
+        with suppress(TimeoutError):
+            asked.append(json.loads(offerer.recv(timeout=0.001)))
+        return bool(asked)
+
+    setting.step_until(is_asked)
+    for _ in range(10):
+        setting.bridge.step()
+    assert time.monotonic() - began < 10.0  # a call that is waited for takes 60 s
+    with pytest.raises(TimeoutError):
+        caller.recv(timeout=0.01)
+    send(offerer, op="service_response", id=asked[0]["id"], values={}, result=True)
+    assert heard(caller)["result"] is True
+    send(caller, op="call_service", id="2", service="/slow", args={"groundTruth": [1.0]})
+    asked.clear()
+    setting.step_until(is_asked)
+    offerer.close()
+    answered: list[Any] = []
+
+    def is_answered() -> bool:
+        with suppress(TimeoutError):
+            answered.append(json.loads(caller.recv(timeout=0.001)))
+        return bool(answered)
+
+    setting.step_until(is_answered)
+    assert answered[0]["result"] is False
