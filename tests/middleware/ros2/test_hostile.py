@@ -252,3 +252,24 @@ def test_names_that_are_none_of_ros_2_are_told_and_the_others_are_there(
     told = [line for line in simulator.lines if "not on the graph: /" in line]
     assert len(told) == 3 * 6
     assert any("not on the graph: /a b. A name of ROS 2 has letters" in line for line in told)
+
+
+@needs_rclpy
+def test_calls_that_cannot_be_read_do_not_fill_standard_error(
+    simulator: Simulator, capfd: pytest.CaptureFixture[str]
+) -> None:
+    simulator.bus.services.serve("rov/reset", Empty, lambda _: EmptyResponse())
+    simulator.step()
+    source = """
+from std_srvs.srv import Empty
+client = node.create_client(Empty, "/rov/reset")
+spin_until(client.service_is_ready)
+for _ in range(20):
+    client.call_async(Empty.Request())
+    rclpy.spin_once(node, timeout_sec=0.02)
+say(done=True)
+spin_until(lambda: False)
+"""
+    with peer(source, simulator.domain) as node:
+        until(node.answers, simulator.step)
+    assert "deserialization" not in capfd.readouterr().err

@@ -25,6 +25,7 @@ from cyclonedds.core import (
     WaitSet,
 )
 from cyclonedds.domain import DomainParticipant
+from cyclonedds.internal import DDS
 from cyclonedds.pub import DataWriter
 from cyclonedds.qos import Policy, Qos
 from cyclonedds.sub import DataReader
@@ -38,6 +39,8 @@ from .raw_types import RawSample
 
 Events = Mapping[int, Callable[[Any], None]]
 """Status of an endpoint -> what is called with the endpoint when it changes."""
+ERRORS = 0b11
+"""Fatal errors and errors, among what Cyclone DDS prints."""
 NO_EVENTS: Events = MappingProxyType({})
 READERS_CHANGED = DDSStatus.PublicationMatched
 """Of a writer: readers came or left."""
@@ -84,6 +87,13 @@ class Writer:
         return len(self.entity.get_matched_subscriptions())
 
 
+def _print_errors_only() -> None:
+    """Have Cyclone DDS print no warnings: a peer may cause one with each sample that it sends."""
+    library: Any = getattr(DDS, "_dll_handle", None)
+    if hasattr(library, "dds_set_log_mask"):
+        library.dds_set_log_mask(ERRORS)
+
+
 class Participant:
     """A participant; `close` ends it.
 
@@ -105,6 +115,7 @@ class Participant:
                 f"--ros2: Cyclone DDS cannot join domain {domain}: {error} (CYCLONEDDS_URI is "
                 "read too)"
             ) from error
+        _print_errors_only()
         self._topics: dict[str, Any] = {}
         self._lock = threading.Lock()
         self._readers: dict[Any, tuple[Any, Callable[[Any], None]]] = {}
