@@ -94,23 +94,54 @@ def reference_point(table: Floats, place: Floats, axes: Floats, com: Floats) -> 
 
 
 @njit
-def wet_part(table: Floats, axes: Floats, depth: float) -> tuple[float, Three]:
+def wet_part(table: Floats, up: Three, depth: float) -> tuple[float, Three]:
     """The submerged share of a body, and the centre of that part from the reference point [m].
 
     Args:
         table: the body's.
-        axes: world_from_body.
+        up: the vertical in the axes of the body.
         depth: of the reference point below the surface [m].
     """
     x, y, z = table[CENTRE], table[CENTRE + 1], table[CENTRE + 2]
-    depth = depth - (axes[6] * x + axes[7] * y + axes[8] * z)
+    depth = depth - (up[0] * x + up[1] * y + up[2] * z)
     if depth >= table[REACH]:
         return 1.0, (x, y, z)
     wet, cx, cy, cz = submerged(
-        table[SHAPE], table[SIZE], table[SIZE + 1], table[SIZE + 2],
-        axes[6], axes[7], axes[8], depth,
-    )  # fmt: skip
+        table[SHAPE], table[SIZE], table[SIZE + 1], table[SIZE + 2], up[0], up[1], up[2], depth
+    )
     return wet, (x + cx, y + cy, z + cz)
+
+
+@njit
+def entered(table: Floats, up: Three, depth: float, wet: float, nu: Six, step: float) -> float:
+    """What share of the wet part has come into the water within a step.
+
+    Args:
+        table: the body's.
+        up: the vertical in the axes of the body.
+        depth: of the reference point below the surface [m].
+        wet: the submerged share of the body.
+        nu: its twist relative to the water, which carried it from where it was.
+        step: the length of the step [s].
+    """
+    a, b, c = up
+    u, v, w, p, q, r = nu
+    x, y, z = a - step * (b * r - c * q), b - step * (c * p - a * r), c - step * (a * q - b * p)
+    size = math.sqrt(x * x + y * y + z * z)
+    before, _ = wet_part(
+        table, (x / size, y / size, z / size), depth + step * (a * u + b * v + c * w)
+    )
+    return max(wet - before, 0.0) / wet
+
+
+@njit
+def take_along(force: Six, momentum: Six, rate: float) -> Six:
+    """A force less that on a body whose added mass grows at a rate [1/s]."""
+    return (
+        force[0] - rate * momentum[0], force[1] - rate * momentum[1],
+        force[2] - rate * momentum[2], force[3] - rate * momentum[3],
+        force[4] - rate * momentum[4], force[5] - rate * momentum[5],
+    )  # fmt: skip
 
 
 @njit

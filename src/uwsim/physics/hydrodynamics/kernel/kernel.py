@@ -15,15 +15,16 @@ matrix, the rest into the passive forces:
 
 :math:`D'` is the derivative of the drag: with :math:`\theta > 0` drag is linearly implicit over a
 step. :math:`B = \rho V (a_c - g)` is buoyancy with the pressure gradient of accelerating water. Out
-of the water :math:`M_A`, :math:`D` and :math:`B` shrink with the submerged fraction. Inertias and
-wrenches are summed up the tree, as in the composite-rigid-body algorithm, in MuJoCo's own frame: at
-the centre of mass of the tree, world axes.
+of the water :math:`M_A`, :math:`D` and :math:`B` shrink with the submerged fraction. Where that
+grows, the force is less by :math:`\dot M_A\nu_r`, the momentum of the water that is set in motion;
+where it shrinks, the water that is shed keeps its own. Inertias and wrenches are summed up the
+tree, as in the composite-rigid-body algorithm, in MuJoCo's own frame: at the centre of mass of the
+tree, world axes.
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
 The equations of one body are in `equations`; here is where the numbers lie.
 
-Not modelled: the momentum of water shed when the submerged fraction changes, memory of waves,
-ground effect, flow of one body over another.
+Not modelled: memory of waves, ground effect, flow of one body over another.
 """
 
 from __future__ import annotations
@@ -43,6 +44,7 @@ from ..columns import (
     MAGIC_NUMBER,
     N_LEVELS,
     PROPELLER,
+    REACH,
     ROLE,
     SURFACE,
     THETA,
@@ -55,6 +57,7 @@ from .equations import (
     coriolis,
     diagonal_force,
     diagonal_momentum,
+    entered,
     full_force,
     known_rate,
     move_wrench,
@@ -64,6 +67,7 @@ from .equations import (
     six,
     slopes,
     subtract,
+    take_along,
     to_body,
     wet_part,
 )
@@ -265,17 +269,22 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         com = floats(word(d + at[f.COM]) + 24 * root[body], 3)
         twist = floats(word(d + at[f.CVEL]) + 48 * body, 6)
         height, lever = reference_point(table, place, axes, com)
-        wet, centre = wet_part(table, axes, still + water[6] - height)
+        up, depth = (axes[6], axes[7], axes[8]), still + water[6] - height
+        wet, centre = wet_part(table, up, depth)
         if wet <= 0.0:
             continue
+        nu = relative_twist(axes, lever, twist, water)
+        growth = 0.0
+        x, y, z = centre
+        if depth - (up[0] * x + up[1] * y + up[2] * z) < 2.0 * table[REACH]:
+            timestep = real(m + at[f.TIMESTEP])
+            growth = entered(table, up, depth, wet, nu, timestep) / timestep
         if is_stratified:
-            x, y, z = centre
             centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z
             wet *= density_ratio(m, at, centre_height)
         base = f.ROW * body
         work[base + f.TOUCHED] = 1.0
         step = theta_h * table[THETA]
-        nu = relative_twist(axes, lever, twist, water)
         bias = six(work, base + f.BIAS)
         omega = to_body(axes, twist[0], twist[1], twist[2])
         rate = known_rate(axes, lever, bias, water, omega)
@@ -287,6 +296,8 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
             force = diagonal_force(table, nu, rate, pace, slope, step)
             momentum = diagonal_momentum(table, nu)
         force = subtract(force, coriolis(nu, omega, momentum))
+        if growth > 0.0:
+            force = take_along(force, momentum, growth)
         wrench = move_wrench(axes, lever, wet, force)
         lift = buoyancy(wet * table[DISPLACED], water, gravity, weight)
         to = base + f.WRENCH
