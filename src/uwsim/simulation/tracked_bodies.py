@@ -1,9 +1,12 @@
 """The bodies of a scene that may move against each other, and their poses as rows of numbers.
 
-Links that fixed joints hold together are one body, called after the link nearest to the root.
+Links that fixed joints hold together are one body, called after the link nearest to the root. What
+would have the name of something before it gets ``#2``, ``#3``, ... behind its own.
 """
 
 from __future__ import annotations
+
+from collections.abc import Iterable
 
 import numpy as np
 
@@ -39,10 +42,8 @@ class TrackedBodies:
         objects = [*self._loose, *self._placed]
         self._row_of = {link: row for row, link in enumerate(links)}
         self._row_of_object = {i: len(links) + k for k, i in enumerate(objects)}
-        self.names = (
-            *(f"{world.scene.vehicles[i].name}/{link}" for i, link in links),
-            *(world.scene.objects[i].name for i in objects),
-        )
+        of_link, of_object = body_names(world)
+        self.names = (*(of_link[link] for link in links), *(of_object[i] for i in objects))
         """Name of each: ``vehicle/link``, or an object's."""
 
     def body_of(self, part: Part) -> int | None:
@@ -70,6 +71,34 @@ class TrackedBodies:
         self._poses.show(self._numbers, rows[:n])
         for i, row in zip(self._placed, rows[n:], strict=True):
             self._poses.put(i, Pose(row[:3].copy(), rotation_from_quaternion(row[3:])))
+
+
+def vehicle_labels(world: SceneWorld) -> tuple[str, ...]:
+    """Return a name of its own for each vehicle."""
+    return unique(vehicle.name for vehicle in world.scene.vehicles)
+
+
+def body_names(world: SceneWorld) -> tuple[dict[tuple[int, str], str], dict[int, str]]:
+    """Return a name of its own for each body: of a vehicle's leading links, and of objects."""
+    labels, things = vehicle_labels(world), world.scene.objects
+    links = [
+        (i, each) for i, robot in world.robots.items() for each in set(leaders(robot).values())
+    ]
+    links.sort()
+    names = unique([*(f"{labels[i]}/{each}" for i, each in links), *(each.name for each in things)])
+    return dict(zip(links, names, strict=False)), dict(enumerate(names[len(links) :]))
+
+
+def unique(names: Iterable[str]) -> tuple[str, ...]:
+    """Return names of which none is there twice."""
+    found: dict[str, None] = {}
+    for name in names:
+        own, number = name, 1
+        while own in found:
+            number += 1
+            own = f"{name}#{number}"
+        found[own] = None
+    return tuple(found)
 
 
 def leaders(robot: RobotSpec) -> dict[str, str]:

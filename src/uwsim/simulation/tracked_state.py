@@ -10,7 +10,7 @@ from ..devices.lamp import MountedLamp
 from ..geometry import Array
 from ..tracks import Signal
 from .stage import SceneStage
-from .tracked_bodies import TrackedBodies
+from .tracked_bodies import TrackedBodies, vehicle_labels
 
 LAMP = "lamp/"
 """How the name of a lamp's signal begins, its brightness [0..1]."""
@@ -60,7 +60,7 @@ class TrackedState:
     def _signals(self) -> Iterator[Signal]:
         yield Signal(name="fog", unit="1/m")
         yield Signal(name="light_rate")
-        for index, vehicle in enumerate(self._world.vehicles):
+        for index, vehicle in enumerate(vehicle_labels(self._world)):
             for axis in "xyz":
                 yield Signal(name=f"water/{vehicle}/{axis}", unit="m/s", step=1e-3)
             if index in self._world.state.actuation:

@@ -77,8 +77,8 @@ Where programs spawned markers the version is 2, too, and ``"markers"`` is in th
 `uwsim.tracks.marker_log` says.
 
 Names of bodies: ``vehicle/link``, of links that fixed joints hold together the one nearest to the
-root (`uwsim.simulation.tracked_bodies`); the object's name for objects. Names of signals, all
-optional::
+root (`uwsim.simulation.tracked_bodies`); the object's name for objects; none is there twice, as the
+second of a name has ``#2`` behind it. Names of signals, all optional::
 
     fog, light_rate            as they are [1/m], [1]
     lamp/NAME                  its brightness, 0 off to 1: the intensity of the head
@@ -144,7 +144,7 @@ from ..simulation import Simulation
 from ..simulation.parts import Part
 from ..simulation.scenery.sand import CELL, REACH, Heap
 from ..simulation.stage import SceneStage
-from ..simulation.tracked_bodies import leaders
+from ..simulation.tracked_bodies import body_names, leaders, unique, vehicle_labels
 from ..simulation.views import FIELD, focus_of, orbit_view, viewer_view
 from .models import Models
 from .pack import Blob
@@ -170,7 +170,8 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
     bodies = _Bodies(world)
     for part in world.scenery.parts:
         bodies.add(part, models)
-    sand = [_sand(heap, bodies, models) for heap in world.scenery.heaps]
+    names = unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
+    sand = [_sand(*each, bodies, models) for each in zip(names, world.scenery.heaps, strict=True)]
     water, light = world.scenery.water, world.scenery.light
     return {
         "uwsim_head": VERSION,
@@ -226,6 +227,9 @@ class _Bodies:
     def __init__(self, world: SceneStage) -> None:
         self._world = world
         self._leaders = {i: leaders(robot) for i, robot in world.robots.items()}
+        self._of_link, self._of_object = body_names(world)
+        self.labels = vehicle_labels(world)
+        """A name of its own for each vehicle."""
         self.rows: list[Json] = []
         """The bodies so far, as in the head."""
         self._poses: dict[str, Pose] = {}
@@ -233,9 +237,9 @@ class _Bodies:
 
     def link(self, index: int, link: str) -> str:
         """Return the body of a link, which is among the bodies from now on."""
-        vehicle, leader = self._world.scene.vehicles[index].name, self._leaders[index][link]
+        leader = self._leaders[index][link]
         pose = self._world.state.poses.link(index, leader)
-        return self._body(f"{vehicle}/{leader}", pose, vehicle)
+        return self._body(self._of_link[index, leader], pose, self.labels[index])
 
     def link_called(self, vehicle: str, link: str) -> str:
         """Return the name of a link of the first vehicle of that name."""
@@ -250,7 +254,8 @@ class _Bodies:
         if part.vehicle is not None:
             return self.link(part.vehicle, part.link)
         assert part.object is not None
-        return self._body(part.name, self._world.state.poses.object(part.object), None)
+        pose = self._world.state.poses.object(part.object)
+        return self._body(self._of_object[part.object], pose, None)
 
     def add(self, part: Part, models: Models) -> None:
         """Add a part of the scene."""
@@ -281,12 +286,12 @@ class _Bodies:
         return name
 
 
-def _sand(heap: Heap, bodies: _Bodies, models: Models) -> Json:
+def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
     """Add a heap to the bodies and meshes; returns how it is dug."""
     looks = models.looks(heap.model())
-    bodies.add_fixed(f"sand/{heap.name}", looks)
+    bodies.add_fixed(name, looks)
     return {
-        "body": f"sand/{heap.name}",
+        "body": name,
         "mesh": looks[0]["mesh"],
         "columns": list(heap.heights.shape),
         "corner": heap.corner.tolist(),
@@ -378,7 +383,7 @@ def _vehicles(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
     for index, vehicle in enumerate(world.scene.vehicles):
         live = world.vehicle(vehicle.name)
         yield {
-            "name": vehicle.name,
+            "name": bodies.labels[index],
             "body": bodies.link(index, world.robots[index].root),
             "thrusters": list(live.thrusters),
             "joints": list(live.joint_names),

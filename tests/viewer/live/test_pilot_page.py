@@ -126,3 +126,15 @@ def test_a_simulation_as_fast_as_it_can_and_one_of_any_speed_say_so(
         page.keyboard.press(key)
         assert page.evaluate(shown) == text
     page.context.close()
+
+
+def test_a_drawing_that_fails_once_is_not_the_end(browser: Any, server: LiveServer) -> None:
+    page = opened(browser, server, MAPPING, 768)
+    page.evaluate("""() => {
+        const { page } = window.uwsim, draw = page.draw.bind(page)
+        window.n = 0
+        page.draw = () => { if (++window.n === 1) throw new Error("no"); draw() }
+        setInterval(() => { page.views.version += 1 }, 20)
+    }""")
+    page.wait_for_function("window.n > 2")
+    page.context.close()

@@ -151,6 +151,7 @@ export class Page {
   }
 
   private tick(now: number): void {
+    requestAnimationFrame((next) => this.tick(next)); // first: what fails once is not the end
     const passed = Math.min(0.25, (now - this.last) / 1000);
     this.last = now;
     if (this.isPlaying && !this.link) {
@@ -165,7 +166,6 @@ export class Page {
       this.drawn = key;
       this.draw();
     }
-    requestAnimationFrame((next) => this.tick(next));
   }
 
   private refresh(): void {
