@@ -101,6 +101,19 @@ def odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str
     Returns:
         What was found, and what was expected, with what becomes of it; None: all is well.
     """
+    values = _values_at(tuple(paths))(message)
+    for value in values if len(paths) > 1 else (values,):
+        if isinstance(value, np.ndarray):
+            is_usual = not value.size or bool(np.abs(value).max() <= limit)
+        else:
+            is_usual = -limit <= value <= limit
+        if not is_usual:
+            return _odd_number(message, paths, limit)
+    return None
+
+
+def _odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str, str] | None:
+    """The same, where there is one."""
     beyond: tuple[str, str] | None = None
     for path in paths:
         value = operator.attrgetter(path)(message)
@@ -115,6 +128,12 @@ def odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str
                 most = f"{limit:g}"
                 beyond = f"{at} is {number:g}", f"-{most} to {most}; the nearest is taken"
     return beyond
+
+
+@functools.cache
+def _values_at(paths: tuple[str, ...]) -> Callable[[object], Any]:
+    """What reads the values at some paths; of one path, the value itself."""
+    return operator.attrgetter(*paths)
 
 
 def freeze(message: M) -> M:

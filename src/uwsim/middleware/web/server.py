@@ -280,7 +280,7 @@ class WebBridge(Bridge):
             writer.cancel()
             session.close()
             self._sessions.discard(session)
-            why = connection.close_reason or connection.close_code
+            why = connection.close_reason or connection.close_code or "its connection broke"
             self.log.say(f"{name} has left ({why})", kind="has left")
 
 
