@@ -15,7 +15,12 @@ from uwsim.errors import BadSetting, ClientLost, NeverStarted
 from uwsim.messages import Float64, GTpublish, GTpublishResponse, String
 from uwsim.messages.services import Service
 from uwsim.middleware.bridge import Bridge
-from uwsim.middleware.lockstep.client import LockStepClient, lockstep_clients
+from uwsim.middleware.lockstep.client import (
+    MAX_TEXT,
+    MAX_WAITING,
+    LockStepClient,
+    lockstep_clients,
+)
 from uwsim.middleware.lockstep.topics import ACK, JOIN, TICK
 from uwsim.middleware.log import Log
 from uwsim.simulation import InProcessNode
@@ -332,6 +337,27 @@ def test_a_second_program_that_joined_and_left_before_the_start_changes_nothing(
     step(bus, nodes)
     assert len(outside.ticks) == 1
     assert outside.told == [("second", "client 'a' is first already; second is not heard")]
+
+
+def test_a_flood_of_joins_and_answers_is_bounded_and_a_huge_one_is_told() -> None:
+    bus = Bus()
+
+    def floods(outside: Outside, tick: dict[str, Any]) -> None:
+        for n in range(10_000):
+            outside.says(ACK, client="a", tick=n)
+        outside.says(ACK, client="a", tick=1, id="x" * MAX_TEXT)
+        assert len(client._acks) <= MAX_WAITING
+        outside.says(ACK, client="a", tick=tick["tick"])
+
+    outside = Outside(bus, floods)
+    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    for _ in range(10_000):
+        outside.says(JOIN, client="a", topics=["/depth"])
+    assert len(client._joins) <= MAX_WAITING
+    nodes = [node_of(bus, client)]
+    bus.publisher("depth", Float64)(Float64(data=1.0))
+    step(bus, nodes)
+    assert any("letters; at most 1048576 are read" in line for line in outside.lines)
 
 
 def test_a_program_that_left_before_the_start_gives_way_to_the_next_of_its_name() -> None:

@@ -23,6 +23,10 @@ from ..types import message_class, service
 from .contract import given, names, wrong_in_answer, wrong_in_join, wrong_in_reply
 from .topics import ACK, JOIN, TICK
 
+MAX_WAITING = 100
+"""Joins and answers that wait; of more, the newest."""
+MAX_TEXT = 2**20
+"""Letters of one."""
 MAX_ROUNDS = 1000
 """Ticks of one step: a client that answers its own messages without end goes no further."""
 
@@ -39,11 +43,11 @@ class LockStepClient:
 
     def __init__(self, bridge: Bridge, name: str, *, timestep: float, limit: float) -> None:
         self._bridge, self._name, self._timestep, self._limit = bridge, name, timestep, limit
-        self._joins: deque[tuple[dict[str, Any], str]] = deque()
+        self._joins: deque[tuple[dict[str, Any], str]] = deque(maxlen=MAX_WAITING)
         self._by = ""  # who has joined, where the transport can tell
         self._id: object = None  # what it calls itself, if it does
         self._takes_part = False
-        self._acks: deque[dict[str, Any]] = deque()
+        self._acks: deque[dict[str, Any]] = deque(maxlen=MAX_WAITING)
         self._replies: dict[int, dict[str, Any]] = {}
         self._sent: Counter[str] = Counter()
         self._order: list[str] = []  # topics of the messages since the last tick
@@ -338,11 +342,14 @@ def lockstep_clients(
 
     def hear(topic: str, message: object, by: str) -> None:
         content = _object_in(message)
+        n_letters = len(message.data) if isinstance(message, String) else 0
         client = clients.get(str(content.get("client")))
         if client is not None:
             client.hear(topic, content, by)
             return
-        if "client" not in content:
+        if n_letters > MAX_TEXT:
+            wrong = f"/{topic}: a message has {n_letters} letters; at most {MAX_TEXT} are read"
+        elif "client" not in content:
             wrong = f"/{topic}: a message is no JSON object with a 'client'"
         else:
             wrong = f"/{topic}: no client of this run: {str(content.get('client'))[:100]!r}"
@@ -362,8 +369,10 @@ def _nothing(message: object) -> None:
 
 
 def _object_in(message: object) -> dict[str, Any]:
+    if not isinstance(message, String) or len(message.data) > MAX_TEXT:
+        return {}
     try:
-        found = json.loads(message.data) if isinstance(message, String) else None
+        found = json.loads(message.data)
     except (ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
