@@ -50,14 +50,17 @@ COUNT = """() => {
 }"""
 WATCH = """([body, moved]) => {
   const { page } = window.uwsim, draw = page.draw.bind(page), found = [];
-  let pressed = null, place = null;
+  const where = () => {
+    const m = page.player.moment(page.time).poses.get(body);
+    return [m[3], m[7], m[11]];
+  };
+  let pressed = null, place = where(); // also where the first key comes before the next drawing
   document.addEventListener("keydown", (event) => {
     if (event.key === "w" && !event.repeat) pressed = event.timeStamp;
   }, true);
   page.draw = () => {
     draw();
-    const m = page.player.moment(page.time).poses.get(body), now = [m[3], m[7], m[11]];
-    const far = place && Math.hypot(...now.map((value, i) => value - place[i])) > moved;
+    const now = where(), far = Math.hypot(...now.map((value, i) => value - place[i])) > moved;
     if (pressed === null) place = now;
     else if (far) {
       const began = pressed;

@@ -115,7 +115,7 @@ export class Link {
     const image = await createImageBitmap(new Blob([data], { type: "image/jpeg" }));
     if (this.numbers[index] !== number) return image.close(); // a newer one has come meanwhile
     page.picture.show(index, image);
-    stream.version += 1;
+    if (!page.isPlaying) stream.version += 1; // else the next row has it drawn
   }
 
   private showView(data: ArrayBuffer): void {
