@@ -158,7 +158,7 @@ def test_a_mesh_of_many_triangles_is_simplified_so_that_it_can_be_touched(tmp_pa
     k = np.arange(n * n) + np.arange(n * n) // n + 1
     faces = "".join(f"f {i + n + 1} {i + 1} {i}\nf {i + n + 1} {i + n + 2} {i + 1}\n" for i in k)
     simulation = make(objects=(paper(tmp_path, points + faces),), data_path=(tmp_path,))
-    assert 1.5 < dive(simulation, 6.0) < 3.5
+    assert 1.4 < dive(simulation, 6.0) < 3.5  # it stands on its arm, whose elbow is at its stop
 
 
 def kinematic(vehicle: VehicleSpec) -> VehicleSpec:
