@@ -7,10 +7,11 @@ from multiprocessing import get_context
 from pathlib import Path
 
 import mujoco
+import numpy as np
 import pytest
 
 from uwsim.errors import RunFailed
-from uwsim.physics.engine_warnings import hush, why_untrue
+from uwsim.physics.engine_warnings import hush, say_too_fast, why_untrue
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 
@@ -45,6 +46,13 @@ def test_contacts_that_find_no_room_are_reported(
     assert "more contacts at 0.002 s than the engine has memory for" in warned("100K")
     assert list(tmp_path.iterdir()) == []
     assert capfd.readouterr() == ("", "")
+
+
+def test_what_moves_too_fast_is_named_with_what_may_be_wrong() -> None:
+    velocities, speeds = np.array([0.0, 90.0, 90.0]), np.array([[0, 3]], dtype=np.int64)
+    said = say_too_fast(velocities, speeds, 0, 1.5, ["needle"] * 3)
+    assert said.startswith("'needle' moves at 127.3 m/s or rad/s at 1.5 s")
+    assert "bodies were inside each other as they began, or it is so thin" in said
 
 
 @pytest.mark.slow

@@ -131,7 +131,8 @@ def say_too_fast(
     speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
     return (
         f"{names[dof]!r} moves at {speed:.4g} m/s or rad/s at {time:g} s, and nothing here is "
-        f"made for more than {MAX_SPEED:g}: a mass, an inertia, a force or a current is wrong."
+        f"made for more than {MAX_SPEED:g}: a mass, an inertia, a force or a current is wrong, "
+        "bodies were inside each other as they began, or it is so thin that it does turn as fast."
     )
 
 
