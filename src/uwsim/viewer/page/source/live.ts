@@ -10,6 +10,7 @@ import { Pilot } from "./pilot";
 import type { Sight } from "./views";
 
 const HEADER = 16;
+const WAIT = 100; // of an image for the next row, to be drawn with it [ms]
 const MAX_WIDTH = 640; // of an image that the server draws
 
 type Message =
@@ -115,7 +116,10 @@ export class Link {
     const image = await createImageBitmap(new Blob([data], { type: "image/jpeg" }));
     if (this.numbers[index] !== number) return image.close(); // a newer one has come meanwhile
     page.picture.show(index, image);
-    if (!page.isPlaying) stream.version += 1; // else the next row has it drawn
+    const { end } = stream;
+    setTimeout(() => {
+      if (stream.end === end) stream.version += 1; // else a row has had it drawn
+    }, WAIT);
   }
 
   private showView(data: ArrayBuffer): void {
