@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 import struct
+import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from typing import Any
@@ -301,3 +302,17 @@ def test_many_connections_that_break_off_are_few_lines(graph: Graph) -> None:
             peer.sendall(struct.pack("<I", 100 + n) + bytes(n))
     until(lambda: "further such lines" in "".join(graph.printed), graph.step)
     assert sum("it closed the connection after" in line for line in graph.printed) == 6
+
+
+def test_a_thousand_publishers_of_a_topic_are_bounded(graph: Graph) -> None:
+    sim = graph.node()
+    found: list[Float64] = []
+    sim.bus.subscribe("cmd", Float64, found.append)
+    graph.ready()
+    before = threading.active_count()
+    many = [f"http://127.0.0.1:{port}/" for port in range(1, 1001)]
+    call(sim.uri, "publisherUpdate", "/x", "/cmd", many)
+    until(lambda: any("1000 publishers; 100" in line for line in graph.printed), graph.step)
+    assert threading.active_count() - before < 110
+    call(sim.uri, "publisherUpdate", "/x", "/cmd", [])
+    until(lambda: threading.active_count() <= before + 2, graph.step)

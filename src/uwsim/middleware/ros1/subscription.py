@@ -24,6 +24,8 @@ from .xmlrpc import call
 
 RETRY = 1.0
 """How long after a lost connection it is tried again [s]."""
+MAX_PUBLISHERS = 100
+"""Publishers of a topic that are read, each in a thread."""
 CONNECT_TIMEOUT = 10.0
 """How long a publisher may take to answer [s]."""
 
@@ -61,7 +63,13 @@ class Subscription:
 
     def update(self, uris: Iterable[str]) -> None:
         """Connect to publishers with these URIs, and to no others."""
-        wanted = set(uris)
+        found = sorted(set(uris))
+        wanted = set(found[:MAX_PUBLISHERS])
+        if len(found) > MAX_PUBLISHERS:
+            self._log.say(
+                f"{self.topic}: {len(found)} publishers; {MAX_PUBLISHERS} of them are read",
+                kind=f"publishers {self.topic}",
+            )
         with self._lock:
             if self._is_closed:
                 return
