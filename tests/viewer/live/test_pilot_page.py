@@ -138,3 +138,17 @@ def test_a_drawing_that_fails_once_is_not_the_end(browser: Any, server: LiveServ
     }""")
     page.wait_for_function("window.n > 2")
     page.context.close()
+
+
+@pytest.mark.parametrize("width", [390, 1024])
+def test_sticks_and_images_of_cameras_do_not_cover_each_other(
+    browser: Any, server: LiveServer, width: int
+) -> None:
+    page = opened(browser, server, MAPPING, 768)
+    page.set_viewport_size({"width": width, "height": 768})
+    image = page.locator("#pictures figure").bounding_box()
+    for stick in page.locator(".stick").all():
+        box = stick.bounding_box()
+        is_beside = box["x"] >= image["x"] + image["width"]
+        assert is_beside or box["y"] >= image["y"] + image["height"]
+    page.context.close()
