@@ -94,9 +94,12 @@ def view_from(simulation: Simulation, eye: Array, at: Array, size: Size) -> View
     return View(_looking(points[0], points[1] - points[0], "--from"), _lens(size, FIELD))
 
 
-def view_from_pose(world_from_camera: Pose, size: Size) -> View:
-    """From a pose of a camera in W (OpenGL axes), through clear water."""
-    return View(world_from_camera, _lens(size, FIELD), is_clear=True)
+def view_from_pose(world_from_camera: Pose, size: Size, field: float = FIELD) -> View:
+    """From a pose of a camera in W (OpenGL axes), through clear water.
+
+    ``field`` is the vertical field of view [rad].
+    """
+    return View(world_from_camera, _lens(size, field), is_clear=True)
 
 
 def top_view(simulation: Simulation, size: Size) -> View:

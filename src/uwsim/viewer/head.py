@@ -113,8 +113,8 @@ Page to server, JSON text of at most 4 kB::
     {"type": "control", "action": "pause" | "play" | "step" | "speed" | "reset", "speed": 2.0}
     {"type": "images", "cameras": ["bowtech1"], "rate": 10, "width": 200}
                                  which JPEGs it wants, and how wide it shows them (without: whole)
-    {"type": "view", "camera": "bowtech1" or null, "pose": [7], "width": 640, "height": 480}
-                                                               without WebGL: draw kind 3 so
+    {"type": "view", "camera": "bowtech1" or null, "pose": [7], "width": 640, "height": 480,
+     "fovy": 0.87}                                             without WebGL: draw kind 3 so
     {"type": "input", "keys": ["w"], "axes": [0.0, ...], "buttons": [0.0, ...],
      "sticks": [x, y, x, y]}       whenever it changes, and 10 times a second while not at rest
 

@@ -10,8 +10,10 @@ import pytest
 
 import uwsim
 from tests.viewer.live.test_pilot_page import MAPPING, opened, server
+from uwsim.errors import BadSetting
+from uwsim.simulation.views import FIELD, view_from_pose
 from uwsim.viewer.live.server import LiveServer
-from uwsim.viewer.live.view import HEADER, IMAGE, LiveView, jpeg
+from uwsim.viewer.live.view import HEADER, IMAGE, LiveView, _asked_for, jpeg
 
 __all__ = ["server"]
 CAMERA = "bowtech1"
@@ -78,6 +80,22 @@ def test_images_are_as_wide_as_the_widest_viewer_shows_them(
         seen = cv2.cvtColor(desk.images[-1], cv2.COLOR_BGR2RGB)
         small = cv2.resize(whole.view(np.uint8), seen.shape[1::-1], interpolation=cv2.INTER_AREA)
         assert np.abs(seen.astype(int) - small).mean() < 8.0  # JPEG, noise, edges
+
+
+@pytest.mark.parametrize(
+    ("said", "wanted"),
+    [({"fovy": 0.5}, 0.5), ({}, FIELD), ({"fovy": 4.0}, None), ({"fovy": "wide"}, None)],
+)
+def test_a_view_without_webgl_has_the_field_of_the_page(
+    said: dict[str, Any], wanted: float | None
+) -> None:
+    message = {"pose": [0, 0, 1, 1, 0, 0, 0], "width": 320, "height": 240, **said}
+    if wanted is None:
+        with pytest.raises(BadSetting):
+            _asked_for(message)
+    else:
+        lens = view_from_pose(*_asked_for(message)).intrinsics
+        assert 2.0 * np.arctan(120.0 / lens.fy) == pytest.approx(wanted)
 
 
 WATCH = """() => {

@@ -29,7 +29,7 @@ from ...simulation import Simulation
 from ...simulation.markers.lines import described, looks_of
 from ...simulation.snapshot import packed, put_state, state_of, unpacked
 from ...simulation.tracked_state import TrackedState
-from ...simulation.views import view_from_pose
+from ...simulation.views import FIELD, view_from_pose
 from .clock import NAP, Clock
 from .head import head_of
 from .mapping import PilotMapping, merged
@@ -274,10 +274,9 @@ class LiveView:
             image = self._image(camera)
         else:
             try:
-                pose, size = _asked_for(asked)
+                view = view_from_pose(*_asked_for(asked))
             except BadSetting:
                 return
-            view = view_from_pose(pose, size)
             scenery = self._simulation.world.scenery
             colour = scenery.render_view(
                 view.world_from_camera, view.intrinsics, targets={"colour"}, fog=0.0
@@ -350,17 +349,18 @@ def _width_of(message: Message) -> int:
     return round(min(max(float(width), 16.0), MAX_SIDE))
 
 
-def _asked_for(message: Message) -> tuple[Pose, tuple[int, int]]:
-    """Read the pose and the size of a view; raises BadSetting where they are none."""
+def _asked_for(message: Message) -> tuple[Pose, tuple[int, int], float]:
+    """Read pose, size and vertical field of a view; raises BadSetting where they are none."""
     pose, size = message.get("pose"), (message.get("width"), message.get("height"))
-    numbers = [*pose, *size] if isinstance(pose, list) and len(pose) == 7 else []
+    field = message.get("fovy", FIELD)
+    numbers = [*pose, *size, field] if isinstance(pose, list) and len(pose) == 7 else []
     is_right = numbers and all(
         isinstance(n, int | float) and not isinstance(n, bool) and math.isfinite(n) for n in numbers
     )
     if not is_right or not all(16 <= float(n or 0) <= MAX_SIDE for n in size):
         raise BadSetting("no such view")
     rows = np.clip(np.array(numbers[:7], dtype=np.float64), -1e6, 1e6)
-    if np.linalg.norm(rows[3:]) < 1e-3:
+    if np.linalg.norm(rows[3:]) < 1e-3 or not 0.01 <= field <= 3.1:
         raise BadSetting("no such view")
     where = Pose(rows[:3], rotation_from_quaternion(rows[3:]))
-    return where, (int(numbers[7]), int(numbers[8]))
+    return where, (int(numbers[7]), int(numbers[8])), float(field)

@@ -62,7 +62,8 @@ export class Link {
     const share = Math.min(1, MAX_WIDTH / lens.width);
     const [width, height] = [lens.width, lens.height].map((size) => Math.round(share * size));
     const pose = toPose(worldFromCamera).map((value) => Math.round(1e4 * value) / 1e4);
-    const message = { type: "view", camera: camera?.name ?? null, pose, width, height };
+    const fovy = 2 * Math.atan(lens.height / 2 / lens.fy);
+    const message = { type: "view", camera: camera?.name ?? null, pose, width, height, fovy };
     const text = JSON.stringify(message);
     if (text !== this.asked) this.send(message);
     this.asked = text;
