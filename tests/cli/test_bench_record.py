@@ -13,6 +13,7 @@ from rosbags.typesys import Stores, get_typestore
 from tests.short_benchmark import fingerprint, write_benchmark
 from uwsim.cli import main
 from uwsim.results.journal import path_of
+from uwsim.results.result_file import load
 
 pytestmark = pytest.mark.slow
 IMAGES = "/uwsim/camera1"
@@ -138,6 +139,15 @@ def test_resumed_trials_are_recorded_anew_and_finished_ones_kept(
     assert digests(tmp_path, "*.mcap") == {"dive-00001.mcap": before["dive-00001.mcap"]}
     said = capsys.readouterr().err
     assert "dive-00000.mcap is not written: its trial is finished, and is not run again" in said
+
+
+def test_overwriting_another_run_records_too(benchmark: str, tmp_path: Path) -> None:
+    out, file = tmp_path / "out", tmp_path / "dive.bag"
+    call = [benchmark, "--algorithm", "frozen", "--level", "fog=0", "--out", out]
+    assert bench(*call) == 0
+    assert bench(*call, "--seed", "1", "--overwrite", "--record", file) == 0
+    assert load(out).run.seed == 1
+    assert counted(file)["/scene"] == 1
 
 
 def test_what_cannot_be_recorded_is_refused_before_anything_runs(

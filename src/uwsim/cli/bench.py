@@ -164,7 +164,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     watch = Stopwatch()
     announce_code(plans[0].scene)
     runs = prepare_runs(plans, options.directory, folders)
-    record(runs, recordings)
+    record(runs, recordings, is_resumed=options.resume)
     say_warnings(plans[0])
     raise_from_now_on()
     if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
@@ -206,13 +206,13 @@ def recordings_of(
     return recordings
 
 
-def record(runs: Sequence[Run], recordings: Sequence[TrialRecording]) -> None:
-    """Have the trials to come recorded; names those that are over and are not."""
+def record(runs: Sequence[Run], recordings: Sequence[TrialRecording], *, is_resumed: bool) -> None:
+    """Have the trials to come recorded; of a resumed run, names those that are over and are not."""
     if not recordings:
         return
     for run, recording in zip(runs, recordings, strict=True):
         run.recorder = recording
-        for path in recording.missing(run):
+        for path in recording.missing(run) if is_resumed else ():
             warn(f"{path} is not written: its trial is finished, and is not run again")
 
 
