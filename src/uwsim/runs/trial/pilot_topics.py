@@ -43,4 +43,4 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     if joints and any(word in joints[-1].lower() for word in JAW):
         jaw = joints.pop()
     down = -float(simulation.pose(name, "W").rotation[2, 2])
-    return {**found, "joints": " ".join(joints), "jaw": jaw, "z_is_down": 1.0 if down > 0 else -1.0}
+    return {**found, "joints": " ".join(joints), "jaw": jaw, "z_is_down": float(down > 0.0)}
