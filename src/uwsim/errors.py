@@ -18,6 +18,7 @@
       NoGraphics           no OpenGL context; the message names what to install
       RunFailed            a run that failed
         ClientLost         ... because a client in lock-step did not answer
+        SimulationFailed   ... because a body moves as none can, or the engine has given up
       NeverStarted         the start trigger of a benchmark never switched on
       ResultError          a result that cannot be read or resumed, or is inconsistent
         ReplayDiffers      ... a replay whose rows differ from the stored ones
@@ -144,6 +145,10 @@ class RunFailed(UwsimError):
 
 class ClientLost(RunFailed):
     """A client in lock-step did not answer, or left: the run is invalid from there on."""
+
+
+class SimulationFailed(RunFailed):
+    """A body moves as none can, or the engine has given up: what would follow is not true."""
 
 
 class ResultError(UwsimError):

@@ -257,12 +257,16 @@ def run_and_finish(
 
     Raises:
         UwsimError: the first failure; the other algorithms are run and written.
-        RunFailed: an algorithm broke in every row.
+        RunFailed: a simulation failed, or an algorithm broke in every row.
     """
     from ..results.provenance import save_beginning
     from ..runs.control import control_of, wants_control
     from ..runs.executors.background import BackgroundProcess
-    from ..runs.failed_algorithms import refuse_if_a_process_ended, refuse_if_all_broke
+    from ..runs.failed_algorithms import (
+        refuse_if_a_process_ended,
+        refuse_if_a_simulation_failed,
+        refuse_if_all_broke,
+    )
 
     for run in runs:
         if message := save_beginning(command, run.out):
@@ -287,6 +291,7 @@ def run_and_finish(
         print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
     for _, error in outcome.failures:
         raise error
+    refuse_if_a_simulation_failed(runs, outcome.results)
     refuse_if_a_process_ended(runs, outcome.results)
     refuse_if_all_broke(runs, outcome.results)
 

@@ -29,6 +29,7 @@ STATUSES = {
     "lost target": 6.0,
     "missed": 7.0,
     "dropped": 8.0,
+    "simulation error": 9.0,
 }
 """Status of a row -> its number."""
 NAMES = {"ok": 0.0, "lost": 1.0, "timeout": 2.0, "collision": 3.0, "error": 4.0}

@@ -136,8 +136,12 @@ class Envelope:
                 f"{fold.n_broken} of {fold.n} seeds break, at {self._number(fold.holds)} "
                 f"{fold.n_holding} of {fold.n} hold again; the first breaking point was searched"
             )
-        failed = reasons(e.judgement for e in self.evaluations).get("algorithm error", 0)
-        if failed:
+        counts = reasons(e.judgement for e in self.evaluations)
+        if untrue := counts.get("simulation error", 0):
+            messages.append(
+                f"{untrue} runs ended with a simulation error: no limit of the algorithm"
+            )
+        if failed := counts.get("algorithm error", 0):
             messages.append(
                 f"{failed} runs ended with an algorithm error: a bug rather than a limit?"
             )

@@ -156,8 +156,8 @@ class Engine:
                 [m/s2] and rotation [rad/s] in W, (n, m, 9); None where it is still.
 
         Raises:
-            RunFailed: the engine warned, or a body moves faster than can be: what follows would
-                not be true.
+            SimulationFailed: the engine warned, or a body moves faster than can be: what follows
+                would not be true.
         """
         if self._stepper is None:
             return
@@ -173,7 +173,7 @@ class Engine:
         """Advance the original's physics by one step, if the scene uses it.
 
         Raises:
-            RunFailed: the engine warned: what follows would not be true.
+            SimulationFailed: the engine warned: what follows would not be true.
         """
         if self._uwsim_physics is None:
             return

@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import RunFailed
+from ..errors import SimulationFailed
 from ..geometry import Array
 from ..numerics.jit import njit
 
@@ -34,7 +34,7 @@ def hush() -> None:
 
 
 class StepCheck:
-    """Checks of a step: RunFailed names the body and the time.
+    """Checks of a step: SimulationFailed names the body and the time.
 
     Args:
         model: the engine's.
@@ -51,16 +51,16 @@ class StepCheck:
         """Which velocities make a speed together, (n, 2): see `speeds_of`."""
 
     def end_if_warned(self, step: int) -> None:
-        """Raise RunFailed if the engine has warned in a step."""
+        """Raise SimulationFailed if the engine has warned in a step."""
         if any(self.counters.tolist()):
             self.fail(step, -1)
 
     def fail(self, step: int, dof: int) -> NoReturn:
-        """Raise RunFailed: the engine has warned, or a degree of freedom is too fast."""
+        """Raise SimulationFailed: the engine has warned, or a degree of freedom is too fast."""
         time = step * self._timestep
         if dof < 0:
-            raise RunFailed(why_untrue(self._data, time, self._timestep, self._names))
-        raise RunFailed(say_too_fast(self._data.qvel, self.speeds, dof, time, self._names))
+            raise SimulationFailed(why_untrue(self._data, time, self._timestep, self._names))
+        raise SimulationFailed(say_too_fast(self._data.qvel, self.speeds, dof, time, self._names))
 
 
 def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[str]) -> str:

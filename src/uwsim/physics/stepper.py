@@ -93,8 +93,8 @@ class Stepper:
                 rotation [rad/s] in W, (n, m, 9); None: it is still.
 
         Raises:
-            RunFailed: MuJoCo warned, or a body moves faster than can be: what follows would not
-                be true.
+            SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
+                not be true.
         """
         if motion is None and self._moved_water:
             motion = np.zeros((n, self._n_wet, step_kernel.ROW))

@@ -1,4 +1,4 @@
-"""Algorithms that failed in every row, or ended their process: the command fails."""
+"""Failed simulations, and algorithms that failed in every row or ended their process."""
 
 from __future__ import annotations
 
@@ -7,9 +7,28 @@ from collections.abc import Sequence
 from ..errors import RunFailed
 from ..results.result import Result
 from .run import Run
-from .trial.status import ended_its_process
+from .trial.status import SIMULATION_ERROR, ended_its_process
 
 ALGORITHM_ERROR = "algorithm error"
+
+
+def refuse_if_a_simulation_failed(runs: Sequence[Run], results: Sequence[Result]) -> None:
+    """Raise if the simulation of a row failed; all files are written by then.
+
+    Raises:
+        RunFailed: says for each algorithm how many rows, and why the first is as it is.
+    """
+    failed = []
+    for run, result in zip(runs, results, strict=True):
+        status = result.values("status")
+        rows = [row for row, cell in enumerate(status) if cell == SIMULATION_ERROR]
+        if rows:
+            name, why = run.plan.algorithm.name, result.why(rows[0], "total") or ""
+            failed.append(f"{name}, {len(rows)} of {len(status)} rows ({why.rstrip('.')})")
+    if failed:
+        raise RunFailed(
+            f"Rows ended in {SIMULATION_ERROR!r}: {'; '.join(failed)}. Other rows are not affected."
+        )
 
 
 def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:

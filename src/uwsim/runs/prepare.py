@@ -12,11 +12,11 @@ from ..errors import BenchmarkError, UwsimError
 from ..files.input_files import recorded
 from ..results.inputs import Inputs
 from ..simulation import RendererPool, Simulation
+from .bind_all import bind_all
 from .input_watch import watchable
 from .inputs_read import inputs_of, of_algorithm
 from .planning.plan import Plan
 from .run import Run
-from .trial.bind_all import bind_all
 
 
 def prepare_run(plan: Plan, out: Path) -> Run:

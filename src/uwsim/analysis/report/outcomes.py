@@ -17,14 +17,15 @@ MEANINGS = {
     "timeout": "no estimate for more than 1 s, or an end of the level that never came",
     "collision": "a contact ended the level, as the benchmark requires",
     "algorithm error": "the algorithm raised an exception, or reported that it failed",
+    "simulation error": "a body moved as none can, or the engine gave up: nothing of it is true",
     "not found": "the object was never found",
     "lost target": "the object was found and lost before anything closed on it",
     "missed": "the object was reached for and never lifted",
     "dropped": "the object was lifted and fell",
 }
 """Status of a row -> its meaning (``docs/levels.md``)."""
-OF_TASKS = ("not found", "lost target", "missed", "dropped")
-"""Statuses that only a measure that judges a task gives; listed where one occurred."""
+SELDOM = ("simulation error", "not found", "lost target", "missed", "dropped")
+"""Listed where one occurred: failed simulations, and what a measure that judges a task gives."""
 MAX_REASONS = 5
 """Greatest number of reasons listed for a status."""
 MAX_BREAKS = 100
@@ -75,7 +76,7 @@ def endings(result: Result) -> list[Ending]:
     cells = [str(cell) for cell in result.values(status[0].name)]
     levels = {row: level for level, rows in rows_by_level(result).items() for row in rows}
     repeats = repeats_of(result)
-    known = [name for name in MEANINGS if name in cells or name not in OF_TASKS]
+    known = [name for name in MEANINGS if name in cells or name not in SELDOM]
     names = sorted(
         {*cells, *known},
         key=lambda s: (s != "ok", -cells.count(s), known.index(s) if s in known else 99, s),

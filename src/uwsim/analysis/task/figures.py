@@ -26,6 +26,7 @@ COLOURS = {
     "collision": "#222222",
     "timeout": "#999999",
     "algorithm error": "#C00000",
+    "simulation error": "#C00000",
     "lost": "#CC79A7",
 }
 """Status -> colour; colour-blind safe but for the last two, which are named in the table."""

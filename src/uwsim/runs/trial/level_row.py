@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from .fingerprint import Checkpoints
 from .snapshots import Snapshot
+from .status import SIMULATION_ERROR
 from .triggered_measure import Sample, TriggeredMeasure, finite
 from .visibility import Fact
 
@@ -80,7 +81,7 @@ def cells_of(measures: Sequence[TriggeredMeasure], status: str, why: str | None)
     cells = Cells()
     for triggered in measures:
         name, measure = triggered.spec.name, triggered.measure
-        blank = status != "ok" and measure.fed_by_algorithm
+        blank = status == SIMULATION_ERROR or (status != "ok" and measure.fed_by_algorithm)
         cells.units[name] = measure.unit
         cells.values[name], reason = (None, why) if blank else finite(triggered.value)
         if cells.values[name] is None:

@@ -10,6 +10,8 @@ from ...simulation import STOPPED, InProcessNode
 from ..own_process.process import PROCESS_ENDED
 from .triggered_measure import TriggeredMeasure
 
+SIMULATION_ERROR = "simulation error"
+"""Status of a level whose simulation failed, in it or before it: nothing of it is known."""
 SILENCE = 1.0
 """A measure that waits longer than this for an estimate ends in ``timeout`` [s]."""
 

@@ -8,7 +8,7 @@ benchmark with ``u:prelude="false"`` has none: the level's values hold from the 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import closing, nullcontext
 from functools import partial
 from pathlib import Path
@@ -28,8 +28,7 @@ from ...benchmark.updaters import (
     ramp_level,
     settling_time,
 )
-from ...bus import Algorithm
-from ...errors import NeverStarted, RunFailed, UwsimError
+from ...errors import NeverStarted, RunFailed, SimulationFailed, UwsimError
 from ...expression import parse
 from ...interrupts import is_of_user
 from ...messages import String
@@ -44,12 +43,13 @@ from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
+from .make_algorithm import make_algorithm
 from .moments import Moments, all_snapshots
 from .motion_recorder import MotionRecorder
 from .onlooker import Onlooker
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
-from .status import StatusMonitor, legible
+from .status import SIMULATION_ERROR, StatusMonitor, legible
 from .trial_recorder import TrialRecorder
 from .triggered_measure import TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts
@@ -140,7 +140,9 @@ class _Execution:
         self._inputs = pilot_inputs(plan, trial, simulation, onlooker)
         found = {} if self._inputs is None else pilot_topics(simulation)
         self._parameters = {**found, **known_corners(plan), **plan.algorithm.parameters}
-        self._algorithm = _make(plan, partial(program, simulation), self._parameters, calls)
+        self._algorithm = make_algorithm(
+            plan, partial(program, simulation), self._parameters, calls
+        )
         self._node = simulation.attach(
             self._algorithm,
             name=plan.algorithm.name,
@@ -150,6 +152,10 @@ class _Execution:
         )
         self._monitor = StatusMonitor(self._node, status)
         self._notes: dict[str, None] = {}
+        self._facts: dict[str, Fact] = {}
+        self._target_motion: TargetMotion | None = None
+        self._floor: Floor | None = None
+        self._level_began: int | None = None  # step in which the level began that runs
         self._n_measured = 0  # steps of the levels so far
         has_images = trial.index == 0 and not plan.is_blind
         self._moments = Moments(simulation) if has_images else None
@@ -161,16 +167,37 @@ class _Execution:
         self._motion.start()
         if self._onlooker is not None:
             self._onlooker.open(simulation, self._title())
-        facts: dict[str, Fact] = {}
-        target_motion: TargetMotion | None = None
-        floor: Floor | None = None
         parameters = self._parameters_said()
         if not plan.is_blind:
-            facts = visibility_facts(simulation, plan, parameters)
+            self._facts = visibility_facts(simulation, plan, parameters)
+        n_rows = 0
+        try:
+            for row in self._level_rows():
+                n_rows += 1
+                yield self._ended(row)
+        except SimulationFailed as error:
+            for level in self._trial.levels[n_rows:]:
+                yield self._ended(self._failed_row(level, str(error)))
+        for seen in (self._target_motion, self._floor):
+            self._facts |= {} if seen is None else seen.facts
+        yield TrialEnd(
+            facts=self._facts,
+            parameters=parameters,
+            streams=() if plan.is_blind else self._streams(),
+            notes=tuple(self._notes),
+            checkpoints=self._fingerprinter.checkpoints(),
+            motion=self._motion.track(),
+            inputs=b"" if self._inputs is None else self._inputs.data(),
+        )
+
+    def _level_rows(self) -> Iterator[LevelRow]:
+        """Run the levels; raises SimulationFailed where nothing can follow."""
+        plan = self._plan
         self._wait("The benchmark never started")
         if not plan.is_blind:
-            target_motion = TargetMotion(simulation, plan)
-            floor = Floor(simulation, plan)
+            self._target_motion = TargetMotion(self._simulation, plan)
+            self._floor = Floor(self._simulation, plan)
+        floor = self._floor
         before: Level | None = None
         for level in self._trial.levels:
             if self._trial.is_alone:
@@ -183,24 +210,27 @@ class _Execution:
             if floor is not None:
                 floor.begin()
             row = self._run_level(level)
-            self._motion.end_level(row)
-            if self._onlooker is not None:
-                self._onlooker.end_level(row)
+            self._level_began = None
             if floor is not None:
                 floor.end()
             yield row
             before = level
-        yield TrialEnd(
-            facts=facts
-            | (target_motion.facts if target_motion is not None else {})
-            | (floor.facts if floor is not None else {}),
-            parameters=parameters,
-            streams=() if plan.is_blind else self._streams(),
-            notes=tuple(self._notes),
-            checkpoints=self._fingerprinter.checkpoints(),
-            motion=self._motion.track(),
-            inputs=b"" if self._inputs is None else self._inputs.data(),
-        )
+
+    def _ended(self, row: LevelRow) -> LevelRow:
+        """Have it noted that a level is over."""
+        self._motion.end_level(row)
+        if self._onlooker is not None:
+            self._onlooker.end_level(row)
+        return row
+
+    def _failed_row(self, level: Level, why: str) -> LevelRow:
+        """Return the row of a level whose simulation failed, in it or before it."""
+        began = self._simulation.step if self._level_began is None else self._level_began
+        self._level_began = None
+        measures = self._bind_measures()  # what they were is not true
+        row = self._row(level, measures, SIMULATION_ERROR, legible(why), began)
+        self._close_measures(measures)
+        return row
 
     def _before(self) -> Level:
         """The values before the first level."""
@@ -331,7 +361,7 @@ class _Execution:
     def _run_level(self, level: Level) -> LevelRow:
         """Run one level, with newly bound triggers and measures."""
         plan, simulation, monitor = self._plan, self._simulation, self._monitor
-        began = simulation.step
+        began = self._level_began = simulation.step
         monitor.begin_level()
         measures = self._bind_measures()
         self._motion.begin_level(measures)
@@ -400,29 +430,9 @@ class _Execution:
             },
             fingerprint=self._fingerprinter.fingerprint,
             snapshots=()
-            if self._plan.is_blind
+            if self._plan.is_blind or status == SIMULATION_ERROR
             else all_snapshots(simulation, measures, self._moments, is_tracking=status == "ok"),
         )
-
-
-def _make(
-    plan: Plan,
-    program: Callable[[Mapping[str, float | str]], Algorithm],
-    parameters: Mapping[str, float | str],
-    calls: Calls,
-) -> Algorithm:
-    """Make the algorithm; an exception of its constructor is a NeverStarted."""
-    try:
-        with calls:
-            return program(parameters)
-    except BaseException as error:
-        is_outside = plan.algorithm.client is not None
-        if is_of_user(error) or (is_outside and isinstance(error, UwsimError)):
-            raise
-        raise NeverStarted(
-            f"Algorithm {plan.algorithm.name!r} cannot be made: "
-            f"{legible(what_broke(error, plan.algorithm.cls))}"
-        ) from error
 
 
 def _tick(measures: list[TriggeredMeasure]) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ...benchmark.updaters import bind_updaters
-from ...middleware.lockstep.output_client import check_outputs
-from ...simulation import Simulation
-from ..planning.plan import Plan
-from .level_triggers import LevelTriggers
-from .triggered_measure import TriggeredMeasure
+from ..benchmark.updaters import bind_updaters
+from ..middleware.lockstep.output_client import check_outputs
+from ..simulation import Simulation
+from .planning.plan import Plan
+from .trial.level_triggers import LevelTriggers
+from .trial.triggered_measure import TriggeredMeasure
 
 
 def bind_all(plan: Plan, simulation: Simulation) -> None:
