@@ -33,6 +33,7 @@ from .hydrodynamics import (
     prepare,
 )
 from .joints import add_gear, add_joint, add_servo, is_geared
+from .restitution import contact_spring
 from .world_tree import rebuild_world_tree
 
 MAX_STEP = 0.02
@@ -50,8 +51,6 @@ IMPRATIO = 10.0
 """How much stiffer friction is than the normal force: less creep of what is held."""
 NOSLIP = 5
 """Iterations against the creep of friction, where contacts are precise."""
-BOUNCE_TIME = 0.01
-"""Of the spring of a contact that bounces: inverse of its frequency [s]."""
 OBJECTS = 1
 """Collision bit of objects; every vehicle has another."""
 ALL = 2**31 - 1
@@ -264,27 +263,9 @@ def _give_surface(
         geom.priority = 1  # else the greater friction of the two counts
         if physics.friction is not None:
             geom.friction = [physics.friction, *FRICTION[1:]]
-        if physics.restitution:
-            ratio = damping_ratio(physics.restitution)
-            geom.solref = [BOUNCE_TIME / ratio, ratio]
-
-
-def damping_ratio(restitution: float) -> float:
-    r"""Return the damping ratio of a contact spring with a coefficient of restitution.
-
-    A contact cannot pull, so that it ends when the force is 0 (Schwager and Poeschel, Granular
-    Matter 9, 2007): with the ratio z
-
-    .. math:: e = \exp\Bigl(-\frac{z}{\sqrt{1 - z^2}}
-              \bigl(\pi - \arctan\frac{2 z \sqrt{1 - z^2}}{1 - 2 z^2}\bigr)\Bigr)
-    """
-    low, high = 1e-3, 0.95
-    for _ in range(50):
-        z = 0.5 * (low + high)
-        root = math.sqrt(1.0 - z * z)
-        angle = math.pi - math.atan2(2.0 * z * root, 1.0 - 2.0 * z * z)
-        low, high = (z, high) if math.exp(-z / root * angle) > restitution else (low, z)
-    return 0.5 * (low + high)
+        if physics.restitution is not None:  # negative: stiffness and damping; of two the greater
+            stiffness, damping = contact_spring(physics.restitution, spec.option.timestep)
+            geom.solref = [-stiffness, -damping]
 
 
 def _add_children(

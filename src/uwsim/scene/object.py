@@ -49,7 +49,7 @@ class PhysicsSpec(Spec):
     that say one the greater counts."""
     restitution: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=0.95)
     """Speed after a bounce by the speed before, away from the water's drag [1]; without it contacts
-    give 0.1 to 0.3 back."""
+    give 0.1 to 0.3 back, and 0 gives at most 0.03. Of two that say one the lesser counts."""
     centre_of_mass: Triple | None = element(
         namespaced=True, default=None, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
