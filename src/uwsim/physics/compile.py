@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from ..devices.object_picker import ObjectPickerSpec
-from ..errors import BadSetting, UwsimError
+from ..errors import BadSetting, SceneError, UwsimError
 from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..numerics.linear import product
 from ..scene.object import PhysicsSpec
@@ -24,7 +24,7 @@ from ..scene.urdf.robot import LinkSpec, RobotSpec
 from ..world import GRAVITY
 from .collision.shapes import CollisionShape
 from .engine_warnings import hush
-from .free_objects import loose_hydrodynamics, loose_link
+from .free_objects import loose_hydrodynamics, loose_link, object_errors
 from .hydrodynamics import (
     BodyHydrodynamics,
     FinSpec,
@@ -127,6 +127,7 @@ def compile_scene(
     Raises:
         BadHydrodynamics: with every error.
         BadSetting: the step is no time, or longer than the physics bears.
+        SceneError: a loose object has next to no mass, or far too much buoyancy.
     """
     _check_step(timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
     hush()
@@ -134,12 +135,15 @@ def compile_scene(
     world_from_localized = scene.world_from_localized
     _add_vehicles(spec, scene, robots, dynamics)
     loose: dict[str, PhysicsSpec] = {}
+    density = next(iter(dynamics.values())).density if dynamics else None
     for index, thing in enumerate(scene.objects):
         name = object_body(index)
         if name not in shapes:
             continue
         world_from_object = world_from_localized @ thing.localized_from_object
         if thing.solid.is_loose:
+            if wrong := object_errors(thing, thing.solid, shapes[name], density):
+                raise SceneError(wrong)
             link = loose_link(name, thing.solid, shapes[name])
             body = _add_body(spec.worldbody, name, world_from_object, link)
             body.add_freejoint(name=loose_joint(index))
@@ -152,8 +156,7 @@ def compile_scene(
             _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
             if name in loose:
                 _give_surface(spec, name, parts, loose[name])
-    if dynamics:
-        density = next(iter(dynamics.values())).density
+    if density is not None:
         wet = {
             name: loose_hydrodynamics(name, physics, shapes[name], density)
             for name, physics in loose.items()

@@ -16,9 +16,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..errors import Diagnostic
 from ..geometry import Array
-from ..scene.object import PhysicsSpec
+from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.urdf.robot import LinkSpec
+from ..schema import diagnostic_at
 from .collision.shapes import CollisionShape, bounds
 from .hydrodynamics import BodyHydrodynamics
 
@@ -26,7 +28,10 @@ BOX_DRAG = 1.05
 """Of a cube face on [1]."""
 BALL_DRAG = 0.47
 """Of a ball [1]."""
-
+LEAST = 1e-14
+"""Mass [kg] and inertia [kg m2] have to be greater for the engine."""
+MAX_BUOYANCY = 100.0
+"""Greatest buoyancy per weight: the lightest foam has 10 kg/m3 [1]."""
 
 BALL_TORQUE = 0.05
 """Of a ball that turns, torque by half the density, the spin squared and the fifth power of the
@@ -60,6 +65,37 @@ def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]
         centre_of_mass=(mx, my, mz),
         inertia=(*given, 0.0, 0.0, 0.0),
     )
+
+
+def object_errors(
+    thing: ObjectSpec, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float | None
+) -> list[Diagnostic]:
+    """Report the mass, the inertia and the volume of a loose object that no simulation bears.
+
+    Args:
+        thing: the object.
+        physics: its physics.
+        shapes: what is touched of it.
+        density: of the water [kg/m3]; None where there is no buoyancy.
+    """
+    messages = []
+    least = min(loose_link(thing.name, physics, shapes).inertia[:3])
+    is_heavy = physics.mass > LEAST and (least > LEAST or any(physics.inertia))
+    if not is_heavy:  # what an inertia of the file may be is checked where it is read
+        messages.append(
+            f"the object {thing.name!r} has {physics.mass:g} kg and an inertia of {least:.3g} "
+            f"kg m2 about an axis; expected more than {LEAST:g} of both, or the mass 0 for what "
+            "stands fixed"
+        )
+    elif density is not None and (physics.volume or 0.0) * density > MAX_BUOYANCY * physics.mass:
+        box = float(np.prod(2.0 * np.array(bounds(shapes).size)))
+        messages.append(
+            f"the object {thing.name!r} has {physics.mass:g} kg and displaces "
+            f"{(physics.volume or 0.0) * density:.4g} kg of water; expected less than "
+            f"{MAX_BUOYANCY:g} times the mass (<u:volume> is in m3; the box around it has "
+            f"{box:.3g} m3)"
+        )
+    return [diagnostic_at(thing, message, "physics") for message in messages]
 
 
 def loose_hydrodynamics(

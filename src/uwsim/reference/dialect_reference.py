@@ -74,8 +74,9 @@ def _plausibility_warnings() -> str:
         "## Plausibility warnings", "",
         "`uwsim check`, and `uwsim bench` and `uwsim render` before they begin, warn about values "
         "that are valid but unlikely. `<u:accept>NAME</u:accept>` in a vehicle, or "
-        "`<u:accept>start</u:accept>` in an object, accepts the value. All warnings but "
-        "`passable`, `size` and `start` concern simulated vehicles only.", "",
+        "`buoyancy`, `places` and `start` in an object, accepts the value. All warnings but "
+        "`passable`, `size` and `start` concern simulated vehicles, and loose objects in a scene "
+        "with one.", "",
         "| name | warns when |", "|---|---|",
     ]  # fmt: skip
     return "\n".join(

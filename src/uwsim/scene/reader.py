@@ -15,6 +15,7 @@ from .checks.looks import check_looks
 from .checks.models import MAX_FILES, Library, check_models
 from .checks.names import check_left_out, check_names
 from .checks.sizes import check_sizes
+from .checks.water import check_water
 from .legacy import upgrade
 from .spec import SceneSpec
 from .unsupported import not_simulated
@@ -97,6 +98,7 @@ def check_scene(
         check_names(scene, robots, diagnostics, stand_ins)
         check_looks(scene if settled is None else settled(scene), robots, diagnostics)
         check_angles(scene, diagnostics)
+        check_water(scene.ocean_state, diagnostics)
         if library is not None:
             check_models(scene, document, library, diagnostics)
         not_simulated(document.root, diagnostics)

@@ -16,6 +16,7 @@ from ..devices.fault import FaultSpec
 from ..devices.fault_fields import number_fields
 from ..errors import Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
+from ..physics.free_objects import MAX_BUOYANCY
 from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, read_vehicle_into
 from ..physics.vehicle_sets import find_vehicle
@@ -40,8 +41,6 @@ MAX_NAMED = 8
 """Links that one warning names."""
 MIN_LIFT = 0.1
 """Smallest change of buoyancy by another density that is reported [N]."""
-MAX_BUOYANCY = 100.0
-"""Greatest buoyancy per weight: the lightest foam has 10 kg/m3 [1]."""
 
 
 def read_dynamics(

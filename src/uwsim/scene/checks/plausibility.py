@@ -15,16 +15,18 @@ VehicleWarning = Literal[
     "thrust",
 ]  # fmt: skip
 """Warnings about a vehicle."""
-ObjectWarning = Literal["start"]
+ObjectWarning = Literal["buoyancy", "places", "start"]
 """Warnings about an object."""
 
 PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "balance": "Its centre of buoyancy lies below its centre of mass as it begins: it turns over.",
-    "buoyancy": "What it displaces is far from its mass, or more than its shape has room for.",
+    "buoyancy": "What it displaces is far from its mass, or more than its shape has room for; "
+    "of an object, more than twice its box.",
     "drag": "A link has more drag than its mass bears in one step, or drag and no mass at all.",
     "inertia": "The inertia of a link is missing, or far from that of its mass and size.",
     "passable": "Simulated vehicles pass through it, or it through everything.",
-    "places": "A thruster or the centre of mass or buoyancy lies far off the hull.",
+    "places": "A thruster or the centre of mass or buoyancy lies far off the hull, or the centre "
+    "of mass of an object outside the box around it.",
     "size": "It is larger than 50 m or smaller than 5 cm: its meshes may be in millimetres.",
     "start": "It begins in or under the ground, or above the water.",
     "strength": "A thruster would accelerate it by more than 50 m/s2.",

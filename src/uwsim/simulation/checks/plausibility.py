@@ -14,13 +14,16 @@ from typing import Literal
 from ...errors import Diagnostic, UwsimError
 from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ...scene.checks.plausibility import VehicleWarning, unless_meant
+from ...scene.object import PhysicsSpec
 from ...scene.reader import scene_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...schema import diagnostic_at
 from ..bodies import read_robots
+from ..collision.collision_shapes import simulated_solids
 from ..collision.hull import hull_of
 from ..dynamics import DYNAMICS, read_dynamics
+from .object_plausibility import of_objects
 from .start_plausibility import Starts
 from .thrust_warnings import thrust_said
 from .vehicle_plausibility import OF_SIMULATED, candidate_of, size_said
@@ -62,7 +65,23 @@ def plausibility_warnings(
             found.append(
                 diagnostic_at(spec, message, "position", file=scene.path, severity="warning")
             )
+    loose = dict(list(loose_objects(scene, dynamics).items())[:MAX_LOOSE])
+    for index, of_object, text in of_objects(scene, loose, data_path):
+        thing = scene.objects[index]
+        if text and of_object not in thing.accepts:
+            message = f"the object {thing.name!r}: {text}. {unless_meant(of_object)}"
+            found.append(
+                diagnostic_at(thing, message, "physics", file=scene.path, severity="warning")
+            )
     return found
+
+
+def loose_objects(
+    scene: SceneSpec, dynamics: Mapping[int, VehicleHydrodynamics]
+) -> dict[int, PhysicsSpec]:
+    """The objects that forces move, by number."""
+    solids = simulated_solids(scene, dynamics)
+    return {index: physics for index, physics in solids.items() if physics.is_loose}
 
 
 def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnostic]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 
 from ...errors import Diagnostic, SceneError, UwsimError
+from ...physics.compile import object_body
+from ...physics.free_objects import object_errors
+from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
 from ...scene.urdf.reader import read_urdf
 from ...scene.urdf.robot import RobotSpec
@@ -32,7 +35,7 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
                 find_robot(vehicle.file, scene.path, data_path), data_path=data_path
             )
     search = Search(scene, robots, data_path, is_thorough=True)
-    found = search.found
+    found = [*search.found, *_object_errors(scene, search.dynamics, data_path)]
     if not any(diagnostic.severity == "error" for diagnostic in found):
         found += plausibility_warnings(scene, robots, search.dynamics, data_path)
     try:
@@ -41,17 +44,21 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
         found += error.diagnostics
     except UwsimError:  # reported where robots and models are checked
         pass
-    return found + _untouchable(scene, search.dynamics, data_path)
+    return found
 
 
-def _untouchable(
-    scene: SceneSpec, dynamics: Collection[int], data_path: tuple[Path, ...]
+def _object_errors(
+    scene: SceneSpec, dynamics: Mapping[int, VehicleHydrodynamics], data_path: tuple[Path, ...]
 ) -> list[Diagnostic]:
-    """Report the objects of which the engine can make no collision shape."""
+    """Report objects of which the engine can make no collision shape, or that it cannot move."""
+    density = next(iter(dynamics.values())).density if dynamics else None
     found = []
     for index, physics in simulated_solids(scene, dynamics).items():
         try:
-            collision_shapes(scene, {}, (), {index: physics}, data_path)
+            made = collision_shapes(scene, {}, (), {index: physics}, data_path)
+            if physics.is_loose:
+                parts = made[object_body(index)]
+                found += object_errors(scene.objects[index], physics, parts, density)
         except UwsimError as error:
             message = str(error).removesuffix(".")
             thing = scene.objects[index]
