@@ -68,7 +68,8 @@ def test_a_box_that_tumbles_among_many_at_rest_moves_as_with_islands_alone() -> 
         held.advance()
         was_together[solves_together(free)] = True
     assert was_together == [True, True]
-    assert motion(free) == pytest.approx(motion(held), abs=1e-4)
+    # an edge that hits makes 3e-17 into 25 mm/s for a while, and leaves 0.1 mm
+    assert motion(free) == pytest.approx(motion(held), abs=1e-3)
 
 
 def test_what_follows_a_saved_state_solved_together_is_the_same_to_the_bit() -> None:

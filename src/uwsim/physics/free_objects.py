@@ -51,13 +51,15 @@ face as a plate [1] (up to 0.5 rectangles of table A-1, from 1 on square prisms 
 
 
 def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> LinkSpec:
-    """Mass and inertia of an object, about its centre of mass."""
+    """Mass and inertia of an object, about its centre of mass: those of its box, or of a ball."""
     box = bounds(shapes)
     x, y, z = (2.0 * half for half in box.size)
     given = physics.inertia
     if not any(given):
         share = physics.mass / 12.0
         given = (share * (y * y + z * z), share * (x * x + z * z), share * (x * x + y * y))
+        if _is_ball(shapes):
+            given = (0.1 * physics.mass * x * x,) * 3
     mx, my, mz = physics.centre_of_mass or box.body_from_shape.position.tolist()
     return LinkSpec(
         name=name,
@@ -111,7 +113,7 @@ def loose_hydrodynamics(
     """
     box = bounds(shapes)
     edges = 2.0 * np.array(box.size)  # (3,) [m]
-    is_ball = len(shapes) == 1 and shapes[0].kind == "sphere"
+    is_ball = _is_ball(shapes)
     drag = density * (_ball_drag(box.size[0]) if is_ball else box_drag(edges))
     volume = float(np.prod(edges)) * (math.pi / 6.0 if is_ball else 1.0)
     half = 0.5 * edges * (1.0 if is_ball else (6.0 / math.pi) ** (1.0 / 3.0))
@@ -148,6 +150,10 @@ def box_drag(edges: Array) -> Array:
         z * (x**4 + y**4) / 32.0,
     ]
     return 0.5 * BOX_DRAG * np.array(faces + turning)
+
+
+def _is_ball(shapes: Sequence[CollisionShape]) -> bool:
+    return len(shapes) == 1 and shapes[0].kind == "sphere"
 
 
 def _ball_drag(radius: float) -> Array:

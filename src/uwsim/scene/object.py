@@ -23,7 +23,7 @@ class PhysicsSpec(Spec):
     mass: float = element(default=1.0, minimum=0)
     """Its mass; 0 never moves [kg]."""
     inertia: Triple = ZERO
-    """About its axes; all zero: from its shape [kg m2]."""
+    """About its axes; all zero: that of the ball, or of the box around its shape [kg m2]."""
     collision_shape_type: str = "box"
     """box, sphere, compound box, compound cylinder, trimesh or compound trimesh."""
     collision_shape: str = ""

@@ -71,6 +71,8 @@ SPRING = _NAMES.index("qfrc_spring")
 DAMPER = _NAMES.index("qfrc_damper")
 ACTUATOR = _NAMES.index("qfrc_actuator")
 AWAKE = _NAMES.index("tree_awake")
+ACCELERATION = _NAMES.index("qacc")
+UNCONSTRAINED = _NAMES.index("qacc_smooth")
 N_ROWS = _NAMES.index("nefc")
 ITERATIONS = _NAMES.index("solver_niter")
 

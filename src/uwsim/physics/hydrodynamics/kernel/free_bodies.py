@@ -92,7 +92,8 @@ def to_the_middle(m: int, d: int, at: Ints64) -> None:
 def to_the_end(m: int, d: int, at: Ints64) -> None:
     """Carry free bodies from the middle of a step to its end, after MuJoCo's step.
 
-    MuJoCo has carried them a whole one, which is taken back.
+    MuJoCo has carried them a whole one, which is taken back. What contacts and other constraints
+    add to a velocity has the direction that it has in the world, and does not turn with the body.
     """
     _half_a_step(m, d, at, -1.0)
 
@@ -121,9 +122,22 @@ def _half_a_step(m: int, d: int, at: Ints64, sign: float) -> None:
         q = floats(word(d + at[f.QPOS]) + 8 * address, 7)
         water = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, 6)
         before = 0.5 * h if sign > 0.0 else -h  # when the water is what the velocity is turned in
+        dof = 8 * start[tree]
+        all_in, without = (
+            floats(word(d + at[f.ACCELERATION]) + dof, 3),
+            floats(word(d + at[f.UNCONSTRAINED]) + dof, 3),
+        )
+        pushed = h if sign < 0.0 and small(d + at[f.N_ROWS]) > 0 else 0.0
+        jx = pushed * (all_in[0] - without[0])
+        jy = pushed * (all_in[1] - without[1])
+        jz = pushed * (all_in[2] - without[2])
         for i in range(3):
             q[i] += 0.5 * h * v[i] if sign > 0.0 else -h * v[i]
+        if pushed > 0.0:
+            v[0], v[1], v[2] = v[0] - jx, v[1] - jy, v[2] - jz
         _turn_velocity(v, q, water, 0.5 * h * sign, before)
+        if pushed > 0.0:
+            v[0], v[1], v[2] = v[0] + jx, v[1] + jy, v[2] + jz
         if sign < 0.0:
             for i in range(3):
                 q[i] += 0.5 * h * v[i]

@@ -35,7 +35,7 @@ DATA_FIELDS = (
     "qpos", "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat",
     "subtree_com", "cdof", "cdof_dot", "cvel", "cacc", "cinert", "crb", "M", "qfrc_passive",
     "qfrc_applied", "qfrc_bias", "qfrc_spring", "qfrc_damper", "qfrc_actuator", "tree_awake",
-    "nefc", "solver_niter",
+    "qacc", "qacc_smooth", "nefc", "solver_niter",
 )  # fmt: skip
 """What the kernel reads and writes of the data."""
 
