@@ -137,12 +137,13 @@ def viewed(
     speed = 1.0 if connections.speed is None else connections.speed
     with live.opened(title, speed=speed, is_piloted=is_piloted, resets=is_piloted) as view:
         if view is not None:
-            if is_piloted:
+            pilot = pilot_topics(simulation) if is_piloted else None
+            if pilot is not None:
                 from ..algorithms.pilot import Pilot
 
                 PilotInputs(simulation, view.pilot)
-                simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
-            view.open(simulation, title)
+                simulation.attach(Pilot(), parameters={**pilot, "start": ""})
+            view.open(simulation, title, pilot)
         yield
         if view is not None:
             view.close()

@@ -101,7 +101,9 @@ uint32 step, float64 time [s]::
 and text messages, JSON::
 
     {"type": "state", "paused": false, "speed": 1.0, "pilot": false, "resets": false,
-     "mapping": {"w": "+surge", ...}}
+     "mapping": {"w": "+surge", ...}, "sticks": [true, true], "vehicle": 0, "why": ""}
+                        the vehicle that is piloted, keys and sticks (left, right) that move
+                        something, and why no vehicle can be steered
     {"type": "levels", "levels": [...]}                        as above, all so far
     {"type": "samples", "samples": [[name, unit, time, value or null], ...]}    for the curves
     {"type": "markers", "markers": [{"name", "at": 3, "colour": "#rrggbb", "lines": [[3, ...]]}]}

@@ -1,8 +1,9 @@
-"""A pilot in a browser: what the page sends, and what its help says."""
+"""A pilot in a browser: what the page sends, what it says, and what it follows."""
 
 from __future__ import annotations
 
 import base64
+import json
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,7 +12,9 @@ import pytest
 
 import uwsim
 from tests.simulation.test_lamp import LAMP, night
+from uwsim.geometry import Pose
 from uwsim.messages import Float64
+from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.simulation import Simulation
 from uwsim.viewer.document import document
 from uwsim.viewer.live.mapping import KEYS, PilotMapping
@@ -39,6 +42,11 @@ def opened(browser: Any, server: LiveServer, mapping: PilotMapping, height: int)
     with uwsim.load("currents-scene") as simulation:
         view.open(simulation, "scene")
         view.close()
+    return page_of(browser, server, height)
+
+
+def page_of(browser: Any, server: LiveServer, height: int = 768) -> Any:
+    """Open the page in a window of some height."""
     window = {"width": 1024, "height": height}
     page = browser.new_context(viewport=window, bypass_csp=True).new_page()
     page.set_default_timeout(LIMIT)
@@ -151,4 +159,129 @@ def test_sticks_and_images_of_cameras_do_not_cover_each_other(
         box = stick.bounding_box()
         is_beside = box["x"] >= image["x"] + image["width"]
         assert is_beside or box["y"] >= image["y"] + image["height"]
+    page.context.close()
+
+
+def test_keys_that_move_nothing_are_not_in_the_help_and_no_letter_has_two_meanings(
+    browser: Any, server: LiveServer
+) -> None:
+    view = LiveView(server, mapping=PilotMapping(), resets=True)
+    with uwsim.load("currents-scene") as simulation:
+        view.open(simulation, "scene", pilot_topics(simulation))
+        view.close()
+    page = page_of(browser, server)
+    rows = page.evaluate("uwsim.page.link.help().Pilot.map(({ does }) => does)")
+    assert rows[:-1] == [f"{axis} +, −" for axis in ("surge", "sway", "yaw", "heave")]
+    keys = page.evaluate("[...document.querySelectorAll('#help dt')].map((dt) => dt.textContent)")
+    letters = [key for text in keys for key in text.split() if len(key) == 1 and key.isalpha()]
+    assert len(letters) == len(set(letters))
+    assert {"Shift+r", "r"} <= set(" ".join(keys).split())
+    assert page.locator(".stick").count() == 2
+    page.context.close()
+
+
+def test_where_nothing_can_be_steered_the_page_says_why_and_has_no_sticks(
+    browser: Any, server: LiveServer, capsys: pytest.CaptureFixture[str]
+) -> None:
+    view = LiveView(server, mapping=PilotMapping())
+    with uwsim.load("dredging-scene") as simulation:
+        view.open(simulation, "scene", pilot_topics(simulation))
+        view.close()
+    assert "No vehicle can be steered" in capsys.readouterr().err
+    page = page_of(browser, server)
+    assert page.locator(".stick").count() == 0
+    assert "<ROSTwistToPAT>" in page.locator("#pilot").inner_text()
+    page.context.close()
+
+
+def test_the_orbit_goes_along_with_the_piloted_vehicle_and_keeps_its_distance(
+    browser: Any, server: LiveServer
+) -> None:
+    ways: dict[int, np.ndarray] = {}
+    with uwsim.load("two-vehicles-scene") as simulation:
+        parameters = pilot_topics(simulation)
+        other = next(
+            spec.topic
+            for spec in simulation.world.scene.ros_interfaces
+            if type(spec).__name__ == "ROSTwistToPATSpec"
+            and spec.vehicle_name == simulation.world.vehicles[1]
+        )
+        for index, topic in enumerate((parameters["twist_topic"], other)):
+            view = LiveView(server, mapping=PilotMapping())
+            view.open(simulation, "scene", {**parameters, "twist_topic": topic})
+            began = simulation.pose(simulation.world.vehicles[index], "W")
+            moved = Pose(np.add(began.position, (3.0, -2.0, 0.5)), began.rotation)
+            simulation.world.state.place_vehicle(index, moved)
+            view._due["row"] = 0.0
+            view._hand_over()
+            view.close()
+            page = page_of(browser, server)
+            page.wait_for_function("uwsim.page.drawn !== ''")
+            eye = "uwsim.page.views.sight(800, 600).worldFromCamera"
+            first = page.evaluate("uwsim.page.pack.head.view.pose")
+            now = page.evaluate(f"Array.from({eye})")
+            ways[index] = np.array([now[3], now[7], now[11]]) - first[:3]
+            page.evaluate("uwsim.page.views.drag(0.1, 0.1, true)")  # moved on by hand
+            panned = page.evaluate(f"Array.from({eye})")
+            assert np.abs(np.subtract(panned, now)).max() > 0.1
+            page.keyboard.press("Shift+K")
+            assert page.evaluate(f"Array.from({eye})") == panned
+            page.context.close()
+    for way in ways.values():
+        assert way == pytest.approx([3.0, -2.0, 0.5], abs=0.01)
+
+
+WORDS = """() => {
+    window.words = new Set()
+    const fill = CanvasRenderingContext2D.prototype.fillText
+    CanvasRenderingContext2D.prototype.fillText = function (text, ...rest) {
+        window.words.add(text)
+        fill.call(this, text, ...rest)
+    }
+}"""
+"""Keeps what is written on canvases."""
+
+
+def test_names_of_frames_of_two_vehicles_begin_with_the_vehicles(
+    browser: Any, server: LiveServer
+) -> None:
+    with uwsim.load("two-vehicles-scene") as simulation:
+        view = LiveView(server)
+        view.open(simulation, "scene")
+        view.close()
+        vehicles = simulation.world.vehicles
+    page = browser.new_context(bypass_csp=True).new_page()
+    page.set_default_timeout(LIMIT)
+    page.goto(server.url)
+    page.wait_for_function("window.uwsim !== undefined")
+    page.evaluate(WORDS)
+    page.keyboard.press("f")
+    page.wait_for_function("words.size > 4")
+    page.evaluate("uwsim.page.views.drag(Math.PI / 4, 0, false)")  # the second is behind it
+    for vehicle in vehicles:
+        page.wait_for_function(f"words.has('{vehicle} base_link')")
+    page.context.close()
+
+
+def test_the_status_of_a_level_that_is_over_is_shown_at_once(
+    browser: Any, server: LiveServer
+) -> None:
+    page = opened(browser, server, MAPPING, 768)
+    level = {"label": "fog 0.5", "status": "running", "why": "", "start": 0.0, "end": 0.0}
+    for status in ("running", "ok"):
+        levels = [{**level, "status": status, "values": {"fog": 0.5}}]
+        server.publish("levels", json.dumps({"type": "levels", "levels": levels}))
+        page.wait_for_function(f"document.getElementById('now').textContent.endsWith('{status}')")
+        assert page.locator("#levels button").inner_text().split() == ["fog", "0.5", status]
+    page.context.close()
+
+
+def test_a_curve_has_more_than_one_number_at_its_side(browser: Any, server: LiveServer) -> None:
+    page = opened(browser, server, MAPPING, 768)
+    samples = [["offset", "px", 0.1 * k, 12.0 + 5.0 * k] for k in range(11)]
+    server.publish("samples/0", json.dumps({"type": "samples", "samples": samples}))
+    server.publish("levels", json.dumps({"type": "levels", "levels": []}))  # it is drawn
+    page.wait_for_function("uwsim.page.curves.charts.length === 1")
+    n = page.evaluate("uwsim.page.curves.charts[0].plot.axes[1]._splits.length")
+    assert 3 <= n <= 6
     page.context.close()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -87,7 +88,14 @@ class LiveOptions:
         if is_piloted:
             mapping = read_mapping(self.pilot_mapping) if self.pilot_mapping else PilotMapping()
         server = LiveServer(lambda: document(title, None), self.port or 0)
-        view = LiveView(server, speed=speed, mapping=mapping, waits=waits, resets=resets)
+        view = LiveView(
+            server,
+            speed=speed,
+            mapping=mapping,
+            waits=waits,
+            resets=resets,
+            say=lambda text: print(text, file=sys.stderr),
+        )
         typer.echo(f"view: {server.url}", err=True)
         try:
             yield view

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from ...benchmark.updaters import Level
@@ -14,8 +14,19 @@ from .triggered_measure import TriggeredMeasure
 class Onlooker(Protocol):
     """What looks at a trial between its steps; it changes nothing but by the pilot's inputs."""
 
-    def open(self, simulation: Simulation, title: str) -> None:
-        """A trial begins; its simulation is at step 0."""
+    def open(
+        self,
+        simulation: Simulation,
+        title: str,
+        parameters: Mapping[str, float | str] | None = None,
+    ) -> None:
+        """A trial begins; its simulation is at step 0.
+
+        Args:
+            simulation: the one.
+            title: of the trial.
+            parameters: of the pilot; None: nobody pilots.
+        """
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
         """A level is measured from now on."""

@@ -1,4 +1,4 @@
-"""Topics of a scene by which a pilot drives its first vehicle, as parameters of `pilot`."""
+"""Topics of a scene by which a pilot drives a vehicle, as parameters of `pilot`."""
 
 from __future__ import annotations
 
@@ -16,12 +16,14 @@ JAW = ("jaw", "grip", "hand", "finger")
 def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     """Return the parameters of `uwsim.algorithms.pilot.Pilot` that the scene gives.
 
-    They are empty where the scene has no vehicle.
+    They are of the first vehicle that can be steered, or of the first of all; empty where the
+    scene has no vehicle.
     """
     world = simulation.world
     if not world.vehicles:
         return {}
-    name = world.vehicles[0]
+    index = _first_steered(simulation)
+    name = world.vehicles[index]
     found: dict[str, float | str] = {}
     for spec in world.scene.ros_interfaces:
         if getattr(spec, "vehicle_name", name) != name:
@@ -35,7 +37,7 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
         elif isinstance(spec, ROSThrustersToPATSpec) and world.vehicle(name).thrusters:
             found.setdefault("thrusters_topic", spec.topic)
             found["n_thrusters"] = float(len(world.vehicle(name).thrusters))
-    lamps = (lamp.brightness_topic for lamp in world.scene.vehicles[0].parts_of(LampSpec))
+    lamps = (lamp.brightness_topic for lamp in world.scene.vehicles[index].parts_of(LampSpec))
     if topics := " ".join(dict.fromkeys(topic for topic in lamps if " " not in topic)):
         found["lamp_topics"] = topics
     joints = list(world.vehicle(name).joint_names)
@@ -44,3 +46,14 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
         jaw = joints.pop()
     down = -float(simulation.pose(name, "W").rotation[2, 2])
     return {**found, "joints": " ".join(joints), "jaw": jaw, "z_is_down": float(down > 0.0)}
+
+
+def _first_steered(simulation: Simulation) -> int:
+    """Return the number of the first vehicle that takes twists or commands of thrusters; or 0."""
+    world = simulation.world
+    names = {
+        spec.vehicle_name
+        for spec in world.scene.ros_interfaces
+        if isinstance(spec, ROSTwistToPATSpec | ROSOdomToPATSpec | ROSThrustersToPATSpec)
+    }
+    return next((i for i, name in enumerate(world.vehicles) if name in names), 0)

@@ -166,7 +166,8 @@ class _Execution:
         simulation.start()
         self._motion.start()
         if self._onlooker is not None:
-            self._onlooker.open(simulation, self._title())
+            pilot = None if self._inputs is None else self._parameters
+            self._onlooker.open(simulation, self._title(), pilot)
         parameters = self._parameters_said()
         if not plan.is_blind:
             self._facts = visibility_facts(simulation, plan, parameters)

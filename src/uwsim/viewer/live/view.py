@@ -10,7 +10,7 @@ import json
 import math
 import struct
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import cv2
@@ -30,9 +30,11 @@ from ...simulation.markers.lines import described, looks_of
 from ...simulation.snapshot import packed, put_state, state_of, unpacked
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import FIELD, view_from_pose
+from ...terminal import warn
 from .clock import NAP, Clock
 from .head import head_of
 from .mapping import PilotMapping, merged
+from .piloted import piloted_of
 from .server import LiveServer, Message
 
 RATE = 30.0
@@ -45,6 +47,8 @@ IMAGE_RATE = 10.0
 """Images a second of the wall clock [Hz]."""
 SAMPLE_RATE = 2.0
 """Batches of samples a second of the wall clock [Hz]."""
+PATIENCE = 1.0
+"""So long nobody may look before the terminal is told that a simulation waits [s]."""
 N_BATCHES = 600
 """Batches of samples that are kept for whoever comes later."""
 QUALITY = 85
@@ -67,6 +71,7 @@ class LiveView:
         resets: whether viewers may put vehicles and objects back where they began; not where
             anything is scored.
         wall: returns the wall time [s].
+        say: is told in words what it waits for.
     """
 
     def __init__(
@@ -78,8 +83,9 @@ class LiveView:
         waits: bool = False,
         resets: bool = False,
         wall: Callable[[], float] = time.monotonic,
+        say: Callable[[str], None] | None = None,
     ) -> None:
-        self._server, self._wall = server, wall
+        self._server, self._wall, self._say = server, wall, say
         self._clock = Clock(speed, wall)
         self._simulation: Simulation | None = None
         self._state: TrackedState | None = None
@@ -93,12 +99,28 @@ class LiveView:
         self._views: dict[int, Message] = {}
         self._widths: dict[int, int] = {}  # of images, of viewers who have said one [px]
         self._mapping, self._waits = mapping, waits
+        self._piloted: dict[str, Any] = {  # what pilots move, as pages are told
+            **{"vehicle": 0, "why": "", "sticks": [mapping is not None] * 2},
+            "mapping": {} if mapping is None else dict(mapping.keys),
+        }
         self._resets, self._first = resets, b""
         self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
         self._prompt = math.inf  # when a row that follows an input is due
 
-    def open(self, simulation: Simulation, title: str) -> None:
-        """Show a simulation from now on; it is at step 0."""
+    def open(
+        self,
+        simulation: Simulation,
+        title: str,
+        parameters: Mapping[str, float | str] | None = None,
+    ) -> None:
+        """Show a simulation from now on; it is at step 0.
+
+        Args:
+            simulation: the one.
+            title: of the page.
+            parameters: of the pilot; None: all keys and sticks are shown, or nobody pilots.
+        """
+        self._find_out_what_pilots_move(simulation, parameters)
         self._simulation, self._state = simulation, TrackedState(simulation.world)
         self._levels, self._measures, self._markers = [], (), {}
         self._sand = [heap.version for heap in simulation.world.scenery.heaps]
@@ -109,10 +131,36 @@ class LiveView:
         self._server.publish("head", HEADER.pack(0, 0, 0, 0, 0.0) + head)
         self._say_state()
         self._hand_over()
-        while self._waits and not self._server.n_viewers:
-            time.sleep(NAP)
+        if self._waits:
+            self._wait_for_a_page()
         self._clock.begin(simulation.time)
         simulation.watch(self._look)
+
+    def _find_out_what_pilots_move(
+        self, simulation: Simulation, parameters: Mapping[str, float | str] | None
+    ) -> None:
+        """Keep it for pages, and say on the terminal where it is nothing."""
+        mapping = self._mapping
+        if mapping is None or parameters is None:
+            return
+        piloted = piloted_of(simulation.world, parameters)
+        if piloted.why and piloted.why != self._piloted["why"]:
+            warn(piloted.why)
+        self._piloted = {
+            "vehicle": piloted.vehicle,
+            "sticks": piloted.sticks(mapping),
+            "why": piloted.why,
+            "mapping": piloted.keys(mapping),
+        }
+
+    def _wait_for_a_page(self) -> None:
+        """Wait until somebody looks; a page that is loaded again is back sooner than it is told."""
+        tells_at = self._wall() + PATIENCE
+        while not self._server.n_viewers:
+            time.sleep(NAP)
+            if self._say is not None and self._wall() >= tells_at:
+                self._say(f"waits for a page: open {self._server.url}")
+                tells_at = math.inf
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
         """A level is measured from now on."""
@@ -292,7 +340,7 @@ class LiveView:
             "speed": self._clock.speed,
             "pilot": self._mapping is not None,
             "resets": bool(self._first),
-            "mapping": {} if self._mapping is None else dict(self._mapping.keys),
+            **self._piloted,
         }
         self._server.publish("state", json.dumps(state))
 

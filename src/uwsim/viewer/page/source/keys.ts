@@ -104,6 +104,7 @@ export class Keyboard {
       v: () => page.show("camera"),
       m: () => page.show("map"),
       h: () => page.views.home(),
+      k: () => page.views.hold(),
       r: () => page.reset(),
       "+": () => page.views.zoom(0.9),
       "=": () => page.views.zoom(0.9),
@@ -144,6 +145,7 @@ export class Keyboard {
       ],
       View: [
         { keys: "o b v m", does: "orbit, behind the vehicle, next camera, map from above" },
+        { keys: "k", does: "orbit goes along with the vehicle, or stays" },
         { keys: "arrows, drag", does: "turn; with Shift or the right button: move" },
         { keys: "+ -, wheel", does: "nearer, farther" },
         { keys: "h", does: "first view again" },
@@ -159,6 +161,10 @@ export class Keyboard {
         { keys: "?", does: "these keys" },
       ],
     };
-    return page.link ? { ...own, ...page.link.help() } : own;
+    if (!page.link) return own;
+    const pilot = page.link.pilot;
+    for (const row of Object.values(own).flat())
+      row.keys = row.keys.split(" ").map((key) => (pilot.has(key) ? `Shift+${key}` : key)).join(" ");
+    return { ...own, ...page.link.help() };
   }
 }

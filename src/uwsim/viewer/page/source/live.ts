@@ -14,7 +14,7 @@ const WAIT = 100; // of an image for the next row, to be drawn with it [ms]
 const MAX_WIDTH = 640; // of an image that the server draws
 
 type Message =
-  | { type: "state"; paused: boolean; speed: number; pilot: boolean; resets: boolean; mapping?: Record<string, string> }
+  | { type: "state"; paused: boolean; speed: number; pilot: boolean; resets: boolean; vehicle: number; why: string; sticks: boolean[]; mapping: Record<string, string> }
   | { type: "levels"; levels: Level[] }
   | { type: "samples"; samples: [string, string, number, number | null][] }
   | { type: "markers"; markers: Marker[] }
@@ -103,7 +103,8 @@ export class Link {
     if (message.type === "state") {
       page.isTold(message.paused, message.speed);
       this.resets = message.resets;
-      this.pilot.enable(message.pilot, message.mapping ?? {});
+      this.pilot.enable(message.pilot, message.mapping, message.sticks, message.why);
+      page.views.follow(message.vehicle);
       page.keyboard.help();
     } else if (message.type === "levels") stream.setLevels(message.levels);
     else if (message.type === "samples") for (const each of message.samples) stream.sample(...each);

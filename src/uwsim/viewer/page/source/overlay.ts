@@ -126,6 +126,8 @@ function drawTrails(pen: Pen, head: Head, player: Player, moment: Moment, since:
 }
 
 function drawFrames(pen: Pen, head: Head, models: Models, labelled: boolean): void {
+  const several = head.vehicles.length > 1;
+  const owners = new Map(head.bodies.map(({ name, vehicle }) => [name, vehicle ?? ""]));
   for (const { name, body, pose } of head.frames) {
     const place = models.mounted({ body, pose });
     const length = body === null ? 1 : 0.25;
@@ -133,7 +135,8 @@ function drawFrames(pen: Pen, head: Head, models: Models, labelled: boolean): vo
       const tip = [0, 1, 2].map((k) => (k === i ? length : 0));
       pen.line([origin(place), transform(place, tip)], colour, 2);
     });
-    if (labelled) pen.word(origin(place), name.split("/").at(-1)!);
+    const owner = several && body !== null ? `${owners.get(body)} ` : "";
+    if (labelled) pen.word(origin(place), owner + name.split("/").at(-1)!);
   }
 }
 

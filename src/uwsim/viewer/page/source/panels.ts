@@ -1,5 +1,5 @@
 // The parts of the page around the image: levels, timeline, thrusters, keys.
-import type { Head } from "./head";
+import type { Head, Level } from "./head";
 import type { Moment, Player } from "./player";
 
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
@@ -34,7 +34,7 @@ export function indexAt(player: Player, time: number): number {
 export class LevelList {
   private readonly list = element("levels");
   private current = -2;
-  private n = -1;
+  private filled: Level | null | undefined = null; // the last one then
 
   constructor(
     private readonly player: Player,
@@ -42,7 +42,7 @@ export class LevelList {
   ) {}
 
   show(time: number): void {
-    if (this.n !== this.player.levels.length) this.fill();
+    if (this.filled !== this.player.levels.at(-1)?.level) this.fill();
     const index = indexAt(this.player, time);
     if (index === this.current) return;
     this.current = index;
@@ -77,9 +77,9 @@ export class LevelList {
   }
 
   private fill(): void {
-    this.n = this.player.levels.length;
+    this.filled = this.player.levels.at(-1)?.level;
     this.current = -2;
-    element("levels-box").hidden = this.n === 0;
+    element("levels-box").hidden = !this.filled;
     this.list.replaceChildren(
       ...this.player.levels.map(({ level }, i) => {
         const button = make("button");

@@ -3,6 +3,7 @@ import { element, make } from "./panels";
 
 const REPEAT = 100; // [ms] between messages while anything is held
 const POLL = 33; // [ms] between looks at the gamepad
+const STICKS = ["Turn and heave", "Surge and sway"];
 
 interface Input {
   keys: string[];
@@ -14,6 +15,8 @@ interface Input {
 export class Pilot {
   isOn = false;
   private mapping: Record<string, string> = {};
+  private why = ""; // nothing can be steered
+  private shown = "";
   private readonly held = new Set<string>();
   private readonly sticks = [0, 0, 0, 0];
   private last = "";
@@ -31,18 +34,27 @@ export class Pilot {
     setInterval(() => this.look(), POLL);
   }
 
-  enable(on: boolean, mapping: Record<string, string>): void {
-    this.mapping = mapping;
+  /** Which keys and sticks, left and right, do something; and why no vehicle can be steered. */
+  enable(on: boolean, mapping: Record<string, string>, sticks: boolean[], why: string): void {
+    this.mapping = on ? mapping : {};
+    this.why = why;
     this.isOn = on;
+    const shown = JSON.stringify([on, sticks, why]);
+    if (shown === this.shown) return; // a stick may be held
+    this.shown = shown;
+    const parts = sticks.map((does, i) => does && this.stick(2 * i, STICKS[i])).filter((part) => part !== false);
+    element("pilot").replaceChildren(...parts, ...(why ? [make("p", why)] : []));
     element("pilot").hidden = !on;
-    if (on && !element("pilot").children.length) {
-      element("pilot").append(this.stick(0, "Turn and heave"), this.stick(2, "Surge and sway"));
-    }
+  }
+
+  /** Whether a letter is the pilot's, so that the page's own needs Shift. */
+  has(key: string): boolean {
+    return this.isOn && key in this.mapping;
   }
 
   takes(event: KeyboardEvent): boolean {
     const key = event.key.toLowerCase();
-    if (!this.isOn || event.shiftKey || !(key in this.mapping)) return false;
+    if (event.shiftKey || !this.has(key)) return false;
     event.preventDefault();
     this.held.add(key);
     this.look();
@@ -58,7 +70,7 @@ export class Pilot {
       pair[way] += (pair[way] && ", ") + key;
       pairs.set(axes, pair);
     }
-    if (!pairs.size) return [{ keys: "–", does: "nobody pilots this simulation" }];
+    if (!pairs.size) return [{ keys: "–", does: this.why || "nobody pilots this simulation" }];
     const rows = [...pairs].map(([does, [more, less]]) => ({ keys: `${more || "–"}  ${less || "–"}`, does: `${does} +, −` }));
     return [...rows, { keys: "Shift", does: "with a letter: the page's own key" }];
   }

@@ -195,6 +195,7 @@ export class Stream implements Player {
 
   setLevels(levels: Level[]): void {
     this.levels.splice(0, this.levels.length, ...levels.map((level) => ({ trial: 0, level })));
+    this.version += 1;
   }
 
   async select(): Promise<void> {}

@@ -18,13 +18,14 @@ export interface Sight {
 export class Views {
   mode: Mode = "orbit";
   camera = 0;
-  vehicle = 0;
   /** Grows whenever the view was turned or moved. */
   version = 0;
+  private vehicle = 0; // that it goes along with
+  private held: number[] | null = null; // way of the vehicle beyond which the orbit does not go
   private azimuth = 0;
   private elevation = 0.4;
   private distance = 5;
-  private target: number[];
+  private target: number[]; // as if the vehicle were where it began
   private turn = 0; // of the chase view, off the stern
   private height = 12;
   private readonly shift = [0, 0]; // of the map
@@ -37,9 +38,23 @@ export class Views {
     this.home();
   }
 
+  /** Go along with a vehicle. */
+  follow(vehicle: number): void {
+    if (vehicle === this.vehicle) return;
+    this.vehicle = vehicle;
+    this.version += 1;
+  }
+
+  /** Let the orbit stay where it is, or go along with the vehicle again. */
+  hold(): void {
+    this.held = this.held ? null : this.way();
+    this.version += 1;
+  }
+
   /** The first view again. */
   home(): void {
     this.version += 1;
+    this.held = null;
     const place = fromPose(this.head.view.pose);
     const away = plus(origin(place), this.head.view.at, -1);
     this.target = [...this.head.view.at];
@@ -66,7 +81,7 @@ export class Views {
       const ahead = this.base()!;
       const heading = Math.atan2(ahead[4], ahead[0]) + Math.PI + this.turn;
       place = this.around(this.centre(), heading, Math.max(0.15, this.elevation));
-    } else place = this.around(this.target, this.azimuth, this.elevation);
+    } else place = this.around(plus(this.target, this.held ?? this.way()), this.azimuth, this.elevation);
     return { worldFromCamera: place, lens, observer: true, camera: null };
   }
 
@@ -107,6 +122,13 @@ export class Views {
   private base(): Matrix | null {
     const vehicle = this.head.vehicles[this.vehicle];
     return vehicle ? this.models.body(vehicle.body) : null;
+  }
+
+  /** How far the vehicle has come from where it began. */
+  private way(): number[] {
+    const vehicle = this.head.vehicles[this.vehicle];
+    const first = this.head.bodies.find(({ name }) => name === vehicle?.body);
+    return first ? plus(this.centre(), first.pose.slice(0, 3), -1) : [0, 0, 0];
   }
 
   private centre(): number[] {

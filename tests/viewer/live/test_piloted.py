@@ -1,0 +1,118 @@
+"""What pilots can move: the first vehicle that can be steered, and the axes that it has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+import uwsim
+from tests.viewer.live.test_live import Desk
+from uwsim.algorithms.pilot import AXES, TWIST_AXES, Pilot
+from uwsim.runs.trial.pilot_inputs import PilotInputs
+from uwsim.runs.trial.pilot_topics import pilot_topics
+from uwsim.scene.reader import read_scene
+from uwsim.simulation import Simulation
+from uwsim.viewer.live.mapping import PilotMapping
+from uwsim.viewer.live.piloted import piloted_of
+from uwsim.viewer.live.view import LiveView
+
+SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
+  <vehicle> <name>one</name> <file>rexrov.urdf</file>
+    <position> <x>0</x> <y>0</y> <z>-5</z> </position> <u:dynamics>rexrov</u:dynamics> </vehicle>
+  <vehicle> <name>two</name> <file>rexrov.urdf</file>
+    <position> <x>4</x> <y>0</y> <z>-5</z> </position> <u:dynamics>rexrov</u:dynamics> </vehicle>
+  INTERFACES
+</UWSimScene>"""
+TWIST = """<rosInterfaces> <ROSTwistToPAT> <topic>/twist</topic>
+  <vehicleName>two</vehicleName> </ROSTwistToPAT> </rosInterfaces>"""
+Opened = Callable[[str], Simulation]
+
+
+@pytest.fixture
+def opened(tmp_path: Path) -> Opened:
+    """Opens a scene of two vehicles with these interfaces."""
+
+    def open_scene(interfaces: str) -> Simulation:
+        path = tmp_path / "two.xml"
+        path.write_text(SCENE.replace("INTERFACES", interfaces))
+        return Simulation(read_scene(path), is_blind=True)
+
+    return open_scene
+
+
+def test_the_second_vehicle_is_piloted_where_the_first_cannot_be_steered(opened: Opened) -> None:
+    with opened(TWIST) as simulation:
+        piloted = piloted_of(simulation.world, pilot_topics(simulation))
+        assert (piloted.vehicle, piloted.why) == (1, "")
+        held = tuple(float(axis == "surge") for axis in AXES)
+        PilotInputs(simulation, lambda: held)
+        simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
+        before = {name: simulation.pose(name, "W").position for name in ("one", "two")}
+        simulation.advance(2.0)
+        way = {name: simulation.pose(name, "W").position - before[name] for name in before}
+        assert way["two"][0] > 0.2
+        assert abs(way["one"][0]) < 0.01
+
+
+def test_a_scene_without_interfaces_says_what_it_lacks_once(
+    opened: Opened, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with opened("") as simulation:
+        parameters = pilot_topics(simulation)
+        piloted = piloted_of(simulation.world, parameters)
+        assert piloted.axes == frozenset()
+        assert piloted.keys(PilotMapping()) == {}
+        assert piloted.sticks(PilotMapping()) == [False, False]
+        view = LiveView(Desk(), mapping=PilotMapping())  # type: ignore[arg-type]
+        for _ in range(2):  # trials
+            view.open(simulation, "scene", parameters)
+            view.close()
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith("uwsim: warning: No vehicle can be steered: ")
+    assert "<ROSTwistToPAT>" in line
+    assert "<u:ROSThrustersToPAT>" in line
+
+
+@pytest.mark.parametrize(
+    ("scene", "axes"),
+    [
+        ("currents-scene", set(TWIST_AXES)),
+        ("remus-scene", {"thruster1"}),
+        ("grasp-scene", {*TWIST_AXES, "jaw", *(f"joint{k}" for k in range(1, 5))}),
+    ],
+)
+def test_axes_are_those_that_the_vehicle_has(scene: str, axes: set[str]) -> None:
+    with uwsim.load(scene) as simulation:
+        piloted = piloted_of(simulation.world, pilot_topics(simulation))
+    assert {axis for axis in piloted.axes if scene != "grasp-scene" or axis[:5] != "thrus"} == axes
+
+
+def test_whoever_waits_for_a_page_says_so_once_and_not_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now, told = [0.0], list[str]()
+
+    class Late(Desk):
+        url = "http://127.0.0.1:1/?token=x"
+
+        @property
+        def n_viewers(self) -> int:  # type: ignore[override]
+            now[0] += 0.5
+            return int(now[0] > 5.0)
+
+    monkeypatch.setattr("uwsim.viewer.live.view.NAP", 0.0)
+    view = LiveView(
+        Late(),  # type: ignore[arg-type]
+        mapping=PilotMapping(),
+        waits=True,
+        wall=lambda: now[0],
+        say=lambda text: told.append(f"{now[0]:g}: {text}"),
+    )
+    with uwsim.load("currents-scene") as simulation:
+        view.open(simulation, "scene")
+        view.close()
+        view.open(simulation, "scene")  # of another trial: somebody looks
+        view.close()
+    assert told == ["1: waits for a page: open http://127.0.0.1:1/?token=x"]
