@@ -11,8 +11,14 @@ import numpy as np
 import pytest
 
 from uwsim.errors import RunFailed
-from uwsim.physics.engine_warnings import hush, say_too_fast, why_untrue
+from uwsim.geometry import Pose
+from uwsim.physics.collision.shapes import CollisionShape
+from uwsim.physics.compile import compile_scene, object_body
+from uwsim.physics.engine_warnings import hush, say_too_fast, speeds_of, too_fast, why_untrue
+from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
+from uwsim.scene.sim_params import SimParamsSpec
+from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
 
 BALLS = "".join(f'<body name="b{i}"><freejoint/><geom size="0.1"/></body>' for i in range(30))
@@ -49,10 +55,23 @@ def test_contacts_that_find_no_room_are_reported(
 
 
 def test_what_moves_too_fast_is_named_with_what_may_be_wrong() -> None:
-    velocities, speeds = np.array([0.0, 90.0, 90.0]), np.array([[0, 3]], dtype=np.int64)
+    velocities, speeds = np.array([0.0, 90.0, 90.0]), np.array([[0, 3, 100]], dtype=np.int64)
     said = say_too_fast(velocities, speeds, 0, 1.5, ["needle"] * 3)
     assert said.startswith("'needle' moves at 127.3 m/s or rad/s at 1.5 s")
     assert "bodies were inside each other as they began, or it is so thin" in said
+
+
+@pytest.mark.parametrize(("radius", "limit"), [(0.0005, 2000), (0.006, 166), (0.1, 100)])
+def test_a_thin_thing_that_is_loose_may_turn_as_fast_as_it_rolls(radius: float, limit: int) -> None:
+    thing = ObjectSpec(name="pin", file="", physics=PhysicsSpec(mass=0.01))
+    rod = CollisionShape(kind="cylinder", size=(radius, 0.15), body_from_shape=Pose.identity())
+    scene = SceneSpec(objects=(thing,), sim_params=SimParamsSpec(enable_physics=True))
+    model = compile_scene(scene, {}, {}, 0.002, {object_body(0): [rod]})
+    speeds = speeds_of(model)
+    assert speeds.tolist() == [[0, 3, 100], [3, 3, limit]]
+    assert too_fast(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.0, 0.0]), speeds) == -1
+    assert too_fast(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.9 * limit, 0.0]), speeds) == 3
+    assert too_fast(np.array([101.0, 0.0, 0.0, 0.0, 0.0, 0.0]), speeds) == 0
 
 
 @pytest.mark.slow

@@ -21,7 +21,10 @@ from ..numerics.jit import njit
 
 MAX_SPEED = 100.0
 """Of a body in water: no thing that a simulation of this kind is for goes faster, or turns more
-quickly [m/s, rad/s]."""
+quickly [m/s, rad/s]; but for loose things that are thin, see `RIM_SPEED`."""
+RIM_SPEED = 1.0
+"""Of the surface of a loose thing that turns: as fast as small heavy things sink, and roll; a
+needle does so at more than `MAX_SPEED` [m/s]."""
 FIRST_UNSTABLE = int(mujoco.mjtWarning.mjWARN_BADQPOS)
 """From this on: a position, velocity, acceleration or control is no number."""
 SINGULAR = int(mujoco.mjtWarning.mjWARN_INERTIA)
@@ -48,7 +51,7 @@ class StepCheck:
         self.counters = data.warning.number
         """The engine's, one for each kind of warning."""
         self.speeds = speeds_of(model)
-        """Which velocities make a speed together, (n, 2): see `speeds_of`."""
+        """Which velocities make a speed together, and how fast that may be, (n, 3): `speeds_of`."""
 
     def end_if_warned(self, step: int) -> None:
         """Raise SimulationFailed if the engine has warned in a step."""
@@ -94,20 +97,34 @@ def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[st
 
 
 def speeds_of(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
-    """Degrees of freedom that form one speed: the first, and how many, (n, 2)."""
+    """Degrees of freedom that form one speed: the first, how many, and the limit, (n, 3)."""
     parts = {mujoco.mjtJoint.mjJNT_FREE: (3, 3), mujoco.mjtJoint.mjJNT_BALL: (3,)}
     found = []
     for joint in range(model.njnt):
         first = int(model.jnt_dofadr[joint])
-        for n in parts.get(mujoco.mjtJoint(model.jnt_type[joint]), (1,)):
-            found.append((first, n))
+        limits = (int(MAX_SPEED), _fastest_turn(model, int(model.jnt_bodyid[joint])))
+        for i, n in enumerate(parts.get(mujoco.mjtJoint(model.jnt_type[joint]), (1,))):
+            found.append((first, n, limits[i]))
             first += n
-    return np.array(found, dtype=np.int64).reshape(-1, 2)
+    return np.array(found, dtype=np.int64).reshape(-1, 3)
+
+
+def _fastest_turn(model: mujoco.MjModel, body: int) -> int:
+    """How fast a body may turn: a loose object about its longest axis as `RIM_SPEED` says [rad/s].
+
+    Its radius is half the middle one of the edges of the box around it; of several shapes the
+    thickest counts.
+    """
+    start, n = int(model.body_geomadr[body]), int(model.body_geomnum[body])
+    if not model.body(body).name.startswith("object/") or n == 0:
+        return int(MAX_SPEED)
+    halves = np.sort(model.geom_aabb[start : start + n, 3:], axis=1)  # (n, 3) [m]
+    return int(max(MAX_SPEED, RIM_SPEED / halves[:, 1].max()))
 
 
 @njit
 def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
-    """The first degree of freedom with a speed above `MAX_SPEED` or not finite; else -1.
+    """The first degree of freedom with a speed above its limit or not finite; else -1.
 
     Args:
         velocities: of all degrees of freedom [m/s, rad/s].
@@ -118,7 +135,8 @@ def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
         square = 0.0
         for k in range(first, first + speeds[i, 1]):
             square += velocities[k] * velocities[k]
-        if not square <= MAX_SPEED * MAX_SPEED:
+        limit = float(speeds[i, 2])
+        if not square <= limit * limit:
             return int(first)
     return -1
 
@@ -131,8 +149,9 @@ def say_too_fast(
     speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
     return (
         f"{names[dof]!r} moves at {speed:.4g} m/s or rad/s at {time:g} s, and nothing here is "
-        f"made for more than {MAX_SPEED:g}: a mass, an inertia, a force or a current is wrong, "
-        "bodies were inside each other as they began, or it is so thin that it does turn as fast."
+        f"made for more than {speeds[row, 2]}: a mass, an inertia, a force or a current is wrong, "
+        "bodies were inside each other as they began, or it is so thin that it does turn as fast, "
+        "or asks for shorter steps."
     )
 
 

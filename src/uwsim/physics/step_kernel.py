@@ -106,7 +106,7 @@ def end(plans: Record) -> int:
         if small(plan.warnings + plan.stride * i) != 0:
             return WARNED
     qvel = floats(word(d + at[f.QVEL]), word(m + at[f.NV]))
-    speeds = longs(plan.speeds, 2 * plan.n_speeds).reshape((-1, 2))
+    speeds = longs(plan.speeds, 3 * plan.n_speeds).reshape((-1, 3))
     dof = too_fast(qvel, speeds)
     if dof >= 0:
         return TOO_FAST + dof

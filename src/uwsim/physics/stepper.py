@@ -62,7 +62,7 @@ class Stepper:
             "autopilots": (_numbers([each.addresses for each in autopilots]), 5),
             "servos": (_numbers([each.addresses for each in servos]), 3),
             "placed": (_numbers([_places(model, joint) for joint in placed]), 2),
-            "speeds": (check.speeds, 2),
+            "speeds": (check.speeds, 3),
             "wet": (_numbers([list(wet)]), 1),
         }
         for name, (numbers, width) in self._kept.items():
