@@ -135,7 +135,9 @@ class SceneWorld:
     def warnings(self) -> tuple[Diagnostic, ...]:
         """Warnings about the scene, with the lines of the file."""
         scene = self._as_written
-        implausible = plausibility_warnings(scene, self.robots, self.dynamics, self._data_path)
+        implausible = plausibility_warnings(
+            scene, self.robots, self.dynamics, self._data_path, self.timestep
+        )
         return (*scene_warnings(scene, self.robots), *implausible)
 
     @property

@@ -206,7 +206,7 @@ def say_warnings(plan: Plan) -> None:
     from ...simulation.checks.plausibility import warnings_of
 
     warn_of_stand_ins(plan.scene, plan.data_path)
-    print_warnings(warnings_of(plan.scene, plan.data_path))
+    print_warnings(warnings_of(plan.scene, plan.data_path, plan.timestep))
 
 
 def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:

@@ -19,12 +19,14 @@ from ...scene.reader import scene_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...schema import diagnostic_at
+from ...world import TIMESTEP
 from ..bodies import read_robots
 from ..collision.collision_shapes import simulated_solids
 from ..collision.hull import hull_of
 from ..dynamics import DYNAMICS, read_dynamics
 from .object_plausibility import of_objects
 from .start_plausibility import Starts
+from .step_plausibility import step_warnings
 from .thrust_warnings import thrust_said
 from .vehicle_plausibility import OF_SIMULATED, candidate_of, size_said
 
@@ -39,6 +41,7 @@ def plausibility_warnings(
     robots: Mapping[int, RobotSpec],
     dynamics: Mapping[int, VehicleHydrodynamics],
     data_path: tuple[Path, ...] = (),
+    timestep: float = TIMESTEP,
 ) -> list[Diagnostic]:
     """Report every likely mistake of a scene.
 
@@ -47,6 +50,7 @@ def plausibility_warnings(
         robots: the robot of each vehicle, by its number.
         dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
         data_path: folders in which files are looked for.
+        timestep: length of a step [s].
     """
     vehicles = sorted(robots)[:MAX_VEHICLES]
     found = []
@@ -73,6 +77,9 @@ def plausibility_warnings(
             found.append(
                 diagnostic_at(thing, message, "physics", file=scene.path, severity="warning")
             )
+    if dynamics:
+        density = next(iter(dynamics.values())).density
+        found += step_warnings(scene, loose, density, timestep, data_path)
     return found
 
 
@@ -84,11 +91,13 @@ def loose_objects(
     return {index: physics for index, physics in solids.items() if physics.is_loose}
 
 
-def warnings_of(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnostic]:
+def warnings_of(
+    scene: SceneSpec, data_path: tuple[Path, ...], timestep: float = TIMESTEP
+) -> list[Diagnostic]:
     """Report every likely mistake of a scene that is not open, and what is left out of it."""
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
-    implausible = plausibility_warnings(scene, robots, dynamics, data_path)
+    implausible = plausibility_warnings(scene, robots, dynamics, data_path, timestep)
     return [*scene_warnings(scene, robots), *implausible]
 
 
