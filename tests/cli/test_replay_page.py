@@ -9,8 +9,9 @@ import pytest
 
 from tests.short_benchmark import run, write_benchmark
 from uwsim.analysis.report import write_report
-from uwsim.cli.replay import opened, show_page
+from uwsim.cli.replay import opened, recorded, show_page
 from uwsim.errors import BadSetting, UwsimError
+from uwsim.viewer.pack import unpacked
 
 
 @pytest.mark.slow
@@ -37,6 +38,40 @@ def test_the_rows_of_a_report_link_to_a_replay_that_is_there(
     deeper.mkdir()
     with pytest.raises(BadSetting, match="is a folder"):
         show_page(opened(result, 0, None, ()), deeper, overwrite=True, port=0)
+
+
+@pytest.fixture
+def torn(tmp_path: Path) -> Path:
+    """A result of three independent levels; the motion of the second is missing."""
+    result = tmp_path / "result"
+    run(write_benchmark(tmp_path, "0.1"), result, mode="independent")
+    (result / "units" / "00001.motion").unlink()
+    return result
+
+
+def test_a_level_without_motion_is_listed_and_warned_of(
+    torn: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pack = opened(torn, None, None, ()).pack()
+    (line,) = capsys.readouterr().err.splitlines()
+    assert line.startswith(f"uwsim: warning: {torn}/units: 00001.motion: missing; ")
+    head, _ = unpacked(pack)
+    levels = [level for trial in head["trials"] for level in trial["levels"]]
+    assert [level["label"] for level in levels] == ["fog 0", "fog 0.4", "fog 0.8"]
+    assert [level["status"] for level in levels] == ["ok", "no motion", "ok"]
+    assert levels[1]["values"] == {"fog": 0.4}
+    assert levels[1]["end"] - levels[1]["start"] == pytest.approx(0.1)
+    assert "units/00001.motion" in levels[1]["why"]
+    assert head["trials"][1]["motion"] is None
+
+
+def test_a_film_says_that_a_level_is_left_out(
+    torn: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert [trial.index for trial in recorded(torn, None, None, ())] == [0, 2]
+    assert "00001.motion: missing; their levels are left out" in capsys.readouterr().err
+    recorded(torn, 2, None, ())
+    assert capsys.readouterr().err == ""
 
 
 def test_a_result_without_inputs_of_a_pilot_is_one_error(tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import AllErrors, BadSetting
+from ..terminal import warn
 from .options.help_texts import FILES, INPUT, OUTPUT, in_group
 from .options.options import DataPathOption, ResultArgument
 from .output.progress import progress
@@ -29,6 +31,8 @@ RECORDING = ".mcap"
 """Ending of a recording for 3-D panels."""
 FILM_RATE = 30.0
 """Of the other films [Hz]."""
+N_NAMED = 5
+"""Files named in a warning."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -260,7 +264,19 @@ def opened(
 
     directory = result.parent if result.name == "result.json" else result
     overrides = FileOverrides(scene=scene, data_path=folders)
-    return Replay(directory, None if index is None else (index,), overrides)
+    replay = Replay(directory, None if index is None else (index,), overrides)
+    warn_of_unseen(directory, replay.unseen, "their levels are listed, and cannot be seen")
+    return replay
+
+
+def warn_of_unseen(directory: Path, unseen: Sequence[int], what: str) -> None:
+    """Name the files that are missing, in one line."""
+    from ..results.journal import FOLDER, track_path
+
+    if unseen:
+        files = ", ".join(track_path(directory, index).name for index in unseen[:N_NAMED])
+        more = f" and {len(unseen) - N_NAMED} more" if len(unseen) > N_NAMED else ""
+        warn(f"{directory}/{FOLDER}: {files}{more}: missing; {what}")
 
 
 def show_page(replay: Replay, out: Path | None, *, overwrite: bool, port: int) -> None:
@@ -292,12 +308,15 @@ def recorded(
 
     The result may be named by its result.json.
     """
+    from ..results.journal import trials_without_motion
     from ..verify.recorded_plan import FileOverrides
     from ..viewer.recorded import RecordedTrial, trials_of_first_seed
 
     directory = result.parent if result.name == "result.json" else result
     overrides = FileOverrides(scene=scene, data_path=folders)
     indices = trials_of_first_seed(directory) if index is None else (index,)
+    if index is None:
+        warn_of_unseen(directory, trials_without_motion(directory), "their levels are left out")
     return [RecordedTrial.open(directory, each, overrides) for each in indices]
 
 

@@ -63,6 +63,18 @@ def recorded_trials(directory: Path) -> tuple[int, ...]:
     return tuple(sorted(int(path.stem) for path in tracks if path.stem.isdecimal()))
 
 
+def trials_without_motion(directory: Path) -> tuple[int, ...]:
+    """Return the numbers of the finished trials whose motion is not there."""
+    there = recorded_trials(directory)
+    files = (directory / FOLDER).glob("*.jsonl")
+    numbers = sorted(int(path.stem) for path in files if path.stem.isdecimal())
+    return tuple(
+        index
+        for index in numbers
+        if index not in there and read_any(path_of(directory, index))[1].end is not None
+    )
+
+
 def read(directory: Path, index: int, head: Record) -> Stored:
     """Read a journal; a missing file has no rows.
 

@@ -12,7 +12,7 @@ import numpy as np
 from ..errors import ResultError
 from ..results import journal
 from ..results.atomic_file import write_text
-from ..results.journal import recorded_trials
+from ..results.journal import recorded_trials, trials_without_motion
 from ..simulation import Simulation
 from ..verify.recorded_plan import FileOverrides
 from .document import document
@@ -23,6 +23,8 @@ from .recorded import RecordedLevel, RecordedTrial
 Json = dict[str, Any]
 SUFFIXES = (".html", ".htm")
 """Of the files that `Replay.save` writes."""
+NO_MOTION = "no motion"
+"""Status of a level that cannot be seen."""
 GAP = 1e-3
 """After the last sample of a level nothing was measured [s]."""
 TICKS = 1e4
@@ -39,7 +41,8 @@ class Replay:
 
     Args:
         directory: of the result.
-        trials: their numbers; without them all whose motion is there.
+        trials: their numbers; without them all that are finished: of those whose motion is not
+            there the levels are listed, with the status `NO_MOTION`.
         overrides: where the files of the scene are, if not where they were.
 
     Raises:
@@ -57,6 +60,8 @@ class Replay:
         """Of the result."""
         numbers = (recorded_trials(directory) or (0,)) if trials is None else tuple(trials)
         self._trials = [RecordedTrial.open(directory, number, overrides) for number in numbers]
+        self.unseen = trials_without_motion(directory) if trials is None else ()
+        """Numbers of the trials whose motion is not there."""
         if not self._trials:
             raise ResultError(f"{directory}: no trial was chosen.")
         self.title = self._trials[0].title
@@ -67,11 +72,14 @@ class Replay:
         blob, first = Blob(), self._trials[0]
         with _scene_of(first) as simulation:
             head = scene_head(simulation, self.title, blob)
-        head["trials"] = [_trial(trial, blob) for trial in self._trials]
+        described = {trial.index: _trial(trial, blob) for trial in self._trials}
         at_first = {body["name"]: body["pose"] for body in head["bodies"]}
         placed = {seed: _moved(trial, at_first) for seed, trial in self._varied().items()}
-        for trial, described in zip(self._trials, head["trials"], strict=True):
-            described["poses"] = placed.get(trial.seed, {})
+        for trial in self._trials:
+            described[trial.index]["poses"] = placed.get(trial.seed, {})
+        names = list(first.track.levels[0].values) if first.track.levels else []
+        described |= {index: _unseen(self.directory, index, names) for index in self.unseen}
+        head["trials"] = [described[index] for index in sorted(described)]
         return packed(head, blob)
 
     def _varied(self) -> dict[int, RecordedTrial]:
@@ -133,6 +141,25 @@ def _trial(trial: RecordedTrial, blob: Blob) -> Json:
         "levels": [_level(level, trial) for level in trial.levels],
         "curves": [_curve(name, trial, blob) for name in _measures(trial)],
     }
+
+
+def _unseen(directory: Path, index: int, names: Sequence[str]) -> Json:
+    """Describe a trial whose motion is not there; ``names``: of what changes with the levels."""
+    head, stored = journal.read_any(journal.path_of(directory, index))
+    path = journal.track_path(directory, index)
+    levels = []
+    for number, row in enumerate(stored.rows, start=1):
+        values = dict(zip(names, row["values"], strict=False))
+        label = ", ".join(f"{name} {value:g}" for name, value in values.items())
+        why = f"{path.parent.name}/{path.name} is missing; the level was {row['status']}"
+        began = row["ended_at"] - row["duration"]
+        levels.append(
+            {"label": label or f"level {number}", "status": NO_MOTION, "why": why}
+            | {"start": began, "end": row["ended_at"], "values": values}
+        )
+    seed = "" if head is None else f", seed {head['seed']}"
+    title = f"trial {index}{seed}"
+    return {"title": title, "motion": None, "levels": levels, "curves": [], "poses": {}}
 
 
 def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:

@@ -26,6 +26,8 @@ export class Page {
   readonly keyboard: Keyboard;
   private last = performance.now();
   private drawn = "";
+  /** What the page cannot do. */
+  note = "";
 
   constructor(
     readonly pack: Pack,
@@ -52,6 +54,9 @@ export class Page {
   async select(trial: number): Promise<void> {
     if (trial === this.player.trial) return;
     await this.player.select(trial);
+    const own = this.player.levels.filter((each) => each.trial === trial);
+    const isUnseen = own.length > 0 && own.every(({ level }) => level.status === "no motion");
+    element("message").textContent = isUnseen ? "There is no motion of this level." : this.note;
     this.switches.since = 0;
     this.curves.set(this.player.curves);
     const { start, end } = this.player;
@@ -249,14 +254,14 @@ async function begin(): Promise<void> {
     const picture = await Picture.make(gl, pack);
     const player: Player = link ? new Stream(pack.head) : new Replay(pack);
     const page = new Page(pack, player, picture, new Views(pack.head, picture.models), link);
+    page.note = gl || link ? "" : "This browser has no WebGL 2: levels and curves alone are shown.";
+    message.textContent = page.note;
     link?.begin(page, player as Stream);
     const wanted = Number(new URLSearchParams(location.hash.slice(1)).get("level") ?? 0);
     if (!link) {
       await page.select(player.levels[wanted]?.trial ?? 0);
       page.seek(player.levels[wanted] ? player.levels[wanted].level.start : player.start);
     }
-    const without = link ? "" : "This browser has no WebGL 2: levels and curves alone are shown.";
-    message.textContent = gl ? "" : without;
     expose(page);
   } catch (error) {
     message.textContent = error instanceof Error ? error.message : String(error);
