@@ -208,6 +208,10 @@ def test_ghosts_are_seen_in_views_and_not_by_cameras(tmp_path: Path) -> None:
         (["render", "cirs", "--from", "1,2,3", "--at", "1 2 3", "-o", "a.png"], "its own position"),
         (["render", "cirs", "--size", "800", "-o", "a.png"], "WxH"),
         (["render", "cirs", "--size", "0x5", "-o", "a.png"], "WxH"),
+        (
+            ["render", "cirs", "--size", "16000x16000", "-o", "a.png"],
+            "--size is '16000x16000': 256 million pixels; at most 33 million",
+        ),
         (["render", "visibility-scene", "--camera", "bowtech", "-o", "a.png"], "'bowtech1'"),
         ([*SCENE, "-o", "a.jpg"], "only .png"),
         ([*SCENE, "-o", "nowhere/a.png"], "nowhere/a.png"),

@@ -153,10 +153,17 @@ def _point(option: str, text: str) -> Array:
 
 def size_of(text: str) -> tuple[int, int]:
     """Return width and height [px] as they are typed: ``800x600``; raises BadSetting."""
+    from ..scene.checks.sizes import MAX_PIXELS
+
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())
     edges = (int(match[1]), int(match[2])) if match else (0, 0)
     if not all(1 <= edge <= MAX_SIDE for edge in edges):
         raise BadSetting(
             f"--size is {text!r}; expected WxH [px], as in 800x600, {MAX_SIDE} at most."
+        )
+    if edges[0] * edges[1] > MAX_PIXELS:
+        raise BadSetting(
+            f"--size is {text!r}: {edges[0] * edges[1] / 1e6:.0f} million pixels; at most "
+            f"{MAX_PIXELS / 1e6:.0f} million are drawn, as in 7680x4320."
         )
     return edges

@@ -10,6 +10,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..errors import ResultError
 from ..files.file_names import file_names
 from ..files.input_files import InputFile
 from ..results import journal
@@ -19,6 +20,8 @@ from ..results.result import Result
 from ..results.result_file import save
 from ..results.run_info import RunInfo
 from ..results.summary import save_summary
+from ..terminal import warn
+from ..tracks import load_track
 from .collect import collect
 from .described import described
 from .planning.plan import Plan, Trial
@@ -59,6 +62,7 @@ class Run:
         """Make the directory, and return the trials that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self._forget_what_was_stopped()
+        self._forget_ends_without_motion()
         if self.plan.algorithm.client is not None and self.plan.algorithm.client.sync == "none":
             self._forget_what_cannot_be_repeated()
         self.n_resumed = self.n_finished()
@@ -78,6 +82,27 @@ class Run:
                 if is_to_go(name, row["missing"].get("total")):
                     journal.cut_back(self.out, trial.index, n)
                     break
+
+    def _forget_ends_without_motion(self) -> None:
+        """Repeat finished trials whose motion is not on disk, or damaged: rows are compared.
+
+        A trial that would not come out the same again, with a pilot or a program outside that runs
+        freely, is kept as it is.
+        """
+        plan = self.plan
+        is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
+        is_free = plan.algorithm.client is not None and plan.algorithm.client.sync == "none"
+        for trial in plan.trials():
+            stored = self.stored(trial)
+            if stored.end is None or _has_motion(self.out, trial):
+                continue
+            if is_piloted or is_free:
+                warn(
+                    f"{journal.track_path(self.out, trial.index)} is lost or damaged, and its "
+                    "trial cannot be repeated: there is no replay of it"
+                )
+            else:
+                journal.cut_back(self.out, trial.index, len(stored.rows))
 
     def _forget_what_cannot_be_repeated(self) -> None:
         """Begin unfinished trials anew: their rows would not come out as they are stored."""
@@ -131,6 +156,15 @@ class Run:
         if not journal.path_of(self.out, trial.index).exists():
             return journal.NOTHING
         return journal.read(self.out, trial.index, self.head(trial))
+
+
+def _has_motion(out: Path, trial: Trial) -> bool:
+    """Whether the motion of a trial can be read."""
+    try:
+        load_track(journal.track_path(out, trial.index))
+    except ResultError:
+        return False
+    return True
 
 
 def _as_stored(value: object) -> object:
