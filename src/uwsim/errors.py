@@ -159,6 +159,24 @@ class ReplayDiffers(ResultError):
     """The rows of a replay differ from the stored ones; found only by running."""
 
 
+@contextmanager
+def names_file(path: object, draft: object = None) -> Iterator[None]:
+    """Let errors of the system in this block, as a full disk, name the file that was written.
+
+    Args:
+        path: of the file.
+        draft: what is written in its place, and is not to be named.
+    """
+    try:
+        yield
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        if error.filename not in (None, str(draft)) or error.errno is None:
+            raise
+        raise OSError(error.errno, error.strerror or str(error), str(path)) from error
+
+
 RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)
 """Errors found only by running; every other `UwsimError` is invalid input."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import textwrap
 from pathlib import Path
@@ -16,9 +17,11 @@ from rosbags.typesys import Stores, get_typestore
 
 from uwsim import messages
 from uwsim.bus import Bus
+from uwsim.errors import RunFailed
 from uwsim.messages import Float64, Image, PingInfo, ProjectedSonarImage, String, image
 from uwsim.middleware.types import wire_type
 from uwsim.recording import ImageStorage, Recorder, TopicRates
+from uwsim.recording.recorder import FILES
 
 PIXELS = (np.arange(4 * 5 * 3) * 13 % 256).astype(np.uint8).reshape(4, 5, 3)
 
@@ -206,3 +209,34 @@ def test_rates_count_the_messages_of_every_topic() -> None:
     assert (depth.min_gap, depth.max_gap) == (pytest.approx(0.1), pytest.approx(0.2))
     assert depth.std_gap == pytest.approx(0.05)
     assert (thrust.n_messages, thrust.rate, thrust.is_published) == (0, None, False)
+
+
+@pytest.mark.parametrize("ending", [".mcap", ".bag"])
+@pytest.mark.parametrize("method", ["write", "close"])
+def test_a_full_disk_is_one_line_with_the_file_and_leaves_nothing_behind(
+    ending: str, method: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(self: object, *arguments: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(FILES[ending], method, full)
+    path = tmp_path / f"dive{ending}"
+    with pytest.raises(RunFailed, match=f"^No space left on device: {path}"):
+        record(path)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_full_disk_is_no_error_of_the_program_that_publishes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(self: object, *arguments: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(FILES[".bag"], "write", full)
+    bus = Bus()
+    recorder = Recorder(bus, tmp_path / "dive.bag")
+    recorder.start(lambda: 0.0)
+    bus.publisher("/depth", Float64)(Float64(data=1.0))
+    bus.deliver()
+    with pytest.raises(RunFailed, match="nothing of it is kept"):
+        recorder.check()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import subprocess
 import sys
 from pathlib import Path
@@ -35,3 +36,20 @@ def test_what_could_not_be_written_leaves_the_old_file_and_no_draft(tmp_path: Pa
         write_text(file, "new \udcff")
     assert file.read_text() == "old"
     assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_full_disk_names_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "result.json"
+
+    def write() -> None:
+        with atomic_write(path) as draft:
+            draft.write_text("half")
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(OSError, match="No space left") as caught:
+        write()
+    assert caught.value.filename == str(path)
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(FileNotFoundError) as lost:
+        write_text(tmp_path / "nowhere" / "a.txt", "a")
+    assert lost.value.filename == str(tmp_path / "nowhere" / "a.txt")

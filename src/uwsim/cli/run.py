@@ -252,6 +252,8 @@ def run_and_report(
             lambda how, *_: report(simulation, spec, rates, output, is_stopped=how is not None)
         )
         for _ in pieces(simulation, wanted.duration, Path(spec.path).stem):
+            if recorder is not None:
+                recorder.check()
             if node is not None and node.error is not None:
                 raise RunFailed(f"{node.name} {node.how}: {node.error}")
 

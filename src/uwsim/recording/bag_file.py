@@ -5,6 +5,7 @@ Its chunks are not compressed. It is written next to its place and put there by 
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +65,12 @@ class BagFile:
                 )
             self._writer.write(self._connections[topic], time, data)
             self._n_written[topic] = seq + 1
+
+    def discard(self) -> None:
+        """Leave nothing, where the file cannot be finished."""
+        self._partial.unlink(missing_ok=True)
+        with suppress(Exception):
+            self._writer.close()
 
     def close(self) -> None:
         """Write the index and put the file in its place."""

@@ -9,6 +9,7 @@ The channel of a topic has the quality of service that the simulator offers over
 from __future__ import annotations
 
 import shutil
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,13 @@ class McapFile:
                     offered_qos_profiles=[quality_of(topic)],
                 )
             self._writer.write(self._channels[topic], time, data)
+
+    def discard(self) -> None:
+        """Leave nothing, where the file cannot be finished."""
+        shutil.rmtree(self._folder, ignore_errors=True)
+        with suppress(Exception):
+            self._writer.close()
+        shutil.rmtree(self._folder, ignore_errors=True)
 
     def close(self) -> None:
         """Write the index and put the file in its place."""

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 
 from ..bus import OBSERVER, Bus
-from ..errors import BadSetting, did_you_mean
+from ..errors import BadSetting, RunFailed, did_you_mean
 from ..messages import CompressedImage, Image, PointCloud2, pixels_of
 from ..messages.build import NANOSECONDS
 from ..middleware.types import WireType, wire_type
@@ -66,6 +66,7 @@ class Recorder:
         self._bus = bus
         self._images = images
         self._stops: list[Callable[[], None]] = []
+        self._path, self._failure = path, ""
         try:
             self._file = FILES[path.suffix.lower()](path)
         except OSError as error:
@@ -119,8 +120,20 @@ class Recorder:
             packed = wire_type(CompressedImage)
             assert packed is not None
             kind = packed
-        self._file.write(topic, kind, time, message)
+        if self._failure:
+            return
+        try:
+            self._file.write(topic, kind, time, message)
+        except OSError as error:  # not here: an algorithm may be publishing
+            self._failure = f"{error.strerror}: {self._path}"
+            self._file.discard()
+            return
         self.n_messages += 1
+
+    def check(self) -> None:
+        """Raise RunFailed if the file cannot be written any more; nothing is left of it then."""
+        if self._failure:
+            raise RunFailed(f"{self._failure} (the recording; nothing of it is kept)")
 
     def keep(self, topic: str, message: object) -> None:
         """Record a message that is not on the bus; after `start`."""
@@ -130,11 +143,21 @@ class Recorder:
             self._keep(topic, kind, round(self._clock() * NANOSECONDS), message)
 
     def close(self) -> None:
-        """Stop, and finish the file."""
+        """Stop, and finish the file.
+
+        Raises:
+            RunFailed: it could not be written.
+        """
         for stop in self._stops:
             stop()
         self._stops.clear()
-        self._file.close()
+        if not self._failure:
+            try:
+                self._file.close()
+            except OSError as error:
+                self._failure = f"{error.strerror}: {self._path}"
+                self._file.discard()
+        self.check()
 
     def __enter__(self) -> Self:
         return self
@@ -145,7 +168,11 @@ class Recorder:
         error: BaseException | None,
         traceback: TracebackType | None,
     ) -> None:
-        self.close()
+        try:
+            self.close()
+        except RunFailed:
+            if error is None:
+                raise
 
 
 def as_png(image: Image) -> CompressedImage:

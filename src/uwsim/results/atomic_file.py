@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from ..errors import names_file
+
 DRAFT = re.compile(r"\.(.+)\.[0-9]+\.part")
 """Name of a draft: the file's name and the process that writes it."""
 
@@ -28,8 +30,9 @@ def atomic_write(path: Path) -> Iterator[Path]:
     """
     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        yield draft
-        draft.replace(path)
+        with names_file(path, draft):
+            yield draft
+            draft.replace(path)
     finally:
         draft.unlink(missing_ok=True)
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from ..errors import ReplayDiffers, ResultError
+from ..errors import ReplayDiffers, ResultError, names_file
 from .chosen_code import other_code
 from .inputs import Inputs, differing
 from .provenance import codes_of, load_provenance
@@ -194,12 +194,14 @@ class Journal:
 
     def close(self) -> None:
         """Close the file; what was added is on disk."""
-        self._stream.close()
+        with names_file(self._path):
+            self._stream.close()
 
     def _write(self, record: Record) -> None:
-        self._stream.write(_text(record) + "\n")
-        self._stream.flush()
-        os.fsync(self._stream.fileno())
+        with names_file(self._path):
+            self._stream.write(_text(record) + "\n")
+            self._stream.flush()
+            os.fsync(self._stream.fileno())
 
     def _why_not(self) -> str:
         """Return a possible reason for a differing row."""

@@ -86,8 +86,8 @@ class Run:
     def _forget_ends_without_motion(self) -> None:
         """Repeat finished trials whose motion is not on disk, or damaged: rows are compared.
 
-        A trial that would not come out the same again, with a pilot or a program outside that runs
-        freely, is kept as it is.
+        A trial that would not come out the same again, with a pilot, a program outside that runs
+        freely or a call that took too long, is kept as it is.
         """
         plan = self.plan
         is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
@@ -96,7 +96,8 @@ class Run:
             stored = self.stored(trial)
             if stored.end is None or _has_motion(self.out, trial):
                 continue
-            if is_piloted or is_free:
+            whys = [row["missing"].get("total") for row in stored.rows]
+            if is_piloted or is_free or any(was_stopped(plan.algorithm.name, why) for why in whys):
                 warn(
                     f"{journal.track_path(self.out, trial.index)} is lost or damaged, and its "
                     "trial cannot be repeated: there is no replay of it"

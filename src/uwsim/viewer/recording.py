@@ -9,12 +9,13 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..errors import BadSetting
+from ..errors import BadSetting, names_file
 from ..geometry import Array, Pose, rotation_from_quaternion
 from ..messages import Float64, MarkerArray, String, TFMessage
 from ..messages.build import NANOSECONDS
@@ -61,7 +62,7 @@ def write_recording(
         n = 0
         puppets.put(0.0)
         file = McapFile(path)
-        try:
+        with names_file(path), whole_or_nothing(file):
             messages = [
                 (0.0, f"/{SCENE}", _shapes(puppets.simulation)),
                 *_about(trial, puppets.simulation),
@@ -74,11 +75,20 @@ def write_recording(
                 on_frame()
             for each in waiting:
                 n += _write(file, *each)
-        finally:
-            file.close()
         return n
     finally:
         puppets.close()
+
+
+@contextmanager
+def whole_or_nothing(file: McapFile) -> Iterator[None]:
+    """Finish a file, or leave nothing of it after an error."""
+    try:
+        yield
+        file.close()
+    except BaseException:
+        file.discard()
+        raise
 
 
 def _write(file: McapFile, time: float, topic: str, message: Any) -> int:

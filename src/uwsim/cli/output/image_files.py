@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image
 
+from ...results.atomic_file import atomic_write
+
 if TYPE_CHECKING:
     from ...rendering.renderer import RenderedImage
 
@@ -19,7 +21,8 @@ MAX_DEPTH_MM = 65535
 
 def save(path: Path, pixels: np.ndarray) -> Path:
     """Write an image, (h, w, 3) or (h, w); 8 or 16 bit as its array is."""
-    Image.fromarray(pixels).save(path)
+    with atomic_write(path) as draft:
+        Image.fromarray(pixels).save(draft, format="PNG")
     return path
 
 
@@ -29,7 +32,8 @@ def save_depth(out: Path, image: RenderedImage) -> list[Path]:
     seen = np.isfinite(metres)
     rounded = np.rint(np.where(seen, metres, 0.0) * MILLIMETRES)
     exact = sibling(out, "-depth.npy")
-    np.save(exact, metres)
+    with atomic_write(exact) as draft, draft.open("wb") as stream:
+        np.save(stream, metres)
     return [
         save(sibling(out, "-depth.png"), np.minimum(rounded, MAX_DEPTH_MM).astype(np.uint16)),
         exact,
@@ -41,7 +45,7 @@ def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Pat
     assert image.ids is not None
     numbers, counts = np.unique(image.ids, return_counts=True)
     legend = sibling(out, "-ids.csv")
-    with legend.open("w", newline="", encoding="utf-8") as file:
+    with atomic_write(legend) as draft, draft.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["id", "name", "pixels"])
         for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):

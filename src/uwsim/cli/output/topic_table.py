@@ -27,7 +27,8 @@ def print_topics(
     console = standard_output()
     console.print(table_of(rates))
     seconds = f"{simulation.time:g} s of {Path(scene).name or 'the scene'}"
-    written = "" if recording is None else f"; recorded: {recording} ({_size(recording)})"
+    is_kept = recording is not None and recording.exists()  # not after a full disk
+    written = f"; recorded: {recording} ({_size(recording)})" if recording and is_kept else ""
     print(f"{seconds}, {simulation.step} steps{written}")
 
 
@@ -39,7 +40,7 @@ def print_json(
         "scene": scene,
         "time": simulation.time,
         "steps": simulation.step,
-        "recording": None if recording is None else str(recording),
+        "recording": str(recording) if recording and recording.exists() else None,
         "topics": [asdict(each) for each in rates],
         "services": list(simulation.bus.services.names),
     }

@@ -129,9 +129,8 @@ class JournalWriter:
             return False
         for name, png in event.images:
             (self._out / IMAGES).mkdir(exist_ok=True)
-            draft = self._out / f"{name}.part"
-            draft.write_bytes(png)
-            draft.replace(self._out / name)
+            with atomic_write(self._out / name) as draft:
+                draft.write_bytes(png)
         return self._file.add(event.record)
 
     def close(self) -> None:

@@ -15,7 +15,8 @@ from typing import IO, Protocol
 
 from PIL import Image
 
-from ...errors import BadSetting, MissingExtra, RunFailed, did_you_mean
+from ...errors import BadSetting, MissingExtra, RunFailed, did_you_mean, names_file
+from ...results.atomic_file import atomic_write
 from .overlay import Pixels
 
 CODECS = {
@@ -109,8 +110,9 @@ class FfmpegEncoder:
         self._folder = tempfile.TemporaryDirectory(prefix=f".{path.stem}-", dir=path.parent)
         folder = Path(self._folder.name)
         self._draft = folder / f"film{path.suffix.lower()}"
-        self._said: IO[bytes] = (folder / "said").open("w+b")
-        (folder / "chapters").write_text(_metadata(chapters), encoding="utf-8")
+        self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - the film's disk may be full
+        with names_file(path):
+            (folder / "chapters").write_text(_metadata(chapters), encoding="utf-8")
         command = [
             *(imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-nostdin", "-loglevel", "error"),
             *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}"),
@@ -155,7 +157,8 @@ class FfmpegEncoder:
         self._process.wait()
         self._said.seek(0)
         lines = self._said.read().decode(errors="replace").strip().splitlines()
-        return RunFailed(f"ffmpeg has failed: {lines[-1] if lines else 'it said nothing'}")
+        why = lines[-1].rpartition("] ")[2] if lines else "it said nothing"  # without its part
+        return RunFailed(f"{self._path}: ffmpeg has failed: {why}")
 
 
 class WebpEncoder:
@@ -188,19 +191,18 @@ class WebpEncoder:
         if not is_whole or not self._frames:
             return
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        draft = self._path.with_name(f".{self._path.name}.part")
         first, *others = self._frames
-        first.save(
-            draft,
-            format="WEBP",
-            save_all=True,
-            append_images=others,
-            duration=round(1000.0 / self._rate),
-            loop=0,
-            quality=QUALITY,
-            method=4,
-        )
-        draft.replace(self._path)
+        with atomic_write(self._path) as draft:
+            first.save(
+                draft,
+                format="WEBP",
+                save_all=True,
+                append_images=others,
+                duration=round(1000.0 / self._rate),
+                loop=0,
+                quality=QUALITY,
+                method=4,
+            )
 
 
 def _metadata(chapters: Sequence[Chapter]) -> str:
