@@ -63,6 +63,8 @@ def test_a_level_without_motion_is_listed_and_warned_of(
     assert levels[1]["end"] - levels[1]["start"] == pytest.approx(0.1)
     assert "units/00001.motion" in levels[1]["why"]
     assert head["trials"][1]["motion"] is None
+    names = [[curve["name"] for curve in trial["curves"]] for trial in head["trials"]]
+    assert names == [["corners"]] * 3
 
 
 def test_a_film_says_that_a_level_is_left_out(

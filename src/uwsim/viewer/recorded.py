@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -60,6 +61,8 @@ class RecordedLevel:
     """Measure -> its value at the end."""
     curves: tuple[Curve, ...]
     """Of all measures that have a log, in the file's order."""
+    swept: Mapping[str, float] = field(default_factory=dict)
+    """Swept parameter -> value, outermost first."""
     details: tuple[Curve, ...] = ()
     """Of the further columns of their logs."""
 
@@ -160,6 +163,31 @@ def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> Scene
     return scene
 
 
+def levels_without_motion(
+    directory: Path, index: int, names: Sequence[str]
+) -> tuple[RecordedLevel, ...]:
+    """Return the levels of a finished trial whose motion is not there, from its journal alone.
+
+    Args:
+        directory: of the result.
+        index: number of the trial.
+        names: of what changes with the levels, outermost first.
+    """
+    _, stored = journal.read_any(journal.path_of(directory, index))
+    return tuple(
+        _level(
+            row,
+            TrackLevel(
+                values=dict(zip(names, row["values"], strict=False)),
+                began=row["ended_at"] - row["duration"],
+                duration=row["duration"],
+                status=str(row["status"]),
+            ),
+        )
+        for row in stored.rows
+    )
+
+
 def _finished(directory: Path, index: int) -> Path:
     """Return the journal of a trial whose motion is there; raises ResultError."""
     there = journal.recorded_trials(directory)
@@ -189,6 +217,7 @@ def _level(row: journal.Record, began: TrackLevel) -> RecordedLevel:
         why=str(row["missing"].get("total", "")),
         began=began.began,
         ended=began.began + began.duration,
+        swept=began.values,
         values={name: value for name, (value, _) in row["measures"].items()},
         curves=tuple(
             _curve(name, row["measures"][name][1], samples, began.began)

@@ -18,7 +18,7 @@ from ..verify.recorded_plan import FileOverrides
 from .document import document
 from .head import body_poses, scene_head
 from .pack import Blob, packed
-from .recorded import RecordedLevel, RecordedTrial
+from .recorded import RecordedLevel, RecordedTrial, levels_without_motion
 
 Json = dict[str, Any]
 SUFFIXES = (".html", ".htm")
@@ -78,7 +78,7 @@ class Replay:
         for trial in self._trials:
             described[trial.index]["poses"] = placed.get(trial.seed, {})
         names = list(first.track.levels[0].values) if first.track.levels else []
-        described |= {index: _unseen(self.directory, index, names) for index in self.unseen}
+        described |= {index: _unseen(self.directory, index, names, blob) for index in self.unseen}
         head["trials"] = [described[index] for index in sorted(described)]
         return packed(head, blob)
 
@@ -139,27 +139,33 @@ def _trial(trial: RecordedTrial, blob: Blob) -> Json:
         "title": trial.title,
         "motion": blob.add_bytes(motion),
         "levels": [_level(level, trial) for level in trial.levels],
-        "curves": [_curve(name, trial, blob) for name in _measures(trial)],
+        "curves": [_curve(name, trial.levels, blob) for name in _measures(trial.levels)],
     }
 
 
-def _unseen(directory: Path, index: int, names: Sequence[str]) -> Json:
+def _unseen(directory: Path, index: int, names: Sequence[str], blob: Blob) -> Json:
     """Describe a trial whose motion is not there; ``names``: of what changes with the levels."""
-    head, stored = journal.read_any(journal.path_of(directory, index))
+    levels = levels_without_motion(directory, index, names)
     path = journal.track_path(directory, index)
-    levels = []
-    for number, row in enumerate(stored.rows, start=1):
-        values = dict(zip(names, row["values"], strict=False))
-        label = ", ".join(f"{name} {value:g}" for name, value in values.items())
-        why = f"{path.parent.name}/{path.name} is missing; the level was {row['status']}"
-        began = row["ended_at"] - row["duration"]
-        levels.append(
-            {"label": label or f"level {number}", "status": NO_MOTION, "why": why}
-            | {"start": began, "end": row["ended_at"], "values": values}
-        )
-    seed = "" if head is None else f", seed {head['seed']}"
-    title = f"trial {index}{seed}"
-    return {"title": title, "motion": None, "levels": levels, "curves": [], "poses": {}}
+    described = [
+        {
+            "label": level.label or f"level {number}",
+            "status": NO_MOTION,
+            "why": f"{path.parent.name}/{path.name} is missing; the level was {level.status}",
+            "start": level.began,
+            "end": level.ended,
+            "values": dict(level.swept),
+        }
+        for number, level in enumerate(levels, start=1)
+    ]
+    curves = [_curve(name, levels, blob) for name in _measures(levels)]
+    return {
+        "title": f"trial {index}",
+        "motion": None,
+        "levels": described,
+        "curves": curves,
+        "poses": {},
+    }
 
 
 def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
@@ -170,18 +176,18 @@ def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
         "why": level.why or None,
         "start": level.began,
         "end": level.ended,
-        "values": dict(trial.track.levels[number].values),
+        "values": dict(level.swept),
     }
 
 
-def _measures(trial: RecordedTrial) -> list[str]:
+def _measures(levels: Sequence[RecordedLevel]) -> list[str]:
     """Names of the measures with a log, in their order."""
-    return list(dict.fromkeys(c.measure for level in trial.levels for c in level.curves))
+    return list(dict.fromkeys(c.measure for level in levels for c in level.curves))
 
 
-def _curve(name: str, trial: RecordedTrial, blob: Blob) -> Json:
+def _curve(name: str, levels: Sequence[RecordedLevel], blob: Blob) -> Json:
     """The samples of a measure through all levels, with a gap where time passes between two."""
-    found = [c for level in trial.levels for c in level.curves if c.measure == name]
+    found = [c for level in levels for c in level.curves if c.measure == name]
     times, values = [found[0].times], [found[0].values]
     for curve in found[1:]:
         gap = times[-1][-1] + GAP

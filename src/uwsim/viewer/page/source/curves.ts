@@ -108,7 +108,7 @@ export class Curves {
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
       scales: { x: { time: false } },
-      axes: [{ ...axis(), size: 20, gap: 2 }, { ...axis(), size: 44, gap: 2, space: 16 }],
+      axes: [{ ...axis(), size: 20, gap: 2 }, { ...axis(), size: 44, gap: 2, space: 12 }],
       series: [{}, { stroke: colour, width: 1.5, points: { show: false }, spanGaps: false }],
     };
   }
