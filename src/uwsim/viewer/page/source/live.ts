@@ -14,7 +14,10 @@ const WAIT = 100; // of an image for the next row, to be drawn with it [ms]
 const MAX_WIDTH = 640; // of an image that the server draws
 
 type Message =
-  | { type: "state"; paused: boolean; speed: number; pilot: boolean; resets: boolean; vehicle: number; why: string; sticks: boolean[]; mapping: Record<string, string> }
+  | {
+      type: "state"; paused: boolean; speed: number; resets: boolean; pilot: boolean;
+      vehicle: number; why: string; sticks: boolean[]; mapping: Record<string, string>;
+    }
   | { type: "levels"; levels: Level[] }
   | { type: "samples"; samples: [string, string, number, number | null][] }
   | { type: "markers"; markers: Marker[] }

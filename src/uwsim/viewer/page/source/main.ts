@@ -3,7 +3,7 @@ import { Curves } from "./curves";
 import { Keyboard } from "./keys";
 import { connect, type Link } from "./live";
 import { fromText, unpack, type Pack } from "./pack";
-import { element, indexAt, LevelList, make, Thrusters, toggleHelp } from "./panels";
+import { element, indexAt, isUnseen, LevelList, make, Thrusters, toggleHelp } from "./panels";
 import { graphics, Picture, type Switches } from "./picture";
 import { Replay, Stream, type Player } from "./player";
 import { expose } from "./testing";
@@ -26,8 +26,7 @@ export class Page {
   readonly keyboard: Keyboard;
   private last = performance.now();
   private drawn = "";
-  /** What the page cannot do. */
-  note = "";
+  note = ""; // what the page cannot do
 
   constructor(
     readonly pack: Pack,
@@ -54,9 +53,7 @@ export class Page {
   async select(trial: number): Promise<void> {
     if (trial === this.player.trial) return;
     await this.player.select(trial);
-    const own = this.player.levels.filter((each) => each.trial === trial);
-    const isUnseen = own.length > 0 && own.every(({ level }) => level.status === "no motion");
-    element("message").textContent = isUnseen ? "There is no motion of this level." : this.note;
+    element("message").textContent = isUnseen(this.player) ? "There is no motion of this level." : this.note;
     this.switches.since = 0;
     this.curves.set(this.player.curves);
     const { start, end } = this.player;

@@ -31,6 +31,12 @@ export function indexAt(player: Player, time: number): number {
   return found;
 }
 
+/** Whether the motion of the trial that was chosen is missing. */
+export function isUnseen(player: Player): boolean {
+  const own = player.levels.filter(({ trial }) => trial === player.trial);
+  return own.length > 0 && own.every(({ level }) => level.status === "no motion");
+}
+
 export class LevelList {
   private readonly list = element("levels");
   private current = -2;
