@@ -163,7 +163,7 @@ class Journal:
         self._path = path_of(directory, index)
         self._path.parent.mkdir(parents=True, exist_ok=True)
         self._stored = read(directory, index, head)
-        self._n_rows = 0
+        self._n_rows, self._is_finished = 0, False
         self._stream = self._path.with_suffix(".part").open("w", encoding="utf-8", newline="\n")
         self._write({"unit": head})
         for row in self._stored.rows:
@@ -190,10 +190,14 @@ class Journal:
     def finish(self, end: Record) -> None:
         """Write the end record."""
         self._write({"end": end})
+        self._is_finished = True
         self.close()
 
     def close(self) -> None:
-        """Close the file; what was added is on disk."""
+        """Close the file; what was added is on disk, and a trial that was finished stays so."""
+        if self._stored.end is not None and not self._is_finished:
+            self.finish(self._stored.end)
+            return
         with names_file(self._path):
             self._stream.close()
 

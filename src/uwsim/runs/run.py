@@ -7,6 +7,7 @@ in the order of the plan. The bytes are the same with every executor, resumed or
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -62,11 +63,12 @@ class Run:
         """Make the directory, and return the trials that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
         self._forget_what_was_stopped()
-        self._forget_ends_without_motion()
         if self.plan.algorithm.client is not None and self.plan.algorithm.client.sync == "none":
             self._forget_what_cannot_be_repeated()
         self.n_resumed = self.n_finished()
-        return self.unfinished()
+        without_motion = list(self._without_motion())
+        to_run = self.unfinished()
+        return [each for each in self.plan.trials() if each in to_run or each in without_motion]
 
     def _forget_what_was_stopped(self) -> None:
         """Repeat trials whose algorithm ended its process.
@@ -83,8 +85,8 @@ class Run:
                     journal.cut_back(self.out, trial.index, n)
                     break
 
-    def _forget_ends_without_motion(self) -> None:
-        """Repeat finished trials whose motion is not on disk, or damaged: rows are compared.
+    def _without_motion(self) -> Iterator[Trial]:
+        """Find finished trials to run again: their motion is not on disk, or damaged.
 
         A trial that would not come out the same again, with a pilot, a program outside that runs
         freely or a call that took too long, is kept as it is.
@@ -103,7 +105,7 @@ class Run:
                     "trial cannot be repeated: there is no replay of it"
                 )
             else:
-                journal.cut_back(self.out, trial.index, len(stored.rows))
+                yield trial
 
     def _forget_what_cannot_be_repeated(self) -> None:
         """Begin unfinished trials anew: their rows would not come out as they are stored."""
