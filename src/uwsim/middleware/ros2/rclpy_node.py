@@ -34,6 +34,8 @@ from .settings import NODE, Ros2Settings
 
 LINGER_S = 1.0
 """How long the last messages may take to be acknowledged at the end [s]."""
+UNKNOWN = "_NODE_NAME_UNKNOWN_"
+"""What rclpy calls a node whose endpoints it has found and whose name it has not."""
 
 
 class RclpyNode:
@@ -154,7 +156,11 @@ class RclpyNode:
     def publishers(self, topic: str) -> list[str]:
         """Names of the other nodes that publish a topic."""
         found = self._node.get_publishers_info_by_topic(f"/{topic}")
-        names = {f"{each.node_namespace.rstrip('/')}/{each.node_name}" for each in found}
+        names = {
+            f"{each.node_namespace.rstrip('/')}/{each.node_name}"
+            for each in found
+            if each.node_name != UNKNOWN  # its messages can come before its name
+        }
         return sorted(names - {f"/{NODE}"})
 
     def close(self) -> None:
