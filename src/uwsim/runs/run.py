@@ -66,9 +66,8 @@ class Run:
         if self.plan.algorithm.client is not None and self.plan.algorithm.client.sync == "none":
             self._forget_what_cannot_be_repeated()
         self.n_resumed = self.n_finished()
-        without_motion = list(self._without_motion())
-        to_run = self.unfinished()
-        return [each for each in self.plan.trials() if each in to_run or each in without_motion]
+        to_run = [*self._without_motion(), *self.unfinished()]
+        return sorted(to_run, key=lambda trial: trial.index)
 
     def _forget_what_was_stopped(self) -> None:
         """Repeat trials whose algorithm ended its process.
