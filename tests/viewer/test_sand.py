@@ -12,6 +12,7 @@ import pytest
 
 from tests.devices.test_dredge_tool import scene
 from tests.runs.trial.test_motion_of_sand import recorded
+from tests.viewer.live.desk import Desk
 from uwsim.simulation import Simulation
 from uwsim.tracks import read_track
 from uwsim.viewer.document import document
@@ -73,23 +74,6 @@ def test_the_page_shows_the_sand_of_its_moment(tab: Any, tmp_path: Path) -> None
 
 
 def test_a_live_view_sends_a_heap_when_it_has_changed(tmp_path: Path) -> None:
-    class Desk:
-        n_viewers = 1
-        sent: list[bytes] = []  # noqa: RUF012
-
-        def publish(self, channel: str, content: Any) -> None:
-            if channel == "sand/0":
-                self.sent.append(content)
-
-        def forget(self, channels: object) -> None:
-            """Nothing is kept."""
-
-        def wanted(self) -> frozenset[str]:
-            return frozenset()
-
-        def messages(self) -> list[Any]:
-            return []
-
     desk, now = Desk(), [0.0]
 
     def wall() -> float:
@@ -101,11 +85,11 @@ def test_a_live_view_sends_a_heap_when_it_has_changed(tmp_path: Path) -> None:
     with Simulation(spec, is_blind=True) as simulation:
         view.open(simulation, "scene")
         simulation.advance(0.1)
-        assert desk.sent == []
+        assert desk.on("sand/0") == []
         (heap,) = simulation.world.scenery.heaps
         heap.dig(heap.corner + np.array([0.3, 0.3, 0.1]))
         simulation.advance(0.1)
-        assert len(desk.sent) == 1
-        assert struct.unpack_from("<BB", desk.sent[0]) == (4, 0)
-        heights = np.frombuffer(desk.sent[0], "<f4", offset=16)
+        assert len(desk.on("sand/0")) == 1
+        assert struct.unpack_from("<BB", desk.on("sand/0")[0]) == (4, 0)
+        heights = np.frombuffer(desk.on("sand/0")[0], "<f4", offset=16)
         assert heights == pytest.approx(heap.heights.ravel(), abs=1e-6)

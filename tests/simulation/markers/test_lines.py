@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import uwsim
+from tests.viewer.live.desk import Desk
 from uwsim.geometry import Pose as Transform
 from uwsim.messages import ColorRGBA, Marker, Point, Pose, Quaternion, SpawnMarker, Vector3
 from uwsim.simulation.markers import SERVICE, TYPES
@@ -58,38 +59,24 @@ def test_whatever_a_marker_says_the_page_gets_numbers_and_not_too_many() -> None
 
 
 def test_what_a_program_spawns_is_sent_once_and_again_when_it_is_gone() -> None:
-    class Desk:
-        n_viewers = 1
-        sent: list[dict[str, Any]] = []  # noqa: RUF012
-
-        def publish(self, channel: str, content: str) -> None:
-            if channel == "markers":
-                self.sent.append(json.loads(content))
-
-        def forget(self, channels: object) -> None:
-            """Nothing is kept."""
-
-        def wanted(self) -> frozenset[str]:
-            return frozenset()
-
-        def messages(self) -> list[Any]:
-            return []
-
     desk, now = Desk(), [0.0]
 
     def wall() -> float:
         now[0] += 0.1
         return now[0]
 
+    def markers() -> list[dict[str, Any]]:
+        return [json.loads(content) for content in desk.on("markers")]
+
     view = LiveView(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
     with uwsim.load("remus-scene") as simulation:
         view.open(simulation, "scene")
         simulation.call(SERVICE, SpawnMarker(marker=marker(type=Marker.CUBE)))
         simulation.advance(0.1)
-        assert [[each["name"] for each in said["markers"]] for said in desk.sent] == [["7+buoy"]]
+        assert [[each["name"] for each in said["markers"]] for said in markers()] == [["7+buoy"]]
         where = simulation.world.world_from_localized.transform(np.array([[1.0, 2.0, 3.0]]))[0]
-        assert desk.sent[0]["markers"][0]["at"] == pytest.approx(where.tolist(), abs=1e-3)
+        assert markers()[0]["markers"][0]["at"] == pytest.approx(where.tolist(), abs=1e-3)
         simulation.call(SERVICE, SpawnMarker(marker=marker(action=Marker.DELETEALL)))
         simulation.advance(0.1)
-        assert desk.sent[-1]["markers"] == []
-        assert len(desk.sent) == 2
+        assert markers()[-1]["markers"] == []
+        assert len(markers()) == 2

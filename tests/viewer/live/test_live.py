@@ -17,6 +17,7 @@ from websockets.sync.client import ClientConnection, connect
 
 import uwsim
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
+from tests.viewer.live.desk import Desk
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.errors import BadSetting
 from uwsim.geometry import Pose
@@ -262,29 +263,6 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
     assert [level["label"] for level in levels] == ["fog 0", "fog 0.4", "fog 0.8"]
 
 
-class Desk:
-    """A server without a network: what was published, and what viewers say."""
-
-    n_viewers = 1
-
-    def __init__(self) -> None:
-        self.published: list[str] = []
-        self.said: list[tuple[int, dict[str, Any]]] = []
-
-    def publish(self, channel: str, content: str | bytes) -> None:
-        self.published.append(channel)
-
-    def forget(self, channels: object) -> None:
-        """Nothing is kept."""
-
-    def wanted(self) -> frozenset[str]:
-        return frozenset()
-
-    def messages(self) -> list[tuple[int, dict[str, Any]]]:
-        said, self.said = self.said, []
-        return said
-
-
 def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_coming() -> None:
     desk, now = Desk(), [0.0]
     view = LiveView(desk, speed=0.0, mapping=PilotMapping(), wall=lambda: now[0])  # type: ignore[arg-type]
@@ -295,7 +273,7 @@ def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_c
             now[0] = round(now[0] + 0.001, 3)
             desk.published.clear()
             simulation.advance()
-            rows.extend([round(1e3 * now[0])] * desk.published.count("row"))
+            rows.extend([round(1e3 * now[0])] * len(desk.on("row")))
 
     with uwsim.load("remus-scene") as simulation:
         view.open(simulation, "scene")

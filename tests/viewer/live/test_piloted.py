@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import uwsim
-from tests.viewer.live.test_live import Desk
+from tests.viewer.live.desk import Desk
 from uwsim.algorithms.pilot import AXES, TWIST_AXES, Pilot
 from uwsim.runs.trial.pilot_inputs import PilotInputs
 from uwsim.runs.trial.pilot_topics import pilot_topics

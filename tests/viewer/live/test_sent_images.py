@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import uwsim
+from tests.viewer.live.desk import Desk
 from tests.viewer.live.test_pilot_page import MAPPING, opened, server
 from uwsim.errors import BadSetting
 from uwsim.simulation.views import FIELD, view_from_pose
@@ -20,29 +21,10 @@ CAMERA = "bowtech1"
 RED = (220, 30, 20)
 
 
-class Desk:
-    """Stands for the server: viewers who have said what they want."""
-
-    n_viewers = 1
-
-    def __init__(self, *said: dict[str, Any]) -> None:
-        self.said = [(number, {"type": "images", **each}) for number, each in enumerate(said)]
-        self.images: list[np.ndarray] = []
-
-    def publish(self, channel: str, content: Any) -> None:
-        if channel == f"?image/{CAMERA}":
-            data = np.frombuffer(content, np.uint8, offset=HEADER.size)
-            self.images.append(cv2.imdecode(data, cv2.IMREAD_COLOR))
-
-    def forget(self, channels: object) -> None:
-        """Nothing is kept."""
-
-    def wanted(self) -> frozenset[str]:
-        return frozenset({f"?image/{CAMERA}"})
-
-    def messages(self) -> list[Any]:
-        said, self.said = self.said, []
-        return said
+def newest(desk: Desk) -> np.ndarray:
+    """Return the newest image that was sent, BGR."""
+    data = np.frombuffer(desk.on(f"?image/{CAMERA}")[-1], np.uint8, offset=HEADER.size)
+    return cv2.imdecode(data, cv2.IMREAD_COLOR)
 
 
 @pytest.mark.parametrize(
@@ -62,7 +44,8 @@ class Desk:
 def test_images_are_as_wide_as_the_widest_viewer_shows_them(
     said: list[dict[str, Any]], width: int, is_read: bool
 ) -> None:
-    desk, now = Desk(*said), [0.0]
+    messages = [(number, {"type": "images", **each}) for number, each in enumerate(said)]
+    desk, now = Desk(frozenset({f"?image/{CAMERA}"}), messages), [0.0]
 
     def wall() -> float:
         now[0] += 0.1
@@ -74,10 +57,10 @@ def test_images_are_as_wide_as_the_widest_viewer_shows_them(
             simulation.bus.inbox("/uwsim/camera1", uwsim.messages.Image)
         view.open(simulation, "scene")
         simulation.advance(0.2)
-        assert desk.images[-1].shape == (round(0.75 * width), width, 3)
+        assert newest(desk).shape == (round(0.75 * width), width, 3)
         whole = simulation.image(CAMERA).colour
         assert whole is not None
-        seen = cv2.cvtColor(desk.images[-1], cv2.COLOR_BGR2RGB)
+        seen = cv2.cvtColor(newest(desk), cv2.COLOR_BGR2RGB)
         small = cv2.resize(whole.view(np.uint8), seen.shape[1::-1], interpolation=cv2.INTER_AREA)
         assert np.abs(seen.astype(int) - small).mean() < 8.0  # JPEG, noise, edges
 
