@@ -34,7 +34,7 @@ GROUND = {
     "terminal",
     "tracks",
 }
-BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
+BASE = GROUND | {"network", "world", "vehicle", "messages", "bus", "external_values"}
 PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets", "xacro"}
 ENGINES = PARTS | {"physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
@@ -46,6 +46,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "bus": GROUND | {"bus"},
     "world": BASE,
     "vehicle": BASE,
+    "external_values": BASE,
     "statistics": GROUND | {"statistics"},
     "middleware": BASE | {"middleware"},
     "recording": BASE | {"middleware", "recording"},

@@ -15,13 +15,12 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
 from ..bus import Bus, Remark
+from ..external_values import EXPECTED_POSE, read_position, read_quaternion
 from ..geometry import Pose
 from ..messages import TFMessage, TransformStamped
 from ..schema import MAX_DISTANCE, element
-from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
+from ..vehicle import Vehicle, go_or_place
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 
@@ -29,7 +28,7 @@ WORLD = "world"
 """The frame of ROS that is L."""
 MAX_DEPTH = 100
 """Frames hang on one another at most so deep."""
-EXPECTED = "finite numbers, at most 1e6 m, and a quaternion that is not zero; it is left out"
+EXPECTED = f"{EXPECTED_POSE}; it is left out"
 """What a transform has."""
 
 
@@ -130,14 +129,11 @@ class TfFollower(Device):
 
 def _pose_of(each: TransformStamped) -> Pose | None:
     """``parent_from_child`` of a transform; None where it is none."""
-    t, q = each.transform.translation, each.transform.rotation
-    wxyz = np.array([q.w, q.x, q.y, q.z])
-    position = np.array([t.x, t.y, t.z])
-    length = float(np.abs(wxyz).max())
-    is_sound = 0.0 < length < np.inf and bool(np.isfinite(position).all())
-    if not is_sound or float(np.abs(position).max()) > MAX_COMMAND:
+    position = read_position(each.transform.translation)
+    quaternion = read_quaternion(each.transform.rotation)
+    if position is None or quaternion is None:
         return None
-    return Pose.from_quaternion(position, wxyz / length)
+    return Pose.from_quaternion(position, quaternion)
 
 
 def _odd_transform(message: TFMessage) -> Remark | None:

@@ -413,6 +413,10 @@ class Bridge(ABC):
                 future.set_result(self.bus.services.call(name, request))
         except UwsimError as error:
             future.set_exception(error)
+        except Exception as error:  # a defect of the handler must not end the run
+            text = f"The service failed: {type(error).__name__}: {error}"
+            self.log.say(f"/{name}: {text}", kind=f"failed {name}")
+            future.set_exception(UwsimError(text))
 
     def _publish(self, topic: str, message: object, by: str) -> None:
         """Put a message from outside on the bus; one that does not fit is reported."""

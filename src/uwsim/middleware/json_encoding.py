@@ -19,6 +19,7 @@ import numpy as np
 from rosbags.interfaces import Nodetype
 
 from ..errors import BadMessage
+from ..external_values import read_number
 from .types import PLACEHOLDER, message_class, ros2_store
 
 M = TypeVar("M")
@@ -124,8 +125,10 @@ def _in(value: Any, kind: str, inner: str, length: int, at: str) -> Any:
         return _sized([_in(each, "text", "", 0, at) for each in value], length, at)
     try:
         numbers = [math.nan if each is None else each for each in value]
-        return _sized(np.array(numbers, dtype=DTYPES.get(inner, inner)).reshape(-1), length, at)
-    except (TypeError, ValueError, OverflowError):
+        with np.errstate(over="raise"):
+            array = np.array(numbers, dtype=DTYPES.get(inner, inner)).reshape(-1)
+        return _sized(array, length, at)
+    except (TypeError, ValueError, OverflowError, FloatingPointError):
         raise BadMessage(f"{at} is {_shown(value)}; expected numbers ({inner}).") from None
 
 
@@ -134,10 +137,13 @@ def _number(value: Any, inner: str, at: str) -> Any:
         return value
     if inner.startswith("float") and value is None:
         return math.nan
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if is_number and inner.startswith("float"):
-        return float(value)
-    if is_number and inner != "bool" and math.isfinite(value) and value == int(value):
+    if inner.startswith("float") and isinstance(value, float) and not math.isfinite(value):
+        return value
+    number = read_number(value)
+    if number is not None and inner.startswith("float"):
+        if abs(number) <= float(np.finfo(inner).max):
+            return number
+    elif number is not None and inner != "bool" and value == int(value):
         limits = np.iinfo(DTYPES.get(inner, inner))
         if limits.min <= value <= limits.max:
             return int(value)

@@ -22,7 +22,7 @@ from ..geometry import Array
 from ..numerics.linear import turned
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
-from .collision.kinematic_contacts import MAX_JUMP
+from .collision.kinematic_contacts import MAX_JUMP, MAX_JUMP_SPEED
 
 HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""
@@ -135,7 +135,10 @@ class _KinematicVehicle:
         self._data.qvel[self._v] = 0.0
 
     def _speed(self, here: Array) -> Array:
-        """Speed of the jump to ``here``, joint by joint, (n,) [m/s, rad/s]."""
+        """Compute the speed of the jump to ``here``, joint by joint, (n,) [m/s, rad/s].
+
+        It is 0 where a component is above `MAX_JUMP_SPEED`.
+        """
         after = self._data.qpos.copy()
         before = after.copy()
         before[self._q] = self._now
@@ -143,4 +146,5 @@ class _KinematicVehicle:
         time = self._n_steps * self._model.opt.timestep
         mujoco.mj_differentiatePos(self._model, speed, time, before, after)
         own: Array = speed[self._v]
-        return own
+        is_placement = bool((np.abs(own) > MAX_JUMP_SPEED).any())
+        return np.zeros(len(own)) if is_placement else own

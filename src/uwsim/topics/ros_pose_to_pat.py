@@ -10,7 +10,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..bus import Remark
-from ..geometry import Pose, rotation_from_quaternion
+from ..external_values import read_quaternion
+from ..geometry import Pose
 from ..message_fields import odd_number
 from ..messages import Pose as PoseMessage
 from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
@@ -73,14 +74,10 @@ def pose_in_localized(pose: PoseMessage) -> Pose | None:
 
     An invalid quaternion counts as no rotation.
     """
-    p, q = pose.position, pose.orientation
-    wxyz = np.array([q.w, q.x, q.y, q.z])
-    largest = float(np.abs(wxyz).max())
-    if not 0.0 < largest < np.inf:
-        wxyz, largest = np.array([1.0, 0.0, 0.0, 0.0]), 1.0
-    position = np.array([p.x, p.y, p.z])
+    quaternion = read_quaternion(pose.orientation)
+    if quaternion is None:
+        quaternion = np.array([1.0, 0.0, 0.0, 0.0])
+    position = np.array([pose.position.x, pose.position.y, pose.position.z])
     if not np.isfinite(position).all():
         return None
-    return Pose(
-        np.clip(position, -MAX_COMMAND, MAX_COMMAND), rotation_from_quaternion(wxyz / largest)
-    )
+    return Pose.from_quaternion(np.clip(position, -MAX_COMMAND, MAX_COMMAND), quaternion)

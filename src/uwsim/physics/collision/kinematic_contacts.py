@@ -15,13 +15,15 @@ import mujoco
 import numpy as np
 
 from ...geometry import Array, Pose, quaternion_from_rotation
-from ...numerics.linear import dot
+from ...numerics.linear import dot, length
 from ...world import Contact
 from ..compile import ALL, OBJECTS, SHAPES
 from .shapes import CollisionShape
 
 MAX_JUMP = 1.0
 """A jump after a longer rest counts as made in this time [s]."""
+MAX_JUMP_SPEED = 100.0
+"""A faster jump is a placement: the body has no velocity after it [m/s]."""
 
 
 class KinematicContacts:
@@ -138,7 +140,7 @@ class _KinematicBody:
             return np.zeros(3)
         was_at = (self._before @ self.now.inverse()).transform(point[None])[0]
         velocity: Array = (point - was_at) / (self._n_steps * self._timestep)
-        return velocity
+        return velocity if length(velocity) <= MAX_JUMP_SPEED else np.zeros(3)
 
 
 def _model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:

@@ -7,15 +7,11 @@ may be placed, at rest. What is spawned is a marker with a mesh (`uwsim.simulati
 
 from __future__ import annotations
 
-import math
 import re
-from typing import Any
-
-import numpy as np
 
 from ... import messages
 from ...bus import Bus
-from ...errors import UwsimError
+from ...external_values import EXPECTED_POSE, read_pose
 from ...geometry import Pose, quaternion_from_rotation
 from ...messages import Marker, SpawnMarker, Twist, Vector3
 from ...messages.build import header
@@ -34,11 +30,8 @@ from ...messages.simulation_control import (
     SpawnEntityResponse,
 )
 from ...numerics.linear import turned
-from ...vehicle import MAX_COMMAND
 from ..simulation import Simulation
 
-FARTHEST = MAX_COMMAND
-"""A vehicle is not put farther from the origin [m]."""
 NAMESPACE = "spawned"
 """Namespace of the markers that are spawned as entities."""
 NAME = re.compile(r"[A-Za-z0-9_./-]{1,100}")
@@ -114,9 +107,9 @@ class Entities:
         if name not in world.vehicles or request.set_twist or request.set_acceleration:
             message = "Only the pose of a vehicle can be set; it is at rest then."
             return SetEntityStateResponse(Result(Result.FEATURE_UNSUPPORTED, message))
-        pose = _pose(request.state.pose)
+        pose = read_pose(request.state.pose)
         if pose is None:
-            message = f"Expected finite numbers, {FARTHEST:g} m at most, and a quaternion not zero."
+            message = f"The pose is not valid; expected {EXPECTED_POSE}."
             return SetEntityStateResponse(Result(Result.OPERATION_FAILED, message))
         if request.set_pose:
             world.vehicle(name).place(world.world_from_localized @ pose)
@@ -173,18 +166,3 @@ def _message(pose: Pose) -> messages.Pose:
     w, x, y, z = map(float, quaternion_from_rotation(pose.rotation))
     place = messages.Point(*map(float, pose.position))
     return messages.Pose(position=place, orientation=messages.Quaternion(x, y, z, w))
-
-
-def _pose(message: Any) -> Pose | None:
-    """The pose of a message; None if it is none."""
-    place, turn = message.position, message.orientation
-    position = np.array([place.x, place.y, place.z])
-    quaternion = np.array([turn.w, turn.x, turn.y, turn.z])
-    if not all(map(math.isfinite, (*position, *quaternion))) or not quaternion.any():
-        return None
-    if float(np.abs(position).max()) > FARTHEST:
-        return None
-    try:
-        return Pose.from_quaternion(position, quaternion)
-    except UwsimError:
-        return None

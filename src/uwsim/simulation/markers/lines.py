@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ...external_values import MAX_COORDINATE, read_pose
 from ...geometry import Array, Pose
 from ...messages import Marker
 from ...tracks import MarkerLook
@@ -41,7 +42,7 @@ def look_of(marker: Marker, world_from_localized: Pose, room: int = MAX_POINTS) 
         if room < 0:
             break
         kept.append(tuple(tuple(round(value, 4) for value in point) for point in line))
-    pose = world_from_localized @ _pose(marker)
+    pose = world_from_localized @ localized_from_marker(marker)
     row = (*np.round(pose.position, 4).tolist(), *np.round(pose.quaternion, 5).tolist())
     return MarkerLook(colour=_colour(marker), pose=row, lines=tuple(kept))
 
@@ -72,10 +73,11 @@ def described(looks: Mapping[str, MarkerLook]) -> list[dict[str, Any]]:
     return found
 
 
-def _pose(marker: Marker) -> Pose:
-    place, turn = marker.pose.position, marker.pose.orientation
-    quaternion = np.array([turn.w, turn.x, turn.y, turn.z])
-    return Pose.from_quaternion(np.array([place.x, place.y, place.z]), quaternion)
+def localized_from_marker(marker: Marker) -> Pose:
+    """Return the pose of a marker in L, whose message was checked when it was spawned."""
+    pose = read_pose(marker.pose)
+    assert pose is not None
+    return pose
 
 
 def _colour(marker: Marker) -> str:
@@ -89,10 +91,10 @@ def _colour(marker: Marker) -> str:
 def _lines(marker: Marker) -> list[Line]:
     """Lines in the frame of a marker [m]."""
     half = 0.5 * np.array([marker.scale.x, marker.scale.y, marker.scale.z])
-    if not np.isfinite(half).all() or marker.type in NAMED:
+    if not (np.abs(half) <= MAX_COORDINATE).all() or marker.type in NAMED:
         return []
     points = [(each.x, each.y, each.z) for each in marker.points[:MAX_POINTS]]
-    points = [point for point in points if all(map(math.isfinite, point))]
+    points = [point for point in points if all(abs(value) <= MAX_COORDINATE for value in point)]
     kind = marker.type
     if kind in (Marker.CUBE, Marker.CYLINDER):
         return _scaled(_prism(SQUARE if kind == Marker.CUBE else CIRCLE), half)

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
-import numpy as np
-
-from ...geometry import Pose
+from ...external_values import EXPECTED_POSE, read_pose
 from ...messages import Marker, SpawnMarker, SpawnMarkerResponse
 from ...messages.build import NANOSECONDS
 from ...topics.frames import Frame
+from .lines import localized_from_marker
 
 SERVICE = "SpawnMarker"
 TYPES = {
@@ -53,7 +53,8 @@ class Markers:
 
     def frames(self) -> list[Frame]:
         """Return the frames of the markers in L."""
-        return [Frame("", name, _in_l(marker)) for name, marker in self.shown.items()]
+        shown = self.shown.items()
+        return [Frame("", name, partial(localized_from_marker, marker)) for name, marker in shown]
 
     def answer(self, request: SpawnMarker) -> SpawnMarkerResponse:
         """Add, modify or delete a marker."""
@@ -83,22 +84,10 @@ class Markers:
             return f"there are {MAX_MARKERS} markers already"
         if len(marker.points) > MAX_POINTS:
             return f"it has more than {MAX_POINTS} points"
-        place, turn = marker.pose.position, marker.pose.orientation
-        quaternion = (turn.w, turn.x, turn.y, turn.z)
-        if not all(map(math.isfinite, (place.x, place.y, place.z, *quaternion))):
-            return "its pose is not finite"
-        if not any(quaternion):
-            return "its quaternion is all zero"
+        if read_pose(marker.pose) is None:
+            return f"its pose is not valid; expected {EXPECTED_POSE}"
         if marker.type == Marker.TRIANGLE_LIST and len(marker.points) % 3:
             return f"its {len(marker.points)} points are no triangles"
         if marker.type == Marker.MESH_RESOURCE and not marker.mesh_resource:
             return "it names no mesh_resource"
         return None
-
-
-def _in_l(marker: Marker) -> Callable[[], Pose]:
-    place, turn = marker.pose.position, marker.pose.orientation
-    pose = Pose.from_quaternion(
-        np.array([place.x, place.y, place.z]), np.array([turn.w, turn.x, turn.y, turn.z])
-    )
-    return lambda: pose

@@ -6,6 +6,8 @@ import math
 import time
 from collections.abc import Callable, Mapping
 
+from ...external_values import read_number
+
 MAX_SPEED = 100.0
 """Of simulation time to wall time; above, as fast as it can."""
 NAP = 0.01
@@ -43,7 +45,7 @@ class Clock:
 
     def control(self, message: Mapping[str, object]) -> bool:
         """Do what a viewer asks for; returns whether that changed anything."""
-        action, speed = message.get("action"), message.get("speed")
+        action, speed = message.get("action"), read_number(message.get("speed"))
         if action == "pause":
             self.is_paused, self._steps = True, 0
         elif action == "play":
@@ -51,8 +53,8 @@ class Clock:
             self._began = math.nan, 0.0
         elif action == "step":
             self.is_paused, self._steps = True, self._steps + 1
-        elif action == "speed" and isinstance(speed, int | float) and 0.0 <= speed < math.inf:
-            self.speed = 0.0 if speed > MAX_SPEED else float(speed)
+        elif action == "speed" and speed is not None and speed >= 0.0:
+            self.speed = 0.0 if speed > MAX_SPEED else speed
             self._began = math.nan, 0.0
         else:
             return False

@@ -15,7 +15,6 @@
 
 from __future__ import annotations
 
-import math
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
@@ -24,6 +23,7 @@ from typing import Any
 
 from ...algorithms.pilot import AXES
 from ...errors import BadSetting, did_you_mean
+from ...external_values import read_number
 
 KEYS = {
     **{"w": "+surge", "s": "-surge", "d": "+sway", "a": "-sway", "e": "+yaw", "q": "-yaw"},
@@ -109,8 +109,7 @@ def _add(total: dict[str, float], targets: str, value: float) -> None:
 
 
 def _number(value: object) -> float:
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    return float(value) if is_number and math.isfinite(value) else 0.0  # type: ignore[arg-type]
+    return read_number(value) or 0.0
 
 
 def merged(by_viewer: Mapping[int, Sequence[float]]) -> tuple[float, ...] | None:

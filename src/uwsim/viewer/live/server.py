@@ -134,6 +134,14 @@ class LiveServer:
             self._messages.clear()
         return taken
 
+    def drop(self, number: int, reason: str) -> None:
+        """Disconnect one viewer; ``reason`` is what its browser shows."""
+        with self._lock:
+            viewer = self._viewers.get(number)
+        if viewer is not None:
+            socket = viewer.socket
+            self._call(lambda: self._loop.create_task(socket.close(1008, reason[:100])))
+
     def close(self) -> None:
         """Disconnect everybody and close the port."""
         self._call(self._stop.set)

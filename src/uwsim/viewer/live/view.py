@@ -20,6 +20,7 @@ import numpy.typing as npt
 from ...algorithms.pilot import AXES
 from ...benchmark.updaters import Level
 from ...errors import BadSetting
+from ...external_values import MAX_COORDINATE, read_number
 from ...geometry import Pose, rotation_from_quaternion
 from ...messages import Marker
 from ...rendering.grey import grey_truncated
@@ -347,23 +348,30 @@ class LiveView:
     def _hear(self) -> None:
         """Do what viewers have asked for."""
         for viewer, message in self._server.messages():
-            kind = message["type"]
-            if kind == "control" and self._clock.control(message):
-                self._say_state()
-            elif kind == "control" and message.get("action") == "reset" and self._first:
-                self._reset()
-            elif kind == "view":
-                self._views.pop(viewer, None)
-                self._views[viewer] = message
-            elif kind == "images":
-                self._widths[viewer] = _width_of(message)
-            elif kind == "input" and self._mapping is not None:
-                self._take(viewer, self._mapping.values(message))
-            elif kind == "left":
-                self._views.pop(viewer, None)
-                self._widths.pop(viewer, None)
-                if viewer in self._inputs:
-                    self._take(viewer, (0.0,) * len(AXES))
+            try:
+                self._apply(viewer, message)
+            except Exception as error:  # no message of a viewer may end the run
+                self._server.drop(viewer, f"{type(error).__name__} in a message")
+
+    def _apply(self, viewer: int, message: Message) -> None:
+        """Do what one message of a viewer asks for."""
+        kind = message["type"]
+        if kind == "control" and self._clock.control(message):
+            self._say_state()
+        elif kind == "control" and message.get("action") == "reset" and self._first:
+            self._reset()
+        elif kind == "view":
+            self._views.pop(viewer, None)
+            self._views[viewer] = message
+        elif kind == "images":
+            self._widths[viewer] = _width_of(message)
+        elif kind == "input" and self._mapping is not None:
+            self._take(viewer, self._mapping.values(message))
+        elif kind == "left":
+            self._views.pop(viewer, None)
+            self._widths.pop(viewer, None)
+            if viewer in self._inputs:
+                self._take(viewer, (0.0,) * len(AXES))
 
     def _reset(self) -> None:
         """Put vehicles, joints and objects back where they began, at rest; time goes on."""
@@ -391,24 +399,22 @@ def jpeg(image: npt.NDArray[np.uint8]) -> bytes:
 
 def _width_of(message: Message) -> int:
     """Width of the images that a viewer wants [px]; as they are where it says none."""
-    width = message.get("width")
-    if not isinstance(width, int | float) or isinstance(width, bool) or math.isnan(width):
-        return MAX_SIDE
-    return round(min(max(float(width), 16.0), MAX_SIDE))
+    width = read_number(message.get("width"))
+    return MAX_SIDE if width is None else round(min(max(width, 16.0), MAX_SIDE))
 
 
 def _asked_for(message: Message) -> tuple[Pose, tuple[int, int], float]:
     """Read pose, size and vertical field of a view; raises BadSetting where they are none."""
     pose, size = message.get("pose"), (message.get("width"), message.get("height"))
     field = message.get("fovy", FIELD)
-    numbers = [*pose, *size, field] if isinstance(pose, list) and len(pose) == 7 else []
-    is_right = numbers and all(
-        isinstance(n, int | float) and not isinstance(n, bool) and math.isfinite(n) for n in numbers
-    )
-    if not is_right or not all(16 <= float(n or 0) <= MAX_SIDE for n in size):
-        raise BadSetting("no such view")
-    rows = np.clip(np.array(numbers[:7], dtype=np.float64), -1e6, 1e6)
-    if np.linalg.norm(rows[3:]) < 1e-3 or not 0.01 <= field <= 3.1:
-        raise BadSetting("no such view")
+    values = [*pose, *size, field] if isinstance(pose, list) and len(pose) == 7 else []
+    numbers = [number for value in values if (number := read_number(value)) is not None]
+    if len(numbers) != 10:
+        raise BadSetting("The view has no pose of seven finite numbers, width, height and fovy.")
+    rows = np.clip(np.array(numbers[:7]), -MAX_COORDINATE, MAX_COORDINATE)
+    width, height, fovy = numbers[7:]
+    is_valid = 16 <= width <= MAX_SIDE and 16 <= height <= MAX_SIDE and 0.01 <= fovy <= 3.1
+    if not is_valid or np.linalg.norm(rows[3:]) < 1e-3:
+        raise BadSetting("The size, the field or the orientation of the view is out of range.")
     where = Pose(rows[:3], rotation_from_quaternion(rows[3:]))
-    return where, (int(numbers[7]), int(numbers[8])), float(field)
+    return where, (int(width), int(height)), fovy
