@@ -66,6 +66,12 @@ COMMANDS: dict[str, Command] = {
             "uwsim compare --baseline esm.result ic.result ecc.result --measure corners",
         ),
     ),
+    "copy": Command(
+        module="copy",
+        function="copy",
+        summary="Copy a bundled scene or benchmark with its files, to edit.",
+        examples=("uwsim copy grasp-scene", "uwsim copy grasp my-grasp"),
+    ),
     "envelope": Command(
         module="envelope",
         function="envelope",

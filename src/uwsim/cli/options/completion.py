@@ -40,8 +40,12 @@ def benchmark_names(incomplete: str) -> list[tuple[str, str]]:
 
 def checked_names(incomplete: str) -> list[tuple[str, str]]:
     """Bundled scenes and benchmarks, XML files and URDFs."""
-    names = [*_bundled("scenes", incomplete), *_bundled("benchmarks", incomplete)]
-    return [*names, *_files(incomplete, ".xml", ".urdf")]
+    return [*copied_names(incomplete), *_files(incomplete, ".xml", ".urdf")]
+
+
+def copied_names(incomplete: str) -> list[tuple[str, str]]:
+    """Bundled scenes and benchmarks."""
+    return [*_bundled("scenes", incomplete), *_bundled("benchmarks", incomplete)]
 
 
 def algorithm_names(incomplete: str) -> list[tuple[str, str]]:

@@ -1,0 +1,83 @@
+"""A copy of a bundled scene or benchmark, with the files that it reads, for the user to edit."""
+
+from __future__ import annotations
+
+from pathlib import Path, PurePosixPath
+
+from ..assets.bundled import bundled
+from ..assets.find import PACKAGE
+from ..errors import BadSetting, UnknownName
+from ..files.input_files import InputFile, recorded
+from ..results.atomic_file import atomic_write
+from ..scene.reader import read_scene
+from ..simulation import Simulation
+from .planning.make_plan import make_plan
+from .planning.plan_request import PlanRequest
+from .prepare import hash_inputs
+
+KINDS = ("scenes", "benchmarks")
+BESIDE = ("scenes", "benchmarks", "vehicles")
+"""Folders of the package whose files lie beside each other in the copy."""
+
+
+def copyable_names() -> list[str]:
+    """Return the names of all bundled scenes and benchmarks."""
+    return [name for kind in KINDS for name in bundled(kind)]
+
+
+def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Path]:
+    """Copy a bundled scene or benchmark with every bundled file that it reads.
+
+    The files lie where the copied scene finds them before the bundled ones. Models without a file
+    (stand-ins that uwsim builds) are not copied; the scene names them as before.
+
+    Args:
+        name: of the scene or benchmark, with or without ``.xml``.
+        folder: where the copies go; it is made if it does not exist.
+        overwrite: whether existing files are replaced.
+
+    Returns:
+        The paths of the copies, the named file first.
+
+    Raises:
+        UnknownName: no scene or benchmark has that name.
+        BadSetting: a file exists already.
+    """
+    files = _files_of(name.removesuffix(".xml"))
+    copies = {folder / _place(file.path): file.path for file in files}
+    present = [str(copy) for copy in copies if copy.exists()]
+    if present and not overwrite:
+        raise BadSetting(
+            f"{present[0]} exists already. Name another folder, or replace it with --overwrite."
+        )
+    for copy, source in copies.items():
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        with atomic_write(copy) as draft:
+            draft.write_bytes(source.read_bytes())
+    return list(copies)
+
+
+def _files_of(name: str) -> list[InputFile]:
+    """Return the bundled files that are read when a scene or benchmark is opened."""
+    scenes, benchmarks = (bundled(kind) for kind in KINDS)
+    with recorded() as files:
+        if name in scenes:
+            Simulation(read_scene(scenes[name])).close()
+        elif name in benchmarks:
+            hash_inputs(make_plan(PlanRequest(benchmark=name)))
+        else:
+            raise UnknownName("bundled scene or benchmark", name, copyable_names())
+    unique = {file.path: file for file in files}
+    own = [file for path, file in unique.items() if path.suffix != ".py" and _is_bundled(path)]
+    return sorted(own, key=lambda file: file.path.stem != name)
+
+
+def _is_bundled(path: Path) -> bool:
+    return path.is_relative_to(PACKAGE / "data")
+
+
+def _place(path: Path) -> PurePosixPath:
+    """Return the place of a bundled file in the copy."""
+    within = path.relative_to(PACKAGE / "data")
+    kind, *rest = within.parts
+    return PurePosixPath(*rest) if kind in BESIDE else PurePosixPath(*within.parts)
