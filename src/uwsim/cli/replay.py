@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..errors import AllErrors, BadSetting
+from ..interrupts import raise_from_now_on
 from ..terminal import warn
 from .options.help_texts import FILES, INPUT, OUTPUT, in_group
 from .options.options import DataPathOption, ResultArgument
@@ -325,14 +326,27 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     from ..viewer.film.film import Reel, record
 
     reel = Reel(trials, spec)
+    n_drawn = 0
+
+    def drawn() -> None:
+        nonlocal n_drawn
+        n_drawn += 1
+        on_frame()
+
+    raise_from_now_on()
     try:
         with progress("film", reel.n_frames, of="images") as on_frame:
-            record(reel, out, on_frame)
+            record(reel, out, drawn)
         seconds = reel.n_frames / spec.rate
         return (
             f"{trials[0].title}: {reel.n_frames} images, {seconds:.1f} s, "
             f"{spec.size[0]}x{spec.size[1]}; written: {out}"
         )
+    except KeyboardInterrupt:
+        if n_drawn:
+            seconds = n_drawn / spec.rate
+            warn(f"{out}: has the first {n_drawn} of {reel.n_frames} images, {seconds:.1f} s")
+        raise
     finally:
         reel.close()
 

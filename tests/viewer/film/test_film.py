@@ -20,7 +20,7 @@ from uwsim.cli import main
 from uwsim.results.journal import recorded_trials, track_path
 from uwsim.simulation.views import focus_of
 from uwsim.tracks import Signal
-from uwsim.viewer.film.curves import chosen
+from uwsim.viewer.film.curves import chosen, short_name
 from uwsim.viewer.film.film import Film, FilmSpec, record
 from uwsim.viewer.film.puppets import Puppets
 from uwsim.viewer.recorded import Curve, RecordedLevel, RecordedTrial, _level
@@ -116,14 +116,38 @@ def test_a_measure_alone_is_drawn_with_the_further_columns_of_its_log() -> None:
     assert [one.measure for one in chosen(alone, ("a.y", "a"))] == ["a.y", "a"]
 
 
-def test_what_is_written_and_curves_hide_nothing_that_matters(trial: RecordedTrial) -> None:
-    film = Film(trial, FilmSpec(size=(480, 360), curves=("corners",), inset=False))
-    simulation, pose = film._puppets.simulation, film._path.pose(film.start)
-    corners = pose.inverse().transform(focus_of(simulation).corners)
-    rows = film._path.intrinsics.project(corners)[:, 1]
-    assert rows.min() > 0.04 * 360  # below the title
-    assert rows.max() < 0.88 * 360  # above the curve
-    film.close()
+@pytest.mark.parametrize("size", [(480, 360), (640, 480), (360, 480)])
+@pytest.mark.parametrize("view", ["orbit", "camera"])
+def test_title_curves_and_inset_hide_nothing_of_the_view(
+    trial: RecordedTrial, size: tuple[int, int], view: str
+) -> None:
+    film = Film(trial, FilmSpec(size=size, view=view))  # type: ignore[arg-type]
+    try:
+        frame = film.draw(0.5)
+        seen = film._view(0.5)
+        height, width = seen.shape[:2]
+        top = int(film._head_height)
+        assert width == size[0]
+        assert height > 0.5 * size[1]
+        assert np.array_equal(frame[top : top + height], seen)
+        if view == "orbit":
+            corners = film._path.pose(0.5).inverse().transform(film_corners(film))
+            rows = film._path.intrinsics.project(corners)[:, 1]
+            assert 0.0 < rows.min() < rows.max() < height
+    finally:
+        film.close()
+
+
+def film_corners(film: Film) -> np.ndarray[Any, Any]:
+    """Corners of what the view is about, in W, (8, 3)."""
+    return np.asarray(focus_of(film._puppets.simulation).corners)
+
+
+def test_curves_of_one_measure_are_named_without_it() -> None:
+    details = [curve("success.height"), curve("success.phase")]
+    assert short_name("success.height", [curve("success"), *details]) == "height"
+    assert short_name("success", [curve("success"), *details]) == "success"
+    assert short_name("success.height", [curve("time"), *details]) == "success.height"
 
 
 def test_bodies_are_put_where_they_were_and_cameras_go_with_them(trial: RecordedTrial) -> None:
@@ -155,17 +179,19 @@ def test_levels_are_chapters(small: Film) -> None:
 def test_the_inset_is_the_image_of_the_camera(small: Film, trial: RecordedTrial) -> None:
     frame = small.draw(0.6)
     assert frame.shape == (180, 240, 3)
-    inset = frame[180 - 54 - 16 : 180 - 16, 240 - 72 - 12 : 240 - 12]
+    assert small._inset_size is not None
+    width, height = small._inset_size
+    top = small._strip_top + 12
+    inset = frame[top : top + height, 240 - width - 12 : 240 - 12]
     puppets = Puppets(trial)
     try:
         puppets.put(0.6)
         camera = puppets.simulation.world.camera("bowtech1")
-        lens = camera.intrinsics.resized(72, 54)
+        lens = camera.intrinsics.resized(width, height)
         seen = puppets.simulation.world.scenery.render_clean(camera.world_from_camera, lens)
         assert seen.colour is not None
-        rows = slice(22, None)  # below its name
-        off = np.abs(inset[rows].astype(int) - seen.colour[rows].astype(int)).max(axis=2) > 2
-        assert off.mean() < 0.1  # the corners that are drawn into it
+        off = np.abs(inset.astype(int) - seen.colour.astype(int)).max(axis=2) > 2
+        assert off.mean() < 0.25  # the corners that are drawn into it
     finally:
         puppets.close()
 
@@ -225,6 +251,40 @@ def test_a_film_has_its_frames_its_chapters_and_the_same_bytes_twice(
     assert said.partition("Output #0")[0].count("Chapter #") == 3
     assert "fog 0.8" in said
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"one{suffix}", f"two{suffix}"]
+
+
+@pytest.mark.parametrize("suffix", [".mp4", ".webm", ".webp"])
+@pytest.mark.parametrize("n_drawn", [0, 1, 6])
+def test_an_interrupted_film_keeps_its_finished_part(
+    trial: RecordedTrial, tmp_path: Path, suffix: str, n_drawn: int
+) -> None:
+    ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="the extra film").get_ffmpeg_exe()
+    path = tmp_path / f"film{suffix}"
+    film = Film(trial, FilmSpec(size=(160, 160), rate=10.0))
+    drawn = 0
+
+    def interrupt() -> None:
+        nonlocal drawn
+        drawn += 1
+        if drawn > n_drawn:
+            raise KeyboardInterrupt
+
+    film.draw, draw = lambda time: (interrupt(), draw(time))[1], film.draw  # type: ignore[method-assign]
+    with pytest.raises(KeyboardInterrupt):
+        record(film, path)
+    film.close()
+    assert [each.name for each in tmp_path.iterdir()] == ([path.name] if n_drawn else [])
+    if not n_drawn:
+        return
+    if suffix == ".webp":
+        with Image.open(path) as image:
+            assert getattr(image, "n_frames", 1) == n_drawn
+        return
+    command = [ffmpeg, "-i", str(path), "-map", "0:v", "-f", "null", "-stats", "-"]
+    report = subprocess.run(command, capture_output=True, text=True, timeout=120).stderr
+    assert re.search(rf"frame= *{n_drawn}\b", report)
+    n_chapters = 1 if n_drawn < 5 else 2  # a level has four images
+    assert report.partition("Output #0")[0].count("Chapter #") == n_chapters
 
 
 def test_what_cannot_be_filmed_is_said_in_a_line(

@@ -9,7 +9,8 @@ import importlib.util
 import subprocess
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Protocol
 
@@ -53,8 +54,8 @@ class Encoder(Protocol):
     def add(self, frame: Pixels) -> None:
         """Append an image (h, w, 3)."""
 
-    def close(self, *, is_whole: bool) -> None:
-        """Finish the file, or leave nothing where the film is not whole."""
+    def close(self, *, is_to_keep: bool) -> None:
+        """Write the file with the images so far; or leave none."""
 
 
 def check_film_path(path: Path, *, overwrite: bool, others: Sequence[str] = ()) -> None:
@@ -105,7 +106,9 @@ class FfmpegEncoder:
     ) -> None:
         import imageio_ffmpeg
 
-        self._path = path
+        self._path, self._rate, self._chapters = path, rate, chapters
+        self._n_frames = 0
+        self._ffmpeg = imageio_ffmpeg.get_ffmpeg_exe()
         path.parent.mkdir(parents=True, exist_ok=True)
         self._folder = tempfile.TemporaryDirectory(prefix=f".{path.stem}-", dir=path.parent)
         folder = Path(self._folder.name)
@@ -114,7 +117,7 @@ class FfmpegEncoder:
         with names_file(path):
             (folder / "chapters").write_text(_metadata(chapters), encoding="utf-8")
         command = [
-            *(imageio_ffmpeg.get_ffmpeg_exe(), "-y", "-nostdin", "-loglevel", "error"),
+            *(self._ffmpeg, "-y", "-nostdin", "-loglevel", "error"),
             *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}"),
             *("-r", f"{rate:g}", "-threads", "1", "-i", "pipe:0"),
             *("-i", str(folder / "chapters"), "-map_metadata", "1", "-map_chapters", "1"),
@@ -122,7 +125,11 @@ class FfmpegEncoder:
             *("-fflags", "+bitexact", "-flags:v", "+bitexact", str(self._draft)),
         ]
         self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=self._said, stderr=self._said
+            command,
+            stdin=subprocess.PIPE,
+            stdout=self._said,
+            stderr=self._said,
+            start_new_session=True,  # Ctrl-C in a terminal does not reach it
         )
 
     def add(self, frame: Pixels) -> None:
@@ -136,22 +143,43 @@ class FfmpegEncoder:
             self._process.stdin.write(frame.data if frame.flags.c_contiguous else frame.tobytes())
         except OSError:
             raise self._failure() from None
+        self._n_frames += 1
 
-    def close(self, *, is_whole: bool) -> None:
-        """Finish the film and put it in its place; or stop, and leave nothing."""
+    def close(self, *, is_to_keep: bool) -> None:
+        """Write the film with the images so far; or stop, and leave nothing."""
         assert self._process.stdin is not None
         try:
-            if not is_whole:
+            if not is_to_keep or self._n_frames == 0:
                 self._process.kill()
                 self._process.wait()
+                with suppress(OSError):
+                    self._process.stdin.close()
                 return
             self._process.stdin.close()
             if self._process.wait() != 0:
                 raise self._failure()
+            if self._chapters and self._chapters[-1].end > (self._n_frames + 1) / self._rate:
+                self._cut_chapters()
             self._draft.replace(self._path)
         finally:
             self._said.close()
             self._folder.cleanup()
+
+    def _cut_chapters(self) -> None:
+        """Write the film again, without encoding, with the chapters that it reaches."""
+        end = self._n_frames / self._rate
+        reached = [replace(one, end=min(one.end, end)) for one in self._chapters if one.start < end]
+        chapters = self._draft.with_name("reached")
+        chapters.write_text(_metadata(reached), encoding="utf-8")
+        whole = self._draft.with_name(f"whole{self._draft.suffix}")
+        self._draft.replace(whole)
+        command = [
+            *(self._ffmpeg, "-y", "-nostdin", "-loglevel", "error", "-i", str(whole)),
+            *("-i", str(chapters), "-map", "0:v", "-map_metadata", "1", "-map_chapters", "1"),
+            *("-c", "copy", "-fflags", "+bitexact", str(self._draft)),
+        ]
+        if subprocess.run(command, stdout=self._said, stderr=self._said).returncode != 0:
+            raise self._failure()
 
     def _failure(self) -> RunFailed:
         self._process.wait()
@@ -186,9 +214,9 @@ class WebpEncoder:
             )
         self._frames.append(Image.fromarray(frame.copy()))
 
-    def close(self, *, is_whole: bool) -> None:
-        """Write the file; or nothing, if the film is not whole."""
-        if not is_whole or not self._frames:
+    def close(self, *, is_to_keep: bool) -> None:
+        """Write the file with the images so far; or leave none."""
+        if not is_to_keep or not self._frames:
             return
         self._path.parent.mkdir(parents=True, exist_ok=True)
         first, *others = self._frames

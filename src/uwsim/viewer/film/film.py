@@ -23,10 +23,10 @@ from .puppets import Puppets, scene_of
 
 MARGIN = 12
 """Between panels and the edge [px]."""
-CURVE, FOOT = 0.1, 0.16
-"""Height of a curve, and of what is kept free for all of them, as parts of the film's."""
-BAR = 4
-"""Height of the bar that shows how far the film is [px]."""
+STRIP = 0.28
+"""Height of the strip below the view, which has the curves and the inset, as part of the film's."""
+BAR = 1 / 180
+"""Height of the bar that shows how far the film is, as part of the film's."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,8 +94,8 @@ class Film:
         self._puppets.put(self.start)
         self._camera = self._chosen_camera()
         self._letters = max(11, round(spec.size[1] / 45))
-        margins = self._head_height, self._foot_height()
-        self._path = CameraPath(self._puppets, spec.view, spec.size, self.start, margins)
+        self._view_size = spec.size[0], self._strip_top - self._head_height
+        self._path = CameraPath(self._puppets, spec.view, self._view_size, self.start)
         self._panels: dict[int, CurvePanel] = {}
         self._inset: tuple[float, Pixels] | None = None
 
@@ -111,9 +111,11 @@ class Film:
     def draw(self, time: float) -> Pixels:
         """Draw the image of a simulation time [s], (h, w, 3)."""
         self._puppets.put(time)
-        frame = self._view(time)
+        frame = np.empty((self.spec.size[1], self.spec.size[0], 3), np.uint8)
+        frame[: self._head_height] = frame[self._strip_top :] = overlay.PANEL
+        frame[self._head_height : self._strip_top] = self._view(time)
         number, level = self._level(time)
-        if self.spec.inset and self._camera is not None and self.spec.view != "camera":
+        if self._inset_size is not None:
             self._draw_inset(frame, time)
         if level is not None and number is not None and self.spec.has_curves:
             self._panel(number, level).draw(frame, time)
@@ -163,7 +165,7 @@ class Film:
     def _view(self, time: float) -> Pixels:
         if self.spec.view == "camera":
             assert self._camera is not None
-            return self._seen(self._camera, self.spec.size, time)
+            return self._seen(self._camera, self._view_size, time)
         scenery = self._puppets.simulation.world.scenery
         pose, lens = self._path.pose(time), self._path.intrinsics
         rendered = scenery.render_view(
@@ -193,39 +195,64 @@ class Film:
         return image if (lens.width, lens.height) == size else centred(image, size)
 
     def _draw_inset(self, frame: Pixels, time: float) -> None:
-        """Draw a camera's image in the lower right; again only ten times a second."""
+        """Draw a camera's image at the right of the strip; again only ten times a second."""
         assert self._camera is not None
-        camera = self._puppets.simulation.world.camera(self._camera)
-        width = round(0.3 * self.spec.size[0])
-        height = round(width * camera.intrinsics.height / camera.intrinsics.width)
+        assert self._inset_size is not None
+        width, height = self._inset_size
         due = math.floor(time * 10.0 + 1e-6)
         if self._inset is None or self._inset[0] != due:
-            image = self._seen(self._camera, (width, height), time)
-            overlay.shade(image, 0, 0, width, round(1.5 * self._letters))
-            overlay.write(image, self._camera, (6, 2), self._letters)
-            self._inset = due, image
-        x, y = self.spec.size[0] - width - MARGIN, self.spec.size[1] - height - MARGIN - BAR
+            self._inset = due, self._seen(self._camera, self._inset_size, time)
+        x, y = self.spec.size[0] - width - MARGIN, self._strip_top + MARGIN
         overlay.paste(frame, self._inset[1], x, y)
+        name = self._camera
+        overlay.write(frame, name, (x, y + height + 3), self._small_letters, overlay.DIM)
 
     @property
     def _head_height(self) -> int:
         """Height of what is written above [px]."""
         return round(2.2 * self._letters)
 
-    def _foot_height(self) -> int:
-        """Height of what is kept free for curves below [px]."""
-        if not self.spec.has_curves:
-            return 0
-        numbers = [len(chosen(level, self.spec.curves)) for _, level in self._shown_levels()]
-        return round(min(FOOT, CURVE * max(numbers, default=0)) * self.spec.size[1])
+    @property
+    def _bar(self) -> int:
+        """Height of the bar at the bottom [px]."""
+        return max(2, round(BAR * self.spec.size[1]))
+
+    @property
+    def _small_letters(self) -> int:
+        """Height of the letters of the inset's name [px]."""
+        return max(10, round(0.8 * self._letters))
+
+    @property
+    def _strip_top(self) -> int:
+        """The first row below the view [px]."""
+        height = self.spec.size[1]
+        levels = self._shown_levels()
+        has_curves = self.spec.has_curves and any(chosen(i, self.spec.curves) for _, i in levels)
+        is_needed = self._has_inset or has_curves
+        return height - self._bar - (round(STRIP * height) if is_needed else 0)
+
+    @property
+    def _has_inset(self) -> bool:
+        return self.spec.inset and self._camera is not None and self.spec.view != "camera"
+
+    @property
+    def _inset_size(self) -> tuple[int, int] | None:
+        """Width and height of the camera's image in the strip [px]; None without one."""
+        if not self._has_inset:
+            return None
+        assert self._camera is not None
+        lens = self._puppets.simulation.world.camera(self._camera).intrinsics
+        strip = self.spec.size[1] - self._bar - self._strip_top
+        height = strip - 2 * MARGIN - round(1.2 * self._small_letters)
+        width = min(round(height * lens.width / lens.height), self.spec.size[0] // 2)
+        return width, min(height, round(width * lens.height / lens.width))
 
     def _panel(self, number: int, level: RecordedLevel) -> CurvePanel:
         if number not in self._panels:
             width, height = self.spec.size
-            n = max(1, len(chosen(level, self.spec.curves)))
-            tall = round(min(0.34, CURVE * n) * height)
-            wide = round(0.42 * width)
-            box = MARGIN, height - tall - MARGIN - BAR, wide, tall
+            inset = 0 if self._inset_size is None else self._inset_size[0] + MARGIN
+            top = self._strip_top + MARGIN
+            box = MARGIN, top, width - 2 * MARGIN - inset, height - self._bar - MARGIN - top
             self._panels = {number: CurvePanel(level, self.spec.curves, box, self._letters)}
         return self._panels[number]
 
@@ -233,7 +260,6 @@ class Film:
         """Write title, level and clock above, and draw below how far the film is."""
         width, height = self.spec.size
         size = self._letters
-        overlay.shade(frame, 0, 0, width, self._head_height)
         top = round(0.4 * size)
         at = MARGIN + overlay.write(frame, self._trial.title, (MARGIN, top), size) + 2 * size
         if level is not None:
@@ -242,12 +268,12 @@ class Film:
             overlay.write(frame, level.status, (at, top), size, colour)
         overlay.write(frame, f"{time:.1f} s", (width - MARGIN, top), size, right=True)
         share = (time - self.start) / (self._end - self.start)
-        frame[height - BAR :] = overlay.PANEL
-        frame[height - BAR :, : round(share * width)] = overlay.COLOURS[0]
+        frame[height - self._bar :] = overlay.PANEL
+        frame[height - self._bar :, : round(share * width)] = overlay.COLOURS[0]
         for _, one in self._shown_levels():
             mark = round((one.began - self.start) / (self._end - self.start) * width)
             if 0 < mark < width:
-                frame[height - BAR :, mark] = overlay.INK
+                frame[height - self._bar :, mark] = overlay.INK
 
 
 class Reel:
@@ -296,22 +322,28 @@ class Reel:
 
 
 def record(film: Film | Reel, path: Path, on_frame: Callable[[], object] = lambda: None) -> None:
-    """Draw a film and write it, whole or not at all.
+    """Draw a film and write it.
+
+    After an interruption the file has the images that were drawn before it; after an error there is
+    no file.
 
     Args:
-        film: the one.
+        film: the film.
         path: of the file; its suffix is one of `encoder.SUFFIXES`.
         on_frame: called after each image.
     """
     encoder = encoder_of(path, film.spec.size, film.spec.rate, film.chapters())
-    is_whole = False
+    is_to_keep = False
     try:
         for frame in film.frames():
             encoder.add(frame)
             on_frame()
-        is_whole = True
+        is_to_keep = True
+    except KeyboardInterrupt:
+        is_to_keep = True
+        raise
     finally:
-        encoder.close(is_whole=is_whole)
+        encoder.close(is_to_keep=is_to_keep)
 
 
 def fitted(lens: Intrinsics, size: tuple[int, int]) -> Intrinsics:

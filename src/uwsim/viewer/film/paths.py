@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal, get_args
 
 import numpy as np
@@ -56,7 +56,6 @@ class CameraPath:
         kind: of the view, not ``camera``.
         size: width and height of the image [px].
         start: time of the first frame [s].
-        margins: rows at the top and at the bottom in which nothing that matters should be [px].
     """
 
     def __init__(
@@ -65,13 +64,10 @@ class CameraPath:
         kind: ViewKind,
         size: Size,
         start: float,
-        margins: tuple[int, int] = (0, 0),
     ) -> None:
         self._puppets, self._kind, self._start = puppets, kind, start
-        top, bottom = margins
-        view = orbit_view(puppets.simulation, (size[0], size[1] - top - bottom))
-        lens = view.intrinsics
-        self.intrinsics: Intrinsics = replace(lens, height=size[1], cy=lens.cy + top)
+        view = orbit_view(puppets.simulation, size)
+        self.intrinsics: Intrinsics = view.intrinsics
         """The pinhole."""
         self._first = view.world_from_camera
         focus = focus_of(puppets.simulation)
