@@ -67,7 +67,11 @@ def test_a_number_beyond_the_range_of_its_field_is_refused(
 
 
 def test_numbers_of_a_viewer_beyond_all_bounds_do_nothing() -> None:
-    assert set(PilotMapping().values({"axes": [HUGE, 1e308], "sticks": [-HUGE]})) <= {-1.0, 0.0, 1.0}
+    assert set(PilotMapping().values({"axes": [HUGE, 1e308], "sticks": [-HUGE]})) <= {
+        -1.0,
+        0.0,
+        1.0,
+    }
     assert _width_of({"type": "images", "width": HUGE}) == _width_of({"type": "images"})
     clock = Clock(1.0)
     assert not clock.control({"action": "speed", "speed": HUGE})

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 from .arm import Arm5e, Kinematics, Reach
 from .box import BoxPose, BoxSpec
+from .box_pose import Sighting
 from .camera import Pinhole, View
+from .convex_object import ConvexObject, ConvexPerception
 from .detector import ColourDetector, Detector, Outline, outline_of
 from .grasp import Grasp
+from .perception import GraspModel, ObjectPerception, Perception
 from .station import Motion, Station, StationLaw
+from .target import Target
 from .variants import GraspBlindClose, GraspNothing, GraspP, GraspTruth
 
 __all__ = [
@@ -15,19 +19,26 @@ __all__ = [
     "BoxPose",
     "BoxSpec",
     "ColourDetector",
+    "ConvexObject",
+    "ConvexPerception",
     "Detector",
     "Grasp",
     "GraspBlindClose",
+    "GraspModel",
     "GraspNothing",
     "GraspP",
     "GraspTruth",
     "Kinematics",
     "Motion",
+    "ObjectPerception",
     "Outline",
+    "Perception",
     "Pinhole",
     "Reach",
+    "Sighting",
     "Station",
     "StationLaw",
+    "Target",
     "View",
     "outline_of",
 ]

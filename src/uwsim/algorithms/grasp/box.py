@@ -44,6 +44,10 @@ class BoxSpec:
         place: Array = pose.place + turned(pose.rotation, np.array([0.0, 0.0, self.handle]))
         return place
 
+    def closes(self, pose: BoxPose) -> float:
+        """Return the heading of the axis across the handle, modulo half a turn [rad]."""
+        return half_turn(pose.heading)
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BoxPose:

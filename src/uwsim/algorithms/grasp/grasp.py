@@ -2,7 +2,8 @@
 
 It uses what a real vehicle has: images, DVL, IMU, depth, joint states, efforts of the drives, and
 the force on the wrist. It is made of parts, each of which a derived class can replace:
-`Grasp.navigation`, `Grasp.detector`, `Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`.
+`Grasp.navigation`, `Grasp.detector`, `Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`; and
+for another object than the box `Grasp.model` and `Grasp.perception`.
 `uwsim.algorithms.grasp.phases` says what it does when.
 """
 
@@ -40,7 +41,7 @@ from .box import BoxSpec
 from .camera import Pinhole, View
 from .craft import Craft
 from .detector import ColourDetector, Detector
-from .perception import Perception
+from .perception import GraspModel, ObjectPerception, Perception
 from .phases import PHASES, Phase
 from .station import Station, StationLaw
 from .task import Task, square_spiral
@@ -68,6 +69,7 @@ class Grasp:
         "settle": 6.0,
         "hold": 11.0,
         "attempts": 4.0,
+        "min_load": 15.0,
         "camera_place": "0.22 0.12 0.98",
         "camera_rpy": "2.5818 -0.1257 1.5708",
         "dvl_place": "0.5 0 0.8",
@@ -131,8 +133,16 @@ class Grasp:
         return Arm5e()
 
     def box(self) -> BoxSpec:
-        """Return the model of what is looked for."""
+        """Return the model of the box that is looked for."""
         return BoxSpec()
+
+    def model(self) -> GraspModel:
+        """Return where the object is taken."""
+        return self.box()
+
+    def perception(self) -> ObjectPerception:
+        """Return what finds the object in images; by default the box, by detector and tracker."""
+        return Perception(self.detector(), self.tracker, self.box())
 
     def number(self, name: str) -> float:
         """A parameter that is a number."""
@@ -154,8 +164,8 @@ class Grasp:
         self.craft = Craft(self.controller(), self.kinematics())
         self.task = Task(
             self.craft,
-            Perception(self.detector(), self.tracker, self.box()),
-            self.box(),
+            self.perception(),
+            self.model(),
             self._parameters,
             lambda text: status(String(data=text)),
         )

@@ -9,6 +9,7 @@ do not fit it, ends the track.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Protocol
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from ...geometry import Array
 from ...numerics.linear import placed
 from ..esm.pyramid import Grey, grey
 from ..tracker import Tracker, quad_error
-from .box import BoxSpec
+from .box import BoxPose, BoxSpec
 from .box_pose import Sighting, pose_from_face, pose_from_outline
 from .camera import View
 from .detector import Detector, Pixels
@@ -34,6 +35,29 @@ TOO_HIGH = 0.25
 """Distance of a box from the bottom beyond which it is none [m]."""
 
 MakeTracker = Callable[[Grey, Array], "Tracker | str"]
+
+
+class GraspModel(Protocol):
+    """What is known of an object that is grasped; one of your own goes to `Grasp.model`."""
+
+    def grip(self, pose: BoxPose) -> Array:
+        """Return the point that the jaw takes in the navigation frame, (3,) [m]."""
+
+    def closes(self, pose: BoxPose) -> float:
+        """Return the heading of the axis along which the jaw closes, modulo half a turn [rad]."""
+
+
+class ObjectPerception(Protocol):
+    """What finds the object in images; one of your own goes to `Grasp.perception`."""
+
+    def look(self, image: Pixels, view: View, target: Target, time: float) -> Sighting | None:
+        """Look at an image (h, w, 3) RGB taken now, at ``time`` [s].
+
+        Give the target what is found (`Target.take`); return the sighting if the target took it.
+        """
+
+    def forget(self) -> None:
+        """Drop what is kept from earlier images: the search begins anew."""
 
 
 class Perception:

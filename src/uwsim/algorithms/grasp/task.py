@@ -9,9 +9,8 @@ import numpy as np
 
 from ...geometry import Array
 from .arm import CLOSED
-from .box import BoxSpec, half_turn
 from .craft import Craft
-from .perception import Perception
+from .perception import GraspModel, ObjectPerception
 from .station import horizontal
 from .target import Target
 
@@ -19,8 +18,6 @@ ABOVE = 0.30
 """Height of the grip over the handle from which it begins to descend [m]."""
 GRIPPED = 0.02
 """Fingers that stand further open than closed by this have something between them [rad]."""
-MIN_LOAD = 15.0
-"""Something hangs in the jaw when the wrist carries more than this [N]."""
 PRESSED = 2.0
 """Least torque of their drive while they press [N m]."""
 
@@ -31,12 +28,12 @@ class Task:
     def __init__(
         self,
         craft: Craft,
-        perception: Perception,
-        box: BoxSpec,
+        perception: ObjectPerception,
+        model: GraspModel,
         parameters: Mapping[str, float | str],
         say_status: Callable[[str], None],
     ) -> None:
-        self.craft, self.perception, self.box = craft, perception, box
+        self.craft, self.perception, self.model = craft, perception, model
         self.say_status = say_status
         """Publishes on ``algorithmStatus``."""
         self.target = Target()
@@ -55,7 +52,7 @@ class Task:
         self.attempts = int(number["attempts"])
         self.lift, self.settle, self.hold = number["lift"], number["settle"], number["hold"]
         self.descent = number["descent"]
-        self._tolerance = number["tolerance"]
+        self._tolerance, self._min_load = number["tolerance"], number["min_load"]
 
     @property
     def elapsed(self) -> float:
@@ -69,15 +66,15 @@ class Task:
 
     @property
     def grip(self) -> Array:
-        """Where the target's handle is, (3,) [m]."""
+        """The point of the target that the jaw takes, (3,) [m]."""
         assert self.target.pose is not None
-        return self.box.grip(self.target.pose)
+        return self.model.grip(self.target.pose)
 
     @property
     def closes(self) -> float:
-        """Heading of the axis across the handle, modulo half a turn [rad]."""
+        """The heading of the axis along which the jaw closes, modulo half a turn [rad]."""
         assert self.target.pose is not None
-        return half_turn(self.target.pose.heading)
+        return self.model.closes(self.target.pose)
 
     @property
     def holds_something(self) -> bool:
@@ -88,7 +85,7 @@ class Task:
     def carries_something(self) -> bool:
         """Whether the wrist carries a weight; taken for true where it has no sensor."""
         load = self.craft.load
-        return load is None or load > MIN_LOAD
+        return load is None or load > self._min_load
 
     def is_target_lost(self, patience: float) -> bool:
         """Whether the target was not seen for longer than this [s]; the reason is noted."""
