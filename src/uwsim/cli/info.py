@@ -166,7 +166,9 @@ def _below(surfaces: Sequence[Fields]) -> str:
 
 
 def _joint(joint: Fields) -> str:
-    limits = f"{joint['lower']:g} to {joint['upper']:g} {joint['unit']}"
+    limits = "no end stops"
+    if joint["lower"] is not None:
+        limits = f"{joint['lower']:g} to {joint['upper']:g} {joint['unit']}"
     return f"{joint['name']}: {joint['kind']}, {limits}" + (
         f", follows {joint['mimics']}" if joint["mimics"] else ""
     )

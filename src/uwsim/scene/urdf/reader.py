@@ -1,11 +1,12 @@
 """Reads a robot file (URDF) into a `RobotSpec`, or reports every error.
 
 UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
-names, and the movable joints in that order are the joint vector; limits hold for continuous joints
-too, and a ``<limit>`` without bounds means 0 to 0; without one a joint goes from -pi to pi,
-prismatic ones included. Its ``effort`` and ``velocity``, which UWSim passes over, limit the joints
-of simulated vehicles. Of a link all ``<visual>`` and ``<collision>`` elements count, where UWSim
-took the first. A material is meant by its name wherever it is defined, as in URDF.
+names, and the movable joints in that order are the joint vector. A ``<limit>`` without bounds means
+0 to 0; without one a joint goes from -pi to pi, prismatic ones included. A continuous joint has no
+end stops; bounds of less than a turn hold for it as in the original. ``effort`` and ``velocity`` of
+a ``<limit>``, which UWSim passes over, limit the joints of simulated vehicles. Of a link all
+``<visual>`` and ``<collision>`` elements count, where UWSim took the first. A material is meant by
+its name wherever it is defined, as in URDF.
 
 What a plug-in or another program wrote into the file (``<gazebo>``, ``<transmission>``, ...) is
 passed over, as the original does. Not read: safety controllers, textures.
