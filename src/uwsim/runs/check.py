@@ -228,9 +228,27 @@ class _Folders:
 
         return doubtful_size(name, scale, named_by=named_by, data_path=self._data_path)
 
-    def searched(self, named_by: Path) -> str:
-        """Return the folders that were searched, those that exist."""
-        from ..assets import folders_searched
+    def place_remark(self, name: str, named_by: Path) -> str:
+        """Return that a file is found elsewhere than its name states, with the place."""
+        from ..assets import place_remark
 
-        folders = folders_searched(named_by=named_by, data_path=self._data_path)
-        return ", ".join(str(folder) for folder in folders if folder.is_dir())
+        path = self.find(name, named_by)
+        return place_remark(name, path, named_by=named_by, data_path=self._data_path)
+
+    def model_place_remark(self, name: str, named_by: Path) -> str:
+        """Return that a model is found elsewhere than its name states, with the place."""
+        from ..assets import model_place_remark
+
+        return model_place_remark(name, named_by=named_by, data_path=self._data_path)
+
+    def package_remark(self, name: str, named_by: Path) -> str:
+        """Return that the package of a name is not found, or where it is."""
+        from ..assets import package_remark
+
+        return package_remark(name, named_by=named_by, data_path=self._data_path)
+
+    def searched(self, name: str, named_by: Path) -> str:
+        """Return that the package of a name is not found, else the folders that were searched."""
+        from ..assets import searched_for
+
+        return searched_for(name, named_by=named_by, data_path=self._data_path)

@@ -134,9 +134,11 @@ def check_robot(
             if why := library.unreadable(name, path):
                 diagnostics.error(shape, why)
             elif not library.has_model(name, path):
-                diagnostics.warning(
-                    shape, f"there is no model {name!r}, nor a stand-in: a labelled box"
-                )
+                remark = library.package_remark(name, path)
+                message = f"there is no model {name!r}, nor a stand-in: a labelled box"
+                diagnostics.warning(shape, f"{message}; {remark}" if remark else message)
+            elif remark := library.model_place_remark(name, path):
+                diagnostics.warning(shape, remark)
             elif why := library.doubtful_size(name, shape.scale, path):
                 diagnostics.warning(shape, why)
     return diagnostics.all()
@@ -164,18 +166,20 @@ def _robots(
                 diagnostics.error(vehicle, str(error))
                 continue
             if path is None:
-                searched = library.searched(document.path)
+                searched = library.searched(vehicle.file, document.path)
                 name = vehicle.file.strip().rpartition("/")[2]
                 near = diagnostics.near(name, library.bundled_robots())
                 diagnostics.error(
                     vehicle,
                     f"robot file {vehicle.file!r} is nowhere, and no bundled robot is called "
-                    f"so.{near} Searched: {searched}",
+                    f"so.{near} {searched[0].upper()}{searched[1:]}",
                 )
                 continue
             if library.find(vehicle.file, document.path) is None:
                 what = f"robot file {vehicle.file!r} is nowhere; the bundled {path.name} is used"
                 diagnostics.warning(vehicle, what)
+            elif remark := library.place_remark(vehicle.file, document.path):
+                diagnostics.warning(vehicle, remark)
             found += check_robot(path, library=library, data_path=data_path)
             with suppress(SceneError):
                 by_file[vehicle.file] = read_urdf(path, data_path=data_path)
