@@ -6,6 +6,7 @@ that a file names; nothing is run.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,11 +29,13 @@ def diagnostics_of(
     data_path: tuple[Path, ...] = (),
     scene: Path | None = None,
     own: tuple[tuple[Plugin, ...], Tables] | None = None,
+    arguments: Mapping[str, str] | None = None,
 ) -> list[Diagnostic]:
     """Return everything wrong or worth knowing about a file; its root element says its kind.
 
     A benchmark is checked with ``scene``, or with the scene that it names; it may use
-    what plugins have brought (``own``: they, and the tables with what they add).
+    what plugins have brought (``own``: they, and the tables with what they add). ``arguments``
+    are values of xacro arguments, by name.
     """
     from ..scene.reader import ROOT, check_robot, check_scene
     from ..schema import parse, shown_tag
@@ -44,10 +47,10 @@ def diagnostics_of(
     root = str(node.tag)
     library = _Folders(data_path)
     if root == "robot":
-        return check_robot(file, library=library, data_path=data_path)
+        return check_robot(file, library=library, data_path=data_path, arguments=arguments)
     if root == "benchmark":
         plugins, tables = own or read_plugins(())
-        return _of_benchmark(file, strict, scene, data_path, plugins, tables)
+        return _of_benchmark(file, strict, scene, data_path, plugins, tables, arguments)
     if root == ROOT:
         return check_scene(
             file,
@@ -56,6 +59,7 @@ def diagnostics_of(
             further=partial(_of_simulated, data_path=data_path),
             settled=partial(_settled, data_path=data_path),
             data_path=data_path,
+            arguments=arguments,
         )
     if root == "hydrodynamics":
         return _of_hydrodynamics_file(file)
@@ -117,6 +121,7 @@ def _of_benchmark(
     data_path: tuple[Path, ...],
     plugins: tuple[Plugin, ...],
     tables: Tables,
+    arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
     """Return everything wrong or worth knowing about a benchmark and about plugins in it."""
     from ..benchmark.plugin import attribute_errors_to
@@ -133,7 +138,9 @@ def _of_benchmark(
             )
             if spec is not None:
                 is_whole = not any(diagnostic.severity == "error" for diagnostic in found)
-                found += _unknown_names(spec, scene, data_path, tables, is_whole)
+                found += _unknown_names(
+                    spec, scene, data_path, tables, arguments, is_whole=is_whole
+                )
     except PluginError as error:
         return list(error.diagnostics)
     return sorted(found, key=lambda each: (each.line is None, each.line or 0))
@@ -144,6 +151,8 @@ def _unknown_names(
     scene: Path | None,
     data_path: tuple[Path, ...],
     tables: Tables,
+    arguments: Mapping[str, str] | None,
+    *,
     is_whole: bool,
 ) -> list[Diagnostic]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
@@ -167,7 +176,7 @@ def _unknown_names(
     try:
         named_by = file if scene is None else None
         path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
-        spec = read_scene(path, data_path=data_path)
+        spec = read_scene(path, data_path=data_path, arguments=arguments)
         simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:

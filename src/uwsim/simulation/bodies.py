@@ -90,8 +90,13 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
         AssetNotFound: a file is nowhere; names every folder searched.
         SceneError: a file is wrong.
     """
+    arguments = dict(scene.expansion.arguments)
     return {
-        index: read_urdf(find_robot(vehicle.file, scene.path, data_path), data_path=data_path)
+        index: read_urdf(
+            find_robot(vehicle.file, scene.path, data_path),
+            data_path=data_path,
+            arguments=arguments,
+        )
         for index, vehicle in enumerate(scene.vehicles)
     }
 

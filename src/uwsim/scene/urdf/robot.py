@@ -17,11 +17,11 @@ from __future__ import annotations
 
 import math
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 from ...geometry import ZERO, Triple
-from ...schema import Spec
+from ...schema import Expansion, Spec
 
 Colour = tuple[float, float, float, float]
 
@@ -163,6 +163,8 @@ class RobotSpec(Spec):
     """Depth first, children in the alphabetical order of their joints' names."""
     path: str = ""
     """The file it was read from."""
+    expansion: Expansion = field(default=Expansion(), compare=False)
+    """What is known of its xacro."""
 
     @property
     def movable(self) -> tuple[JointSpec, ...]:
