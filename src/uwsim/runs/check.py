@@ -6,7 +6,7 @@ that a file names; nothing is run.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,6 +20,10 @@ if TYPE_CHECKING:
     from ..benchmark.plugin_tables import Tables
     from ..benchmark.spec import BenchmarkSpec
     from ..scene.spec import SceneSpec
+
+
+MAX_MACROS = 12
+"""Macros of a library that are listed."""
 
 
 def diagnostics_of(
@@ -39,6 +43,7 @@ def diagnostics_of(
     """
     from ..scene.reader import ROOT, check_robot, check_scene
     from ..schema import parse, shown_tag
+    from ..xacro import macros_alone
 
     try:
         node = parse(file).root
@@ -46,6 +51,8 @@ def diagnostics_of(
         return list(error.diagnostics)
     root = str(node.tag)
     library = _Folders(data_path)
+    if macros := macros_alone(node):
+        return _of_library(file, macros, data_path, arguments)
     if root == "robot":
         return check_robot(file, library=library, data_path=data_path, arguments=arguments)
     if root == "benchmark":
@@ -70,6 +77,28 @@ def diagnostics_of(
     if root.startswith("{") and node.prefix is None:
         message += "; xmlns=... puts all elements in a namespace: write xmlns:u=..."
     return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=message)]
+
+
+def _of_library(
+    file: Path,
+    macros: Sequence[str],
+    data_path: tuple[Path, ...],
+    arguments: Mapping[str, str] | None,
+) -> list[Diagnostic]:
+    """State that a file is a library of xacro macros; with the errors of its expansion."""
+    from ..xacro import parse_expanded
+
+    try:
+        document = parse_expanded(file, data_path=data_path, arguments=arguments)
+    except FileError as error:
+        return list(error.diagnostics)
+    listed = ", ".join(macros[:MAX_MACROS]) + (", ..." if len(macros) > MAX_MACROS else "")
+    message = (
+        f"a library of xacro macros: {listed}. It has nothing to simulate by itself; check a file "
+        "that includes it and calls them"
+    )
+    whole = Diagnostic(file=str(file), line=None, message=message, severity="warning")
+    return [*document.expansion.warnings, whole]
 
 
 def _of_hydrodynamics_file(file: Path) -> list[Diagnostic]:

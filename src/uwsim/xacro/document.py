@@ -83,6 +83,23 @@ class _NamedFiles:
         return place_remark(name, path, named_by=named_by, data_path=self._data_path)
 
 
+def macros_alone(root: etree._Element) -> tuple[str, ...]:
+    """Return the names of the macros of a library; empty for a file that has other elements.
+
+    A library consists of macros, properties, arguments and includes, and has a macro.
+    """
+    children = [child for child in root if isinstance(child.tag, str)]
+    names = {"macro", "property", "arg", "include"}
+    if not all(namespace_of(each) in XACRO and local(each) in names for each in children):
+        return ()
+    return tuple(str(each.get("name")) for each in children if local(each) == "macro")
+
+
+def local(node: etree._Element) -> str:
+    """Return the name of an element without its namespace."""
+    return etree.QName(node).localname
+
+
 def _is_to_expand(document: Document) -> bool:
     """Whether a file is xacro, by its name or a declared namespace, or includes another."""
     return (

@@ -17,9 +17,8 @@ def power(base: Value, exponent: Value) -> int | float:
     assert isinstance(base, int | float)
     assert isinstance(exponent, int | float)
     if isinstance(base, int) and isinstance(exponent, int) and abs(base) <= 64 >= exponent >= 0:
-        whole: int = base**exponent
-        return whole
-    result = float(base) ** float(exponent)
+        return int(base**exponent)
+    result: float | complex = float(base) ** float(exponent)
     if isinstance(result, complex):
         raise ExpressionError(f"{base}**{exponent} is no real number")
     return result
