@@ -42,7 +42,7 @@ def load(
         seed: of every random stream, and of what varies in the scene (``<u:vary>``).
         timestep: length of a physics step [s].
         settings: values of the scene to change, as ``--set`` names them:
-            ``{"oceanState.fog.density": 0.4}``.
+            ``{"oceanState.fog.density": 0.4}``; ``{"xacro.depth": 3}`` is a xacro argument.
         data_path: more folders in which files are looked for.
         udp_address: of this computer, at which vehicles with ``<fdm>`` take UDP packets, for
             example ``127.0.0.1``; without it they take none, and the run can be repeated.
@@ -52,12 +52,14 @@ def load(
     """
     from .assets.bundled import scene_file
     from .scene.reader import read_scene
-    from .scene.settings import apply_setting
+    from .scene.settings import apply_setting, xacro_arguments
     from .simulation import Simulation
 
     folders = tuple(Path(folder) for folder in data_path)
     if isinstance(scene, str | Path):
-        scene = read_scene(scene_file(str(scene), folders), data_path=folders)
+        arguments = xacro_arguments((settings or {}).items())
+        path_of_scene = scene_file(str(scene), folders)
+        scene = read_scene(path_of_scene, data_path=folders, arguments=arguments)
     for path, value in (settings or {}).items():
         scene = apply_setting(scene, path, str(value))
     return Simulation(

@@ -100,7 +100,8 @@ def test_folders_are_listed_once_each_in_order(tmp_path: Path) -> None:
     scene = tmp_path / "deep" / "a.xml"
     folders = folders_searched(named_by=scene, data_path=(tmp_path,))
     assert len(folders) == len(set(folders))
-    assert folders[0] == Path()
+    assert folders[0] == scene.parent
+    assert Path() in folders
     assert folders.index(scene.parent) < folders.index(tmp_path)
     assert (tmp_path / "data/scenes") in folders
 

@@ -293,3 +293,31 @@ def test_a_wrong_namespace_names_the_right_one(
     file.write_text(text)
     assert status(str(file)) == 2
     assert expected in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("root", ["robot", "UWSimScene", "library", "root"])
+@pytest.mark.parametrize("extra", ["", '<xacro:property name="a" value="1"/><xacro:arg name="b"/>'])
+def test_a_library_of_macros_is_stated_to_be_one(
+    root: str, extra: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "parts.xacro"
+    macros = "".join(f'<xacro:macro name="{name}"><link/></xacro:macro>' for name in ("fin", "pod"))
+    xmlns = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    file.write_text(f"<{root} {xmlns}><!-- parts -->{extra}{macros}</{root}>")
+    assert status(str(file)) == 0
+    said = capsys.readouterr().out
+    assert "warning: a library of xacro macros: fin, pod. It has nothing to simulate" in said
+    file.write_text(f'<robot {xmlns}>{macros}<link name="a"/></robot>')
+    assert status(str(file)) == 0
+    assert "library of xacro" not in capsys.readouterr().out
+
+
+def test_a_library_with_an_error_has_that_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "parts.xacro"
+    xmlns = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    macro = '<xacro:macro name="fin"/>\n<xacro:include filename="no.xacro"/>'
+    file.write_text(f"<robot {xmlns}>{macro}</robot>")
+    assert status(str(file)) == 2
+    assert "parts.xacro:2: the file 'no.xacro' is nowhere" in capsys.readouterr().out

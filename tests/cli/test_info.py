@@ -30,7 +30,7 @@ def test_a_scene_is_reported_before_anything_is_written_for_it(
         "terrain 3.295 m down, at (3, 1.5, 4.81) m",
         "thrusters: surge_port, surge_starboard, heave_bow, heave_stern, sway",
         "joint Elbow: continuous, 0 to 2.15294 rad",
-        "joint JawRotate: continuous, -3.14159 to 3.14159 rad",
+        "joint JawRotate: revolute, -3.14159 to 3.14159 rad",
         "640x480 px, 50° high, noise 0.02",
         "publishes at 10 Hz  sensor_msgs/msg/Image",
         "listens             geometry_msgs/msg/TwistStamped",

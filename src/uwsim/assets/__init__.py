@@ -13,6 +13,7 @@ from ..errors import AssetError, AssetNotFound, did_you_mean
 from ..files.input_files import is_inside
 from .find import (
     UNDER,
+    above,
     bundled_robot,
     bundled_robots,
     candidates,
@@ -24,7 +25,9 @@ from .find import (
 from .loaders import BY_OSGCONV, READABLE, can_read, read_model
 from .mesh import Mesh, Model, Texture
 from .model_cache import made
+from .packages import OURS, PREFIXES, environment_folders, package_folders, package_of
 from .paint import painted
+from .places import may_be_elsewhere, package_remark, place_remark, searched_for
 from .primitives import primitive
 from .stand_ins import STAND_INS, StandIn
 
@@ -41,8 +44,12 @@ __all__ = [
     "folders_searched",
     "has_model",
     "load_model",
+    "model_place_remark",
+    "package_remark",
     "painted",
+    "place_remark",
     "primitive",
+    "searched_for",
     "unknown_model",
     "why_unreadable",
 ]
@@ -68,19 +75,23 @@ def load_model(
         AssetError: The file was found and cannot be read.
     """
     path = _path_of(name, named_by, data_path)
-    name = plain_name(name)
-    stem = _stem(name)
+    given, name = name, plain_name(name)
     if path is not None:
-        above = roots(named_by=named_by or path, data_path=data_path)
-        own = max(above, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
+        if (in_package := package_of(given)) is not None and in_package[0] != OURS:
+            name = "/".join(in_package)
+        places = [*roots(named_by=named_by or path, data_path=data_path), *environment_folders()]
+        own = max(places, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
         within = (own.absolute(), *data_path)
         return read_model(path, name=name, max_triangles=max_triangles, within=within)
-    stand_in = _stand_in_name(stem)
+    stand_in = _stand_in_of(given, named_by, data_path)
     if stand_in is not None:
         return made(stand_in)
+    remark = package_remark(given, named_by=named_by, data_path=data_path)
     raise AssetNotFound(
         f"There is no file {name!r}, nor a stand-in of that name."
-        f"{did_you_mean(stem.removeprefix('data/'), STAND_INS)} Searched, in order: "
+        f"{did_you_mean(_stem(name).removeprefix('data/'), STAND_INS)} "
+        + (f"{remark[0].upper()}{remark[1:]}. " if remark else "")
+        + "Searched, in order: "
         + ", ".join(str(root) for root in roots(named_by=named_by, data_path=data_path))
         + f"; each also under {', '.join(UNDER[1:])}."
     )
@@ -89,7 +100,20 @@ def load_model(
 def has_model(name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> bool:
     """Whether `load_model` finds a file or a stand-in."""
     is_there = _path_of(name, named_by, data_path) is not None
-    return is_there or _stand_in_name(_stem(plain_name(name))) is not None
+    return is_there or _stand_in_of(name, named_by, data_path) is not None
+
+
+def model_place_remark(
+    name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
+) -> str:
+    """Say that the file of a model was found elsewhere than its name states; empty if not."""
+    if not may_be_elsewhere(name):
+        return ""
+    try:
+        path = _path_of(name, named_by, data_path)
+    except AssetError:
+        return ""
+    return place_remark(name, path, named_by=named_by, data_path=data_path)
 
 
 def why_unreadable(
@@ -107,10 +131,16 @@ def why_unreadable(
 
 def _path_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> Path | None:
     """The file of a model: of its name or its stem, one that can be read if there is any."""
-    name = plain_name(name)
-    names = [name, *(_stem(name) + suffix for suffix in (*READABLE, *BY_OSGCONV))]
-    found = list(candidates(names, named_by=named_by, data_path=data_path))
-    return next((path for path in found if can_read(path)), next(iter(found), None))
+    in_package, plain = package_of(name), plain_name(name)
+    prefix = "" if in_package is None else f"{PREFIXES[0]}{in_package[0]}/"
+    stems = (_stem(plain) + suffix for suffix in (*READABLE, *BY_OSGCONV))
+    names = [prefix + plain, *(prefix + stem for stem in stems)]
+    first = None
+    for path in candidates(names, named_by=named_by, data_path=data_path):
+        if can_read(path):
+            return path
+        first = first or path
+    return first
 
 
 def _stem(name: str) -> str:
@@ -128,6 +158,16 @@ def unknown_model(name: str) -> Model:
         source="labelled box",
         sha256=hashlib.sha256(f"labelled box {label}".encode()).hexdigest(),
     )
+
+
+def _stand_in_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> str | None:
+    """The stand-in for a name; a package that is there has its own files alone."""
+    in_package = package_of(name)
+    if in_package is not None and in_package[0] != OURS:
+        folders = package_folders(in_package[0], above(named_by), data_path)
+        if next(folders, None) is not None:
+            return None
+    return _stand_in_name(_stem(plain_name(name)))
 
 
 def _stand_in_name(stem: str) -> str | None:

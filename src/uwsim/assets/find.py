@@ -1,11 +1,16 @@
 """Search of files in an ordered list of folders.
 
-A name is looked for as given; next to the file that names it and in each of that file's parent
-folders, but the home folder and what is above it; in every data path; in ``~/.uwsim/data`` and
+A name is looked for next to the file that names it and in each of that file's parent folders, but
+the home folder and what is above it; as given; in every data path; in ``~/.uwsim/data`` and
 ``~/.uwsim``; in the package. Each of these also under ``data``, ``data/scenes``, ``data/vehicles``,
 ``objects``, ``terrain``, ``robot`` and ``textures``. Before the package the name is looked for
 without its first folders, too, next to the file that names it and in every data path: what
 ``data/scenes/x.urdf`` names lies next to its scene, wherever that was copied to.
+
+``package://NAME/PATH`` is the file PATH of the package NAME (`packages`). Where there is no such
+package, and for the package ``uwsim``, PATH is looked for as above. An absolute path of another
+computer is looked for by its last parts: the last alone next to the file and in the data paths, two
+or more of them wherever a name is.
 
 What a file names lies under one of these folders, links followed: a path that leads elsewhere is an
 error, wherever it leads.
@@ -14,10 +19,11 @@ error, wherever it leads.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 
 from ..errors import AssetError
 from ..files.input_files import is_inside
+from .packages import OURS, environment_folders, package_folders, package_of
 
 UNDER = ("", "data", "data/scenes", "data/vehicles", "objects", "terrain", "robot", "textures")
 """Sub-folders that every folder is searched under."""
@@ -31,12 +37,13 @@ PACKAGE = Path(__file__).resolve().parent.parent
 
 def plain_name(name: str) -> str:
     """The name without blanks and without ``file://`` or ``package://PACKAGE/``."""
-    name = name.strip()
-    if name.startswith("file://"):
-        return name.removeprefix("file://")
-    if name.startswith("package://"):
-        return name.removeprefix("package://").partition("/")[2]
-    return name
+    in_package = package_of(name)
+    return name.strip().removeprefix("file://") if in_package is None else in_package[1]
+
+
+def is_absolute(name: str) -> bool:
+    """Whether a name without ``file://`` is an absolute path, of this or another system."""
+    return name.startswith(("/", "~")) or bool(PureWindowsPath(name).drive)
 
 
 def roots(*, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> list[Path]:
@@ -46,14 +53,19 @@ def roots(*, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> 
         named_by: The file that names the file, or its folder.
         data_path: Folders the user gave.
     """
-    folders = [Path()]
-    if named_by is not None:
-        start = named_by.absolute()
-        start = start if start.is_dir() else start.parent
-        folders += [start, *(above for above in start.parents if not _holds_homes(above))]
+    folders = [*above(named_by), Path()]
     home = Path("~/.uwsim").expanduser()
     folders += [*data_path, home / "data", home, PACKAGE]
     return list(dict.fromkeys(folders))
+
+
+def above(named_by: Path | None) -> list[Path]:
+    """The folder of a file, and those above it that are searched, from the inside."""
+    if named_by is None:
+        return []
+    start = named_by.absolute()
+    start = start if start.is_dir() else start.parent
+    return [start, *(folder for folder in start.parents if not _holds_homes(folder))]
 
 
 def folders_searched(
@@ -102,9 +114,10 @@ def candidates(
     Raises:
         AssetError: the only ones lie elsewhere, and a file (``named_by``) names them.
     """
-    allowed = roots(named_by=named_by, data_path=data_path)
+    searched = roots(named_by=named_by, data_path=data_path)
+    allowed = [*searched, *environment_folders()]
     elsewhere, found = "", False
-    for name, path in _paths(names, allowed, _near(named_by, data_path)):
+    for name, path in _places(names, searched, named_by, data_path):
         if named_by is None or is_inside(path, allowed):
             found = True
             yield path
@@ -118,6 +131,23 @@ def candidates(
         )
 
 
+def _places(
+    names: Sequence[str], roots: Sequence[Path], named_by: Path | None, data_path: tuple[Path, ...]
+) -> Iterator[tuple[str, Path]]:
+    """Name and path of every file there is: in its package, else in the folders."""
+    in_package = package_of(names[0]) if names else None
+    is_package = False
+    if in_package is not None:
+        tails = [(name, package_of(name)) for name in names]
+        for folder in package_folders(in_package[0], above(named_by), data_path):
+            is_package = True
+            files = ((name, folder / tail[1]) for name, tail in tails if tail is not None)
+            yield from ((name, path) for name, path in files if _is(path, Path.is_file))
+        if is_package and in_package[0] != OURS:
+            return
+    yield from _paths(names, roots, _near(named_by, data_path), is_named=named_by is not None)
+
+
 def _near(named_by: Path | None, data_path: tuple[Path, ...]) -> list[Path]:
     """The folders in which a name is looked for without its first folders."""
     if named_by is None:
@@ -126,9 +156,9 @@ def _near(named_by: Path | None, data_path: tuple[Path, ...]) -> list[Path]:
 
 
 def _paths(
-    names: Sequence[str], roots: Sequence[Path], near: Sequence[Path]
+    names: Sequence[str], roots: Sequence[Path], near: Sequence[Path], *, is_named: bool
 ) -> Iterator[tuple[str, Path]]:
-    """Name and path of every file there is."""
+    """Name and path of every file there is; ``is_named`` in a file, not by the user."""
     own = len(roots) - (roots[-1] == PACKAGE)  # where a bundled file names it, it is found there
     groups = {"own": roots[:own], "near": near, "package": roots[own:]}
     present: dict[tuple[str, Path], list[Path]] = {}  # by the folder within the name: where it is
@@ -142,9 +172,13 @@ def _paths(
                 yield place / name.name
 
     for name in names:
-        wanted = Path(plain_name(name)).expanduser()
-        if wanted.is_absolute():
-            yield from ((name, path) for path in [wanted] if _is(path, Path.is_file))
+        plain = plain_name(name)
+        wanted = Path(plain).expanduser()
+        if is_absolute(plain):
+            is_here = _is(wanted, Path.is_file)
+            yield from ((name, path) for path in [wanted] if is_here)
+            if is_named and not is_here:
+                yield from ((name, path) for tail in _tails(plain) for path in files(*tail))
             continue
         yield from ((name, path) for path in files(wanted, "own"))
         if ".." not in wanted.parts:
@@ -152,6 +186,15 @@ def _paths(
                 tail = Path(*wanted.parts[n:])
                 yield from ((name, path) for path in files(tail, "near"))
         yield from ((name, path) for path in files(wanted, "package"))
+
+
+def _tails(name: str) -> list[tuple[Path, str]]:
+    """The last parts of an absolute path, the most first, and the folders for each."""
+    parts = [part for part in name.replace("\\", "/").split("/")[1:] if part]
+    if not parts or ".." in parts:
+        return []
+    longer = [(Path(*parts[n:]), "own") for n in range(len(parts) - 1)]
+    return [*longer, (Path(parts[-1]), "near")]
 
 
 def _is(path: Path, kind: Callable[[Path], bool]) -> bool:

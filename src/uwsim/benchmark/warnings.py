@@ -107,7 +107,7 @@ def arm_warnings(
                     f"({', '.join(joint.name for joint in joints)}); the rest is not used",
                 )
             for joint, value, at in zip(joints, given, place.iterfind("joint"), strict=False):
-                held = min(max(value, joint.lower), joint.upper)
+                held = joint.clamped(value)
                 if held != value:
                     message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
                     diagnostics.warning(at, message)

@@ -11,14 +11,22 @@ from typing import Annotated
 import typer
 
 from ..assets.bundled import bundled
-from ..errors import Diagnostic
+from ..errors import AllErrors, Diagnostic
 from ..runs.check import diagnostics_of
+from ..runs.planning.option_values import pairs_of
 from ..runs.tables import read_plugins
+from ..scene.settings import xacro_arguments
 from ..terminal import printable
 from .exit_status import WRONG_INPUT
 from .options.completion import checked_names, scene_names
 from .options.help_texts import INPUT, in_group
-from .options.options import DataPathOption, JsonOption, PluginOption
+from .options.options import (
+    DataPathOption,
+    JsonOption,
+    PluginOption,
+    XacroOption,
+    xacro_settings,
+)
 
 
 def check(
@@ -44,6 +52,7 @@ def check(
         bool,
         in_group(INPUT, "--strict", help="Also compare files with the original's order."),
     ] = False,
+    xacro: XacroOption = None,
     as_json: JsonOption = False,
     plugin: PluginOption = None,
     data_path: DataPathOption = None,
@@ -58,10 +67,13 @@ def check(
     """
     folders = tuple(data_path or ())
     own = read_plugins(plugin)
+    arguments = xacro_arguments(pairs_of(xacro_settings(xacro), AllErrors()))
     named = [bundled_or(file) for file in files]
     scene = None if scene is None else bundled_or(scene)
     found = {
-        str(file): diagnostics_of(file, strict=strict, data_path=folders, scene=scene, own=own)
+        str(file): diagnostics_of(
+            file, strict=strict, data_path=folders, scene=scene, own=own, arguments=arguments
+        )
         for file in [*named, *([scene] if scene is not None and scene not in named else [])]
     }
     n_errors = sum(

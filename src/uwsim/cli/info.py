@@ -16,7 +16,14 @@ from ..errors import AllErrors
 from ..runs.check import diagnostics_of
 from ..runs.planning.option_values import pairs_of
 from ..terminal import printable
-from .options.options import DataPathOption, JsonOption, SceneArgument, SetOption
+from .options.options import (
+    DataPathOption,
+    JsonOption,
+    SceneArgument,
+    SetOption,
+    XacroOption,
+    xacro_settings,
+)
 from .output.console import standard_output
 
 DRAG_LAWS = {
@@ -36,6 +43,7 @@ Fields = Mapping[str, Any]
 def info(
     scene: SceneArgument,
     settings: SetOption = None,
+    xacro: XacroOption = None,
     as_json: JsonOption = False,
     data_path: DataPathOption = None,
 ) -> None:
@@ -46,21 +54,25 @@ def info(
     are listed last.
     """
     from ..scene.reader import read_scene
-    from ..scene.settings import apply_setting
+    from ..scene.settings import apply_setting, xacro_arguments
     from ..simulation import Simulation
     from .output.inventory import inventory
 
     folders = tuple(data_path or ())
     path = scene_file(scene, folders)
     wrong = AllErrors()
-    spec = read_scene(path, data_path=folders)
-    for name, value in pairs_of(settings or [], wrong):
+    pairs = pairs_of([*(settings or ()), *xacro_settings(xacro)], wrong)
+    arguments = xacro_arguments(pairs)
+    spec = read_scene(path, data_path=folders, arguments=arguments)
+    for name, value in pairs:
         with wrong.kept():
             spec = apply_setting(spec, name, value)
     wrong.check()
     simulation = Simulation(spec.nominal, data_path=folders, is_blind=True, runs_code=False)
     try:
-        found = inventory(spec, simulation, diagnostics_of(path, data_path=folders))
+        found = inventory(
+            spec, simulation, diagnostics_of(path, data_path=folders, arguments=arguments)
+        )
     finally:
         simulation.close()
     if as_json:
@@ -166,7 +178,9 @@ def _below(surfaces: Sequence[Fields]) -> str:
 
 
 def _joint(joint: Fields) -> str:
-    limits = f"{joint['lower']:g} to {joint['upper']:g} {joint['unit']}"
+    limits = "no end stops"
+    if joint["lower"] is not None:
+        limits = f"{joint['lower']:g} to {joint['upper']:g} {joint['unit']}"
     return f"{joint['name']}: {joint['kind']}, {limits}" + (
         f", follows {joint['mimics']}" if joint["mimics"] else ""
     )

@@ -125,10 +125,10 @@ def render(
     with wrong.kept():
         if output.out.suffix.lower() != ".png":
             raise BadSetting(f"-o {output.out}: only .png images are written.")
-    spec = scene_of(scene, folders, changes.settings or (), wrong)
+    spec = scene_of(scene, folders, changes.all_settings, wrong)
     with wrong.kept():
         at = (look.eye, look.at)
-        wanted = Wanted.of(look.camera, look.view, *at, output.size, changes.settings or ())
+        wanted = Wanted.of(look.camera, look.view, *at, output.size, changes.all_settings)
     with wrong.kept():
         if spec is not None and no_code:
             refuse_code(spec)
@@ -153,12 +153,13 @@ def scene_of(
 ) -> SceneSpec | None:
     """Read the scene and apply every ``--set``; None, and what is wrong is kept, if it fails."""
     from ..scene.reader import read_scene
-    from ..scene.settings import apply_setting
+    from ..scene.settings import apply_setting, xacro_arguments
 
-    spec = None
+    spec, pairs = None, pairs_of(settings, wrong)
     with wrong.kept():
-        spec = read_scene(scene_file(scene, folders), data_path=folders)
-    for name, value in pairs_of(settings, wrong):
+        path = scene_file(scene, folders)
+        spec = read_scene(path, data_path=folders, arguments=xacro_arguments(pairs))
+    for name, value in pairs:
         with wrong.kept():
             spec = None if spec is None else apply_setting(spec, name, value)
     return spec

@@ -177,7 +177,7 @@ def wanted_of(
     from ..recording import check_path, image_storage
 
     duration, program, images = 0.0, None, image_storage("raw")
-    own = [each for each in changes.settings or () if each.startswith(OF_ALGORITHM)]
+    own = [each for each in changes.all_settings if each.startswith(OF_ALGORITHM)]
     connections.check(wrong)
     with wrong.kept():
         is_endless = what.duration is None and (connections.is_connected or is_viewed)
@@ -202,7 +202,7 @@ def wanted_of(
 
 def settings_of_scene(changes: SettingOptions) -> list[str]:
     """Return the settings that are not of the program."""
-    return [each for each in changes.settings or () if not each.startswith(OF_ALGORITHM)]
+    return [each for each in changes.all_settings if not each.startswith(OF_ALGORITHM)]
 
 
 def duration_of(text: str) -> float:

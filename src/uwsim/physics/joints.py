@@ -23,8 +23,6 @@ bind them as well, and cost a solver at every step."""
 BEYOND, BEYOND_TURN = 0.02, 0.1
 """How far beyond its limits a joint that slides [m] or turns [rad] has its stops while a servo
 holds it, so that one that comes to a limit does not hit them."""
-NOWHERE = 1e6
-"""As far are those of one that turns and turns while a servo holds it [rad]."""
 ROTOR = 0.1
 """Inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2]."""
 
@@ -38,7 +36,7 @@ def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: b
         type=mujoco.mjtJoint.mjJNT_SLIDE if is_slide else mujoco.mjtJoint.mjJNT_HINGE,
         axis=list(joint.axis),
         range=[low, high],
-        limited=is_driven and joint.mimic is None and low < high,
+        limited=is_driven and joint.mimic is None and joint.has_stops and low < high,
         armature=ROTOR / _lever(joint) ** 2 if is_driven else 0.0,
         damping=[joint.damping if is_driven else 0.0, 0.0, 0.0],  # the first of a joint of one
         frictionloss=joint.friction if is_driven else 0.0,
@@ -47,10 +45,13 @@ def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: b
 
 
 def stops(joint: JointSpec, *, is_held: bool) -> tuple[float, float]:
-    """Where a joint stops, whatever pushes it; ``is_held`` by a servo [rad or m]."""
+    """Where a joint stops, whatever pushes it; ``is_held`` by a servo [rad or m].
+
+    A joint without end stops has 0 to 0, which the engine does not use.
+    """
+    if not joint.has_stops:
+        return 0.0, 0.0
     beyond = BEYOND if joint.kind == "prismatic" else BEYOND_TURN
-    if joint.kind == "continuous" and joint.upper - joint.lower >= 2.0 * math.pi:
-        beyond = NOWHERE
     if not is_held:
         beyond = 0.0
     return joint.lower - beyond, joint.upper + beyond

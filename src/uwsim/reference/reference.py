@@ -21,10 +21,11 @@ Run `uwsim --install-completion` once; then Tab completes commands, options, and
 scenes, benchmarks and algorithms; `python -m uwsim` is the same command. With `--json`, `list`,
 `info`, `check` and `compare` print JSON for programs.
 
-A file is searched as given; next to the file that names it and in each of its parent folders; in
+A file is searched next to the file that names it and in each of its parent folders; as given; in
 every `--data-path`; in `~/.uwsim/data` and `~/.uwsim`; in the package; in each of these also under
-`data`, `data/scenes`, `objects`, `terrain`, `robot` and `textures`. Bundled scenes and benchmarks
-are called by their bare name.
+`data`, `data/scenes`, `objects`, `terrain`, `robot` and `textures`. Packages of ROS are found by
+[their names](assets.md#packages-of-ros), also in a workspace. Bundled scenes and benchmarks are
+called by their bare name.
 
 A PATH in `--set PATH=VALUE` is element names joined by dots; `[name]` selects one of several
 elements: `vehicle[girona500].virtualCamera[bowtech1].std=0.016`.

@@ -6,6 +6,7 @@ that a file names; nothing is run.
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +22,10 @@ if TYPE_CHECKING:
     from ..scene.spec import SceneSpec
 
 
+MAX_MACROS = 12
+"""Macros of a library that are listed."""
+
+
 def diagnostics_of(
     file: Path,
     *,
@@ -28,14 +33,17 @@ def diagnostics_of(
     data_path: tuple[Path, ...] = (),
     scene: Path | None = None,
     own: tuple[tuple[Plugin, ...], Tables] | None = None,
+    arguments: Mapping[str, str] | None = None,
 ) -> list[Diagnostic]:
     """Return everything wrong or worth knowing about a file; its root element says its kind.
 
     A benchmark is checked with ``scene``, or with the scene that it names; it may use
-    what plugins have brought (``own``: they, and the tables with what they add).
+    what plugins have brought (``own``: they, and the tables with what they add). ``arguments``
+    are values of xacro arguments, by name.
     """
     from ..scene.reader import ROOT, check_robot, check_scene
     from ..schema import parse, shown_tag
+    from ..xacro import macros_alone
 
     try:
         node = parse(file).root
@@ -43,11 +51,13 @@ def diagnostics_of(
         return list(error.diagnostics)
     root = str(node.tag)
     library = _Folders(data_path)
+    if macros := macros_alone(node):
+        return _of_library(file, macros, data_path, arguments)
     if root == "robot":
-        return check_robot(file, library=library, data_path=data_path)
+        return check_robot(file, library=library, data_path=data_path, arguments=arguments)
     if root == "benchmark":
         plugins, tables = own or read_plugins(())
-        return _of_benchmark(file, strict, scene, data_path, plugins, tables)
+        return _of_benchmark(file, strict, scene, data_path, plugins, tables, arguments)
     if root == ROOT:
         return check_scene(
             file,
@@ -56,6 +66,7 @@ def diagnostics_of(
             further=partial(_of_simulated, data_path=data_path),
             settled=partial(_settled, data_path=data_path),
             data_path=data_path,
+            arguments=arguments,
         )
     if root == "hydrodynamics":
         return _of_hydrodynamics_file(file)
@@ -66,6 +77,28 @@ def diagnostics_of(
     if root.startswith("{") and node.prefix is None:
         message += "; xmlns=... puts all elements in a namespace: write xmlns:u=..."
     return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=message)]
+
+
+def _of_library(
+    file: Path,
+    macros: Sequence[str],
+    data_path: tuple[Path, ...],
+    arguments: Mapping[str, str] | None,
+) -> list[Diagnostic]:
+    """State that a file is a library of xacro macros; with the errors of its expansion."""
+    from ..xacro import parse_expanded
+
+    try:
+        document = parse_expanded(file, data_path=data_path, arguments=arguments)
+    except FileError as error:
+        return list(error.diagnostics)
+    listed = ", ".join(macros[:MAX_MACROS]) + (", ..." if len(macros) > MAX_MACROS else "")
+    message = (
+        f"a library of xacro macros: {listed}. It has nothing to simulate by itself; check a file "
+        "that includes it and calls them"
+    )
+    whole = Diagnostic(file=str(file), line=None, message=message, severity="warning")
+    return [*document.expansion.warnings, whole]
 
 
 def _of_hydrodynamics_file(file: Path) -> list[Diagnostic]:
@@ -117,6 +150,7 @@ def _of_benchmark(
     data_path: tuple[Path, ...],
     plugins: tuple[Plugin, ...],
     tables: Tables,
+    arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
     """Return everything wrong or worth knowing about a benchmark and about plugins in it."""
     from ..benchmark.plugin import attribute_errors_to
@@ -133,7 +167,9 @@ def _of_benchmark(
             )
             if spec is not None:
                 is_whole = not any(diagnostic.severity == "error" for diagnostic in found)
-                found += _unknown_names(spec, scene, data_path, tables, is_whole)
+                found += _unknown_names(
+                    spec, scene, data_path, tables, arguments, is_whole=is_whole
+                )
     except PluginError as error:
         return list(error.diagnostics)
     return sorted(found, key=lambda each: (each.line is None, each.line or 0))
@@ -144,6 +180,8 @@ def _unknown_names(
     scene: Path | None,
     data_path: tuple[Path, ...],
     tables: Tables,
+    arguments: Mapping[str, str] | None,
+    *,
     is_whole: bool,
 ) -> list[Diagnostic]:
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
@@ -167,7 +205,7 @@ def _unknown_names(
     try:
         named_by = file if scene is None else None
         path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
-        spec = read_scene(path, data_path=data_path)
+        spec = read_scene(path, data_path=data_path, arguments=arguments)
         simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:
@@ -228,9 +266,27 @@ class _Folders:
 
         return doubtful_size(name, scale, named_by=named_by, data_path=self._data_path)
 
-    def searched(self, named_by: Path) -> str:
-        """Return the folders that were searched, those that exist."""
-        from ..assets import folders_searched
+    def place_remark(self, name: str, named_by: Path) -> str:
+        """Return that a file is found elsewhere than its name states, with the place."""
+        from ..assets import place_remark
 
-        folders = folders_searched(named_by=named_by, data_path=self._data_path)
-        return ", ".join(str(folder) for folder in folders if folder.is_dir())
+        path = self.find(name, named_by)
+        return place_remark(name, path, named_by=named_by, data_path=self._data_path)
+
+    def model_place_remark(self, name: str, named_by: Path) -> str:
+        """Return that a model is found elsewhere than its name states, with the place."""
+        from ..assets import model_place_remark
+
+        return model_place_remark(name, named_by=named_by, data_path=self._data_path)
+
+    def package_remark(self, name: str, named_by: Path) -> str:
+        """Return that the package of a name is not found, or where it is."""
+        from ..assets import package_remark
+
+        return package_remark(name, named_by=named_by, data_path=self._data_path)
+
+    def searched(self, name: str, named_by: Path) -> str:
+        """Return that the package of a name is not found, else the folders that were searched."""
+        from ..assets import searched_for
+
+        return searched_for(name, named_by=named_by, data_path=self._data_path)

@@ -6,6 +6,7 @@ today, with a warning; so the specs know only one dialect.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from lxml import etree
@@ -117,6 +118,7 @@ def _wrapper(kept: str = "") -> Rule:
     """
 
     def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
+        _hand_down(node, diagnostics)
         is_first = parent.find(str(node.tag)) is node
         moved = [
             child
@@ -133,6 +135,35 @@ def _wrapper(kept: str = "") -> Rule:
             _remove(node)
 
     return rule
+
+
+def _hand_down(wrapper: etree._Element, diagnostics: Diagnostics) -> None:
+    """Move a name, a topic or a text of a wrapper, as in files of June 2013, into its device.
+
+    Without an element of a device, ``<type>`` says which it is. Of several devices the first has
+    the name; one that has its own keeps it.
+    """
+    own = [child for child in wrapper if child.tag in OF_DEVICES]
+    devices = [
+        child for child in wrapper if isinstance(child.tag, str) and child.tag not in OF_DEVICES
+    ]
+    if not own:
+        return
+    kind = next((_text(child) for child in own if child.tag == "type"), "")
+    if not devices and kind:
+        is_interface = wrapper.tag in ("SimulatedDeviceROS", "SimulatedDevicesROS")
+        name = f"{kind.removesuffix('ROS')}{'ROS' * is_interface}"
+        if NAME_OF_ELEMENT.fullmatch(name):
+            devices = [_new(wrapper, name, line=wrapper.sourceline)]
+    names = ", ".join(f"<{child.tag}>" for child in own)
+    if not devices:
+        diagnostics.error(wrapper, f"{names} in <{wrapper.tag}>, which has no device in it")
+    else:
+        diagnostics.warning(wrapper, f"{names} of <{wrapper.tag}>: read as in <{devices[0].tag}>")
+    for child in own:
+        wrapper.remove(child)
+        if devices and child.tag != "type" and devices[0].find(child.tag) is None:
+            devices[0].append(child)
 
 
 def _stays(child: etree._Element, kept: str) -> bool:
@@ -231,12 +262,31 @@ SINUSOID = {
 }
 """Element of a ``<current>`` -> of a ``<u:uwsimSinusoid>``."""
 
+OF_DEVICES = ("name", "type", "info", "topic", "rate")
+"""Elements that files of June 2013 have in a wrapper and not in the device in it."""
+NAME_OF_ELEMENT = re.compile(r"[A-Za-z]\w{0,40}")
+
 ANYWHERE: dict[str, Rule] = {
     "includesFixedAndMimic": _drop("had no effect"),
 }
 """Obsolete element, whatever its parent -> its conversion."""
 
+FORKS: dict[tuple[str, str], Rule] = {
+    ("camera", "oculus"): _drop("is of a fork with head-mounted displays"),
+    ("camera", "windshield"): _drop("is of a fork with head-mounted displays"),
+    ("rosInterfaces", "ObjectPickedToROS"): _drop("is of a fork of 2013 and not simulated"),
+    ("oceanState", "reflection"): _drop("is of usv_sim, a fork for surface vessels"),
+    ("simParams", "groundTruth"): _drop("is of usv_sim, a fork for surface vessels"),
+    ("rosInterfaces", "OceanSurfaceToROSOceanVehicle"): _drop(
+        "is of usv_sim, a fork for surface vessels, and not simulated"
+    ),
+    ("vehicle", "vehiclePhysics"): _drop("is of a fork with devices of its own; not simulated"),
+    ("vehicle", "vehicleMass"): _drop("is of a fork with devices of its own; not simulated"),
+}
+"""(parent, element) of forks of UWSim -> what to do with it."""
+
 RULES: dict[tuple[str, str], Rule] = {
+    **FORKS,
     ("ROSOdomToPAT", "visualize"): _visualize,
     ("oceanState", "current"): _current,
     ("simParams", "disableTextures"): _drop("was an option of UWSim's first years"),

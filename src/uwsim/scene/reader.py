@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from pathlib import Path
 
-from ..errors import AssetError, Diagnostic, SceneError
-from ..schema import Diagnostics, Document, check_head, read
+from ..errors import AssetError, Diagnostic, SceneError, choices
+from ..schema import Diagnostics, Document, check_head, diagnostic_at, read
 from ..xacro import parse_expanded
 from .checks.angles import check_angles
 from .checks.looks import check_looks
@@ -27,15 +27,26 @@ ROOT = "UWSimScene"
 """Name of the root element."""
 
 
-def read_scene(path: Path | str, *, data_path: tuple[Path, ...] = ()) -> SceneSpec:
-    """Read a scene file; what it includes is looked for in the folders of ``data_path``, too.
+def read_scene(
+    path: Path | str,
+    *,
+    data_path: tuple[Path, ...] = (),
+    arguments: Mapping[str, str] | None = None,
+) -> SceneSpec:
+    """Read a scene file.
+
+    Args:
+        path: the file.
+        data_path: further folders in which included files are looked for.
+        arguments: values of xacro arguments of the scene and its robots, by name.
 
     Raises:
         SceneError: with every error of the file.
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
-    scene = read_document(parse_expanded(path, error=SceneError, data_path=data_path), diagnostics)
+    document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
+    scene = read_document(document, diagnostics)
     diagnostics.check(SceneError)
     assert scene is not None
     return scene
@@ -54,7 +65,11 @@ def read_document(document: Document, diagnostics: Diagnostics) -> SceneSpec | N
         SceneSpec,
         document.root,
         diagnostics,
-        given={"path": str(document.path), "is_original": document.has_doctype},
+        given={
+            "path": str(document.path),
+            "is_original": document.has_doctype,
+            "expansion": document.expansion,
+        },
     )
     if scene is not None:
         check_sizes(scene, diagnostics)
@@ -70,6 +85,7 @@ def check_scene(
     further: Callable[[SceneSpec], list[Diagnostic]] | None = None,
     settled: Callable[[SceneSpec], SceneSpec] | None = None,
     data_path: tuple[Path, ...] = (),
+    arguments: Mapping[str, str] | None = None,
 ) -> list[Diagnostic]:
     """Return the errors and warnings of a scene file and the robots it names.
 
@@ -80,10 +96,11 @@ def check_scene(
         further: finds what only other rooms can know, in a scene without errors.
         settled: puts what stands on the floor there, as far as that can be done.
         data_path: further folders in which included files are looked for.
+        arguments: values of xacro arguments of the scene and its robots, by name.
     """
     diagnostics = Diagnostics(path, strict=strict)
     try:
-        document = parse_expanded(path, error=SceneError, data_path=data_path)
+        document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
     except SceneError as error:
         return list(error.diagnostics)
     scene = read_document(document, diagnostics)
@@ -102,9 +119,25 @@ def check_scene(
         if library is not None:
             check_models(scene, document, library, diagnostics)
         not_simulated(document.root, diagnostics)
+        others += unused_arguments(scene, robots.values())
         if further is not None and not diagnostics.any:
             others += further(scene)
-    return [*diagnostics.all(), *others]
+    return [*document.expansion.warnings, *diagnostics.all(), *others]
+
+
+def unused_arguments(scene: SceneSpec, robots: Iterable[RobotSpec]) -> list[Diagnostic]:
+    """Warn of each xacro argument from outside that no file of a scene has."""
+    known = [*scene.expansion.declared, *(n for robot in robots for n in robot.expansion.declared)]
+    return [
+        diagnostic_at(
+            scene,
+            f"no <xacro:arg> is called {name[:60]!r}, so that its value has no effect."
+            f"{choices(name, sorted(set(known)), called='Arguments')}",
+            severity="warning",
+        )
+        for name, _ in scene.expansion.arguments
+        if name not in known
+    ]
 
 
 def scene_warnings(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Diagnostic]:
@@ -117,16 +150,25 @@ def scene_warnings(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Di
     diagnostics = Diagnostics(scene.path or "the scene")
     check_left_out(scene, robots, diagnostics)
     check_angles(scene, diagnostics)
-    return [each for each in diagnostics.all() if each.severity == "warning"]
+    expanded = [scene.expansion, *(robot.expansion for robot in robots.values())]
+    return [
+        *dict.fromkeys(warning for each in expanded for warning in each.warnings),
+        *(each for each in diagnostics.all() if each.severity == "warning"),
+        *unused_arguments(scene, robots.values()),
+    ]
 
 
 def check_robot(
-    path: Path, *, library: Library | None = None, data_path: tuple[Path, ...] = ()
+    path: Path,
+    *,
+    library: Library | None = None,
+    data_path: tuple[Path, ...] = (),
+    arguments: Mapping[str, str] | None = None,
 ) -> list[Diagnostic]:
     """Return the errors and warnings of a robot file."""
     diagnostics = Diagnostics(path)
     try:
-        robot = read_robot(path, diagnostics, data_path)
+        robot = read_robot(path, diagnostics, data_path, arguments)
     except SceneError as error:
         return list(error.diagnostics)
     if robot is not None and library is not None:
@@ -134,12 +176,15 @@ def check_robot(
             if why := library.unreadable(name, path):
                 diagnostics.error(shape, why)
             elif not library.has_model(name, path):
-                diagnostics.warning(
-                    shape, f"there is no model {name!r}, nor a stand-in: a labelled box"
-                )
+                remark = library.package_remark(name, path)
+                message = f"there is no model {name!r}, nor a stand-in: a labelled box"
+                diagnostics.warning(shape, f"{message}; {remark}" if remark else message)
+            elif remark := library.model_place_remark(name, path):
+                diagnostics.warning(shape, remark)
             elif why := library.doubtful_size(name, shape.scale, path):
                 diagnostics.warning(shape, why)
-    return diagnostics.all()
+    warnings = () if robot is None else robot.expansion.warnings
+    return [*warnings, *diagnostics.all()]
 
 
 def _robots(
@@ -155,6 +200,7 @@ def _robots(
     if library is None:
         return robots, found
     by_file: dict[str, RobotSpec | None] = {}
+    arguments = dict(document.expansion.arguments)
     for index, vehicle in enumerate(scene.vehicles):
         if vehicle.file not in by_file and len(by_file) < MAX_FILES:
             by_file[vehicle.file] = None
@@ -164,21 +210,23 @@ def _robots(
                 diagnostics.error(vehicle, str(error))
                 continue
             if path is None:
-                searched = library.searched(document.path)
+                searched = library.searched(vehicle.file, document.path)
                 name = vehicle.file.strip().rpartition("/")[2]
                 near = diagnostics.near(name, library.bundled_robots())
                 diagnostics.error(
                     vehicle,
                     f"robot file {vehicle.file!r} is nowhere, and no bundled robot is called "
-                    f"so.{near} Searched: {searched}",
+                    f"so.{near} {searched[0].upper()}{searched[1:]}",
                 )
                 continue
             if library.find(vehicle.file, document.path) is None:
                 what = f"robot file {vehicle.file!r} is nowhere; the bundled {path.name} is used"
                 diagnostics.warning(vehicle, what)
-            found += check_robot(path, library=library, data_path=data_path)
+            elif remark := library.place_remark(vehicle.file, document.path):
+                diagnostics.warning(vehicle, remark)
+            found += check_robot(path, library=library, data_path=data_path, arguments=arguments)
             with suppress(SceneError):
-                by_file[vehicle.file] = read_urdf(path, data_path=data_path)
+                by_file[vehicle.file] = read_urdf(path, data_path=data_path, arguments=arguments)
         if (robot := by_file.get(vehicle.file)) is not None:
             robots[index] = robot
     return robots, found

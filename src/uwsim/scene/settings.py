@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import dataclasses
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
@@ -21,6 +21,8 @@ from .. import schema
 from ..errors import BadSetting, UnknownName, did_you_mean
 
 T = TypeVar("T")
+OF_XACRO = "xacro."
+"""Beginning of the settings that are xacro arguments, which hold when the file is read."""
 _PART = re.compile(r"([^\[\].=]+)(?:\[([^\]]*)\])?(?:\.|$)")
 
 
@@ -98,14 +100,26 @@ class Step:
         return dataclasses.replace(self.spec, **{self.field: inner})
 
 
+def xacro_arguments(settings: Iterable[tuple[str, object]]) -> dict[str, str]:
+    """Return the xacro arguments among settings: ``xacro.depth`` is the argument ``depth``."""
+    return {
+        name.removeprefix(OF_XACRO): str(value)
+        for name, value in settings
+        if name.startswith(OF_XACRO)
+    }
+
+
 def apply_setting(spec: T, path: str, value: str) -> T:
     """Return a copy of ``spec`` in which the value that ``path`` leads to is ``value``.
 
     Variations (``u:vary``) of that value, of a part of it or of something around it are dropped.
+    A xacro argument (`xacro_arguments`) changes nothing here.
 
     Raises:
         BadSetting: a path that leads nowhere or a value that cannot stand there; names what can.
     """
+    if path.startswith(OF_XACRO):
+        return spec
     try:
         place = locate(spec, path)
         changed = place.with_value(value)

@@ -28,7 +28,7 @@ from ..devices.comms.comms_channels import AcousticCommsChannelSpec, CustomComms
 from ..errors import BadSetting
 from ..geodesy import Geodetic
 from ..geometry import Pose
-from ..schema import REQUIRED, Original, Spec, element
+from ..schema import REQUIRED, Expansion, Original, Spec, element
 from ..topics import INTERFACES, InterfaceSpec
 from .object import ObjectSpec, PhysicsSpec
 from .ocean_state import OceanStateSpec
@@ -109,6 +109,11 @@ class SceneSpec(Spec):
     """The file it was read from."""
     is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})
     """Whether it names the original's DTD: models that are nowhere are then labelled boxes."""
+
+    expansion: Expansion = dataclasses.field(
+        default=Expansion(), compare=False, metadata={"path": True}
+    )
+    """What is known of its xacro: the arguments from outside hold for its robots, too."""
 
     @property
     def nominal(self) -> SceneSpec:

@@ -31,7 +31,7 @@ Elements may be in any order. Names without a namespace are those of the origina
 
 from .declaration import REQUIRED, Limits, Original, element
 from .diagnostics import MAX_DIAGNOSTICS, Diagnostics, diagnostic_at
-from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, check_head, parse
+from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, Expansion, check_head, parse
 from .grammar import (
     MAX_DISTANCE,
     MAX_NUMBER,
@@ -60,6 +60,7 @@ __all__ = [
     "TOKENS",
     "Diagnostics",
     "Document",
+    "Expansion",
     "Field",
     "Limits",
     "Numbers",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from ..errors import AssetError, FileError
+from ..errors import AssetError, Diagnostic, FileError
 from ..files.input_files import read_bytes
 from .diagnostics import Diagnostics
 from .names import NAMESPACE, shown_tag
@@ -34,6 +34,18 @@ STRAY = {
 _NICKNAME = re.compile(r"latin-?1", re.I)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Expansion:
+    """What is known of the xacro of a file, when it is expanded."""
+
+    arguments: tuple[tuple[str, str], ...] = ()
+    """Name and value of the arguments from outside, sorted by name."""
+    declared: tuple[str, ...] = ()
+    """Names of the arguments that the file and what it includes have, sorted."""
+    warnings: tuple[Diagnostic, ...] = ()
+    """Files that were found elsewhere than their names state."""
+
+
 @dataclass(frozen=True, eq=False)
 class Document:
     """A well-formed file."""
@@ -44,6 +56,8 @@ class Document:
     """Its root element."""
     has_doctype: bool
     """Whether it names a DTD (which is never loaded)."""
+    expansion: Expansion = Expansion()
+    """What is known of its xacro."""
 
 
 def parse(path: Path, *, error: type[FileError] = FileError) -> Document:

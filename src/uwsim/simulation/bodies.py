@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..assets import bundled_robot, find, folders_searched
+from ..assets import bundled_robot, find, folders_searched, package_remark
 from ..errors import AssetNotFound, UnknownName, UwsimError
 from ..geometry import Pose
 from ..numerics.linear import placed, product
@@ -49,9 +49,11 @@ def find_file(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
     folder = Path(named_by).parent if named_by else None
     path = find(name, named_by=folder, data_path=data_path)
     if path is None:
+        remark = package_remark(name, named_by=folder, data_path=data_path)
         searched = folders_searched(named_by=folder, data_path=data_path)
         folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
-        raise AssetNotFound(f"{name!r} is in none of the folders searched: {folders}.", name=name)
+        why = f"not found; {remark}" if remark else f"in none of the folders searched: {folders}"
+        raise AssetNotFound(f"{name!r} is {why}.", name=name)
     return path
 
 
@@ -88,8 +90,13 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
         AssetNotFound: a file is nowhere; names every folder searched.
         SceneError: a file is wrong.
     """
+    arguments = dict(scene.expansion.arguments)
     return {
-        index: read_urdf(find_robot(vehicle.file, scene.path, data_path), data_path=data_path)
+        index: read_urdf(
+            find_robot(vehicle.file, scene.path, data_path),
+            data_path=data_path,
+            arguments=arguments,
+        )
         for index, vehicle in enumerate(scene.vehicles)
     }
 

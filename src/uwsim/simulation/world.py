@@ -26,6 +26,7 @@ from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
 from .bodies import SceneBody, find_body, name_bodies, read_robots
+from .checks.place_warnings import place_warnings
 from .checks.plausibility import plausibility_warnings
 from .collision.collision_shapes import simulated_shapes
 from .collision.contacts import Contacts
@@ -138,7 +139,8 @@ class SceneWorld:
         implausible = plausibility_warnings(
             scene, self.robots, self.dynamics, self._data_path, self.timestep
         )
-        return (*scene_warnings(scene, self.robots), *implausible)
+        places = place_warnings(scene, self.robots, self._data_path)
+        return (*places, *scene_warnings(scene, self.robots), *implausible)
 
     @property
     def bus(self) -> Bus:

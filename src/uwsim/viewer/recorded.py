@@ -16,7 +16,7 @@ from ..results.result import Result
 from ..results.result_file import load
 from ..runs.planning.make_plan import OF_ALGORITHM
 from ..scene.reader import read_scene
-from ..scene.settings import apply_setting
+from ..scene.settings import apply_setting, xacro_arguments
 from ..scene.spec import SceneSpec
 from ..tracks import MotionTrack, TrackLevel, load_track
 from ..verify.recorded_plan import (
@@ -155,7 +155,8 @@ def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> Scene
         typed += [str(file.parent / name) for name in scene_named_by(file)]
     named = named_input(result, "scene")
     path = find_input("scene", named, overrides.scene, directory, overrides, typed)
-    scene = read_scene(path)
+    arguments = xacro_arguments(result.run.settings or ())
+    scene = read_scene(path, data_path=overrides.data_path, arguments=arguments)
     for name, value in result.run.settings or ():
         if not name.startswith(OF_ALGORITHM):
             with suppress(UwsimError):  # it was right when it was run: it is of an updater

@@ -2,52 +2,102 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from lxml import etree
 
 from ..errors import AssetError, FileError
-from ..schema import Document, parse
-from .expander import XACRO, XINCLUDE, Expander, namespace_of
-from .expression import ExpressionError
+from ..schema import Document, Expansion, parse
+from .expander import XACRO, XINCLUDE, Expander, NotFound, namespace_of
+from .value import ExpressionError
 
 SUFFIX = ".xacro"
 
 
 def parse_expanded(
-    path: Path, *, error: type[FileError] = FileError, data_path: tuple[Path, ...] = ()
+    path: Path,
+    *,
+    error: type[FileError] = FileError,
+    data_path: tuple[Path, ...] = (),
+    arguments: Mapping[str, str] | None = None,
 ) -> Document:
     """Read a file as XML, with its xacro and includes expanded.
 
     What is included is looked for as every file that a scene names, and under the same folders.
 
+    Args:
+        path: the file.
+        error: what is raised.
+        data_path: further folders in which files are looked for.
+        arguments: values of ``<xacro:arg>`` in place of their defaults, by name.
+
     Raises:
         FileError: (or the ``error`` asked for) a file cannot be read, or is wrong.
     """
     document = parse(path, error=error)
+    given = tuple(sorted((arguments or {}).items()))
     if not _is_to_expand(document):
-        return document
-
-    def include(name: str, file: Path) -> tuple[Path, etree._Element] | str:
-        from ..assets.find import find, folders_searched
-
-        try:
-            found = find(name, named_by=file, data_path=data_path)
-        except AssetError as outside:
-            raise ExpressionError(str(outside)) from None
-        if found is None:
-            folders = folders_searched(named_by=file, data_path=data_path)
-            return ", ".join(str(folder) for folder in folders if folder.is_dir())
-        return found, parse(found, error=error).root
-
-    expander = Expander(path, include)
+        return replace(document, expansion=Expansion(arguments=given))
+    expander = Expander(path, _NamedFiles(error, data_path), dict(given))
     try:
         expander.expand(document.root)
     except RecursionError:
         expander.error(document.root, "calls, includes and elements are nested too deeply")
     expander.check(error)
     _merge_interfaces(document.root)
-    return document
+    expansion = Expansion(
+        arguments=given, declared=tuple(sorted(expander.declared)), warnings=expander.warnings
+    )
+    return replace(document, expansion=expansion)
+
+
+class _NamedFiles:
+    """The files that a document names, in the folders that `uwsim.assets` searches."""
+
+    def __init__(self, error: type[FileError], data_path: tuple[Path, ...]) -> None:
+        self._error, self._data_path = error, data_path
+
+    def find(self, name: str, named_by: Path) -> Path:
+        """Find a file; raises NotFound, or ExpressionError where it may not be read."""
+        from ..assets import find, searched_for
+
+        try:
+            found = find(name, named_by=named_by, data_path=self._data_path)
+        except AssetError as outside:
+            raise ExpressionError(str(outside)) from None
+        if found is None:
+            why = searched_for(name, named_by=named_by, data_path=self._data_path)
+            raise NotFound(f"the file {name[:200]!r} is nowhere; {why}")
+        return found
+
+    def parse(self, path: Path) -> etree._Element:
+        """Read an included file; returns its root element."""
+        return parse(path, error=self._error).root
+
+    def place_remark(self, name: str, path: Path, named_by: Path) -> str:
+        """Say that a file was found elsewhere than its name states; empty if it is there."""
+        from ..assets import place_remark
+
+        return place_remark(name, path, named_by=named_by, data_path=self._data_path)
+
+
+def macros_alone(root: etree._Element) -> tuple[str, ...]:
+    """Return the names of the macros of a library; empty for a file that has other elements.
+
+    A library consists of macros, properties, arguments and includes, and has a macro.
+    """
+    children = [child for child in root if isinstance(child.tag, str)]
+    names = {"macro", "property", "arg", "include"}
+    if not all(namespace_of(each) in XACRO and local(each) in names for each in children):
+        return ()
+    return tuple(str(each.get("name")) for each in children if local(each) == "macro")
+
+
+def local(node: etree._Element) -> str:
+    """Return the name of an element without its namespace."""
+    return etree.QName(node).localname
 
 
 def _is_to_expand(document: Document) -> bool:

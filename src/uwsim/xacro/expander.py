@@ -7,19 +7,21 @@ errors of the expanded document are at lines of the file that the user wrote.
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import cast
+from typing import Protocol, cast
 
 from lxml import etree
 
-from ..errors import FileError, choices
+from ..errors import Diagnostic, FileError, choices
 from ..schema import MAX_NODES, Diagnostics
-from .expression import ExpressionError, written
+from .functions import FUNCTIONS
 from .macro import Macro, parameters_of
 from .scope import Scope, literal_of
-from .substitution import substituted
+from .substitution import argument, substituted
+from .value import ExpressionError, Value, written
+from .yaml_file import read_yaml
 
 XACRO = frozenset(
     f"http://{host}"
@@ -31,8 +33,23 @@ MAX_DEPTH = 60
 """Deepest nesting of calls and includes."""
 MAX_FILES = 100
 """Most files that are included."""
-Include = Callable[[str, Path], tuple[Path, etree._Element] | str]
-"""Name and naming file -> the included file and its root; the folders searched if it is nowhere."""
+
+
+class NotFound(ExpressionError):
+    """A file that is nowhere."""
+
+
+class Files(Protocol):
+    """The files that a document names."""
+
+    def find(self, name: str, named_by: Path) -> Path:
+        """Find a file; raises NotFound, or ExpressionError where it may not be read."""
+
+    def parse(self, path: Path) -> etree._Element:
+        """Read an included file; returns its root element."""
+
+    def place_remark(self, name: str, path: Path, named_by: Path) -> str:
+        """Say that a file was found elsewhere than its name states; empty if it is there."""
 
 
 def namespace_of(node: etree._Element) -> str:
@@ -54,15 +71,17 @@ class Expander:
 
     Args:
         path: its file.
-        include: finds and reads the files that it includes.
+        files: finds and reads the files that it names.
+        arguments: values of ``<xacro:arg>`` from outside, by name.
     """
 
-    def __init__(self, path: Path, include: Include) -> None:
-        self._include = include
-        self._path = path
+    def __init__(self, path: Path, files: Files, arguments: Mapping[str, str]) -> None:
+        self._path, self._files = path, files
         self._diagnostics: dict[str, Diagnostics] = {}
         self._macros: dict[str, Macro] = {}
-        self._arguments: dict[str, str] = {}
+        self._arguments = dict(arguments)
+        self.declared: set[str] = set()
+        """Names of all ``<xacro:arg>``."""
         self._n_nodes = self._n_files = 0
         self._depth = 0
         self._file = path
@@ -71,21 +90,35 @@ class Expander:
 
     def expand(self, root: etree._Element) -> None:
         """Expand the document in place."""
-        scope = Scope(None, self._substituted)
+        functions = {
+            **FUNCTIONS,
+            **dict.fromkeys(("xacro.load_yaml", "load_yaml"), self._yaml),
+            "xacro.arg": lambda name: literal_of(argument(name, self._arguments)),
+        }
+        scope = Scope(None, self._substituted, functions)
+        root[:] = self._expanded(list(root), scope)
         self._attributes(root, root, scope)
         self._text(root, root, scope)
-        root[:] = self._expanded(list(root), scope)
 
     def check(self, error: type[FileError]) -> None:
         """Raise ``error`` with the errors of all files, if there are any."""
         found = [each for file in self._diagnostics.values() for each in file.all()]
-        if found:
-            raise error(found)
+        if wrong := [each for each in found if each.severity == "error"]:
+            raise error(wrong)
+
+    @property
+    def warnings(self) -> tuple[Diagnostic, ...]:
+        """The warnings of all files."""
+        found = (each for file in self._diagnostics.values() for each in file.all())
+        return tuple(each for each in found if each.severity == "warning")
 
     def error(self, node: etree._Element, message: str) -> None:
         """Add an error at an element of the file that is being expanded."""
+        self._of_file().error(node, message)
+
+    def _of_file(self) -> Diagnostics:
         name = str(self._file)
-        self._diagnostics.setdefault(name, Diagnostics(name)).error(node, message)
+        return self._diagnostics.setdefault(name, Diagnostics(name))
 
     def _expanded(self, nodes: Sequence[etree._Element], scope: Scope) -> Iterator[etree._Element]:
         """Give what the nodes stand for."""
@@ -107,7 +140,7 @@ class Expander:
     def _one(self, node: etree._Element, scope: Scope) -> Iterator[etree._Element]:
         namespace, name = namespace_of(node), etree.QName(node).localname
         if namespace in XINCLUDE:
-            yield from self._included(node, "href", scope)
+            yield from self._included(node, "href", scope, keeps_root=True)
         elif namespace not in XACRO:
             yield self._plain(node, scope)
         elif name in ("if", "unless"):
@@ -116,8 +149,8 @@ class Expander:
         elif name == "property":
             self._property(node, scope)
         elif name == "arg":
-            default = node.get("default")
-            if default is not None:
+            self.declared.add(needed(node, "name"))
+            if (default := node.get("default")) is not None:
                 self._arguments.setdefault(needed(node, "name"), written(scope.text(default)))
         elif name == "macro":
             self._define(node)
@@ -223,21 +256,30 @@ class Expander:
                 yield copy.deepcopy(each)
 
     def _included(
-        self, node: etree._Element, attribute: str, scope: Scope
+        self, node: etree._Element, attribute: str, scope: Scope, *, keeps_root: bool = False
     ) -> Iterator[etree._Element]:
+        """Give the content of a file; of xacro without its root element, whatever its name."""
         name = written(scope.text(needed(node, attribute)))
         self._n_files += 1
         if self._n_files > MAX_FILES:
             raise ExpressionError(f"includes more than {MAX_FILES} files")
-        found = self._include(name, self._file)
-        if isinstance(found, str):
+        try:
+            path = self._files.find(name, self._file)
+        except NotFound:
             if str(node.get("optional", "false")).lower() in ("1", "true"):
                 return
-            raise ExpressionError(f"the file {name[:200]!r} is nowhere; searched: {found}")
-        path, root = found
+            raise
+        root = self._files.parse(path)
+        whole = [root] if keeps_root and not _is_stripped(root) else list(root)
+        if remark := self._files.place_remark(name, path, self._file):
+            self._of_file().warning(node, remark)
         with self._nested(path, self._line_of(node)):
-            made = list(self._expanded(list(root) if _is_stripped(root) else [root], scope))
+            made = list(self._expanded(whole, scope))
         yield from made
+
+    def _yaml(self, name: Value) -> Value:
+        """Return what is in a YAML file."""
+        return read_yaml(self._files.find(written(name), self._file), name=written(name))
 
     @contextmanager
     def _nested(self, file: Path, line: int | None) -> Iterator[None]:

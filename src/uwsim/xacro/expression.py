@@ -1,7 +1,7 @@
-"""Expressions in ``${...}``: Python's arithmetic, comparisons and conditions, and nothing else.
+"""Expressions in ``${...}``: Python's arithmetic, comparisons, conditions, lists and dictionaries.
 
 The text is parsed by Python and the tree is walked here; names are properties and parameters,
-functions are those of `FUNCTIONS`. Anything else of the language is an error.
+functions and methods are those of `functions`. Anything else of the language is an error.
 """
 
 from __future__ import annotations
@@ -10,15 +10,14 @@ import ast
 import math
 import operator
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
-from ..errors import UwsimError, did_you_mean
+from ..errors import did_you_mean
+from .functions import FUNCTIONS, method
+from .value import MAX_LENGTH, ExpressionError, Value, checked, written
 
-Value = int | float | bool | str
-MAX_LENGTH = 4096
-"""Longest expression, and longest text it may give [characters]."""
-MAX_INTEGER = 2**63
+Functions = Mapping[str, Callable[..., Any]]
 CONSTANTS: dict[str, Value] = {
     "pi": math.pi,
     "M_PI": math.pi,
@@ -29,14 +28,7 @@ CONSTANTS: dict[str, Value] = {
     "False": False,
     "true": True,
     "false": False,
-}
-FUNCTIONS: dict[str, Callable[..., Any]] = {
-    **{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
-    **{name: getattr(math, name) for name in ("atan2", "sqrt", "exp", "log", "log10", "hypot")},
-    **{name: getattr(math, name) for name in ("floor", "ceil", "radians", "degrees", "fabs")},
-    **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh", "copysign", "fmod")},
-    **{"abs": abs, "min": min, "max": max, "round": round},
-    **{"int": int, "float": float, "bool": bool, "str": str, "len": len},
+    "None": None,
 }
 BINARY: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -53,13 +45,13 @@ COMPARE: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.LtE: operator.le,
     ast.Gt: operator.gt,
     ast.GtE: operator.ge,
+    ast.In: lambda item, whole: item in whole,
+    ast.NotIn: lambda item, whole: item not in whole,
 }
+MODULES = ("math", "xacro", "python")
+"""Names before a dot that are no property."""
 INTEGER = re.compile(r"[+-]?\d{1,18}")
 REAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
-
-
-class ExpressionError(UwsimError):
-    """An expression that cannot be evaluated."""
 
 
 def literal(text: str) -> Value:
@@ -76,15 +68,13 @@ def literal(text: str) -> Value:
     return text
 
 
-def written(value: Value) -> str:
-    """Return a value as it stands in a file."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return str(value)
-
-
-def evaluate(text: str, look_up: Callable[[str], Value]) -> Value:
+def evaluate(text: str, look_up: Callable[[str], Value], functions: Functions = FUNCTIONS) -> Value:
     """Evaluate an expression.
+
+    Args:
+        text: the expression.
+        look_up: returns the value of a name; raises ExpressionError.
+        functions: the functions that it may call, by their names.
 
     Raises:
         ExpressionError: it is none, or has no value.
@@ -93,108 +83,141 @@ def evaluate(text: str, look_up: Callable[[str], Value]) -> Value:
         raise ExpressionError(f"longer than {MAX_LENGTH} characters")
     try:
         tree = ast.parse(text.strip(), mode="eval")
-        return _value(tree.body, look_up)
+        return Evaluation(look_up, functions).value(tree.body)
     except ExpressionError:
         raise
     except SyntaxError as error:
         raise ExpressionError(f"not an expression: {error.msg}") from None
     except (RecursionError, MemoryError):
         raise ExpressionError("nested too deeply") from None
-    except (ArithmeticError, TypeError, ValueError) as error:
-        raise ExpressionError(str(error)) from None
+    except KeyError as error:
+        raise ExpressionError(f"the dictionary has no {str(error)[:60]}") from None
+    except (ArithmeticError, TypeError, ValueError, IndexError) as error:
+        raise ExpressionError(str(error)[:200]) from None
 
 
-def _value(node: ast.expr, look_up: Callable[[str], Value]) -> Value:
-    """Walk a node; only the kinds below are in the language."""
-    match node:
-        case ast.Constant(value=bool() | int() | float() | str() as value):
-            return _checked(value)
-        case ast.Name(id=name):
-            return look_up(name)
-        case ast.Attribute(value=ast.Name(id="math"), attr=name) if name in CONSTANTS:
-            return CONSTANTS[name]
-        case ast.UnaryOp(op=ast.Not(), operand=operand):
-            return not _value(operand, look_up)
-        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=operand):
-            number = _number(_value(operand, look_up))
-            return -number if isinstance(sign, ast.USub) else number
-        case ast.BinOp(op=ast.Pow(), left=left, right=right):
-            return _power(_number(_value(left, look_up)), _number(_value(right, look_up)))
-        case ast.BinOp(op=operation, left=left, right=right) if type(operation) in BINARY:
-            return _binary(operation, _value(left, look_up), _value(right, look_up))
-        case ast.BoolOp(op=operation, values=parts):
-            wanted = isinstance(operation, ast.Or)
-            result: Value = not wanted
-            for part in parts:
-                result = _value(part, look_up)
-                if bool(result) is wanted:
-                    break
-            return result
-        case ast.Compare(left=left, ops=operations, comparators=others):
-            return _compared(_value(left, look_up), operations, others, look_up)
-        case ast.IfExp(test=test, body=body, orelse=other):
-            return _value(body if _value(test, look_up) else other, look_up)
-        case ast.Call(func=function, args=arguments, keywords=[]):
-            return _call(function, [_value(each, look_up) for each in arguments])
-    raise ExpressionError(f"{ast.unparse(node)[:60]!r} is not in the language of expressions")
+class Evaluation:
+    """The value of an expression's tree; only the kinds of nodes below are in the language.
+
+    Args:
+        look_up: returns the value of a name.
+        functions: functions by their names.
+    """
+
+    def __init__(self, look_up: Callable[[str], Value], functions: Functions) -> None:
+        self._look_up, self._functions = look_up, functions
+
+    def value(self, node: ast.expr) -> Value:
+        """Return the value of a node; raises ExpressionError."""
+        match node:
+            case ast.Constant(value=bool() | int() | float() | str() | None as value):
+                return checked(value)
+            case ast.Name(id=name):
+                return self._look_up(name)
+            case ast.List(elts=items) | ast.Tuple(elts=items):
+                return checked([self.value(item) for item in items])
+            case ast.Subscript(value=whole, slice=place):
+                return _item(self.value(whole), self.value(place))
+            case ast.Attribute(value=ast.Name(id="math"), attr=name) if name in CONSTANTS:
+                return CONSTANTS[name]
+            case ast.Attribute(value=whole, attr=name):
+                return _attribute(self.value(whole), name)
+            case ast.Call():
+                return self._call(node)
+            case ast.IfExp(test=test, body=body, orelse=other):
+                return self.value(body if self.value(test) else other)
+            case ast.BoolOp(op=operation, values=parts):
+                return self._any_or_all(parts, is_any=isinstance(operation, ast.Or))
+            case ast.Compare(left=left, ops=operations, comparators=others):
+                return self._compared(self.value(left), operations, others)
+        return self._arithmetic(node)
+
+    def _arithmetic(self, node: ast.expr) -> Value:
+        match node:
+            case ast.UnaryOp(op=ast.Not(), operand=operand):
+                return not self.value(operand)
+            case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=operand):
+                number = _number(self.value(operand))
+                return -number if isinstance(sign, ast.USub) else number
+            case ast.BinOp(op=ast.Pow(), left=left, right=right):
+                return checked(FUNCTIONS["pow"](self.value(left), self.value(right)))
+            case ast.BinOp(op=operation, left=left, right=right) if type(operation) in BINARY:
+                return _binary(operation, self.value(left), self.value(right))
+        raise ExpressionError(f"{ast.unparse(node)[:60]!r} is not in the language of expressions")
+
+    def _any_or_all(self, parts: Sequence[ast.expr], *, is_any: bool) -> Value:
+        result: Value = not is_any
+        for part in parts:
+            result = self.value(part)
+            if bool(result) is is_any:
+                break
+        return result
+
+    def _compared(
+        self, left: Value, operations: Sequence[ast.cmpop], others: Sequence[ast.expr]
+    ) -> bool:
+        for operation, other in zip(operations, others, strict=True):
+            right = self.value(other)
+            if type(operation) not in COMPARE:
+                raise ExpressionError("'is' is not in the language of expressions; write ==")
+            if not COMPARE[type(operation)](left, right):
+                return False
+            left = right
+        return True
+
+    def _call(self, node: ast.Call) -> Value:
+        arguments = [self.value(each) for each in node.args]
+        named = {each.arg: self.value(each.value) for each in node.keywords if each.arg is not None}
+        if len(named) < len(node.keywords):
+            raise ExpressionError(f"{ast.unparse(node)[:60]!r}: ** is not in the language")
+        name = ast.unparse(node.func).removeprefix("math.")
+        if name in self._functions:
+            if named and name != "dict":
+                raise ExpressionError(f"{name}() takes no named values")
+            return checked(self._functions[name](*arguments, **named))
+        if isinstance(node.func, ast.Attribute) and not named:
+            found = None
+            if not (isinstance(node.func.value, ast.Name) and node.func.value.id in MODULES):
+                found = method(self.value(node.func.value), node.func.attr)
+            if found is not None:
+                return checked(found(*arguments))
+        near = did_you_mean(name, self._functions)
+        raise ExpressionError(f"no function is called {name[:60]!r}.{near}")
 
 
-def _compared(
-    left: Value,
-    operations: list[ast.cmpop],
-    others: list[ast.expr],
-    look_up: Callable[[str], Value],
-) -> bool:
-    for operation, other in zip(operations, others, strict=True):
-        right = _value(other, look_up)
-        if type(operation) not in COMPARE:
-            raise ExpressionError("'in' and 'is' are not in the language of expressions")
-        if not COMPARE[type(operation)](left, right):
-            return False
-        left = right
-    return True
+def _item(whole: Value, place: Value) -> Value:
+    """Return an item of a list by its number, of a dictionary by its key, or a letter of a text."""
+    if isinstance(whole, dict):
+        return checked(whole[place])
+    if not isinstance(whole, list | str):
+        raise ExpressionError(f"{written(whole)[:40]} is neither a list nor a dictionary")
+    if not isinstance(place, int):
+        raise ExpressionError(f"{written(place)[:40]!r} is no number of an item")
+    if not -len(whole) <= place < len(whole):
+        raise ExpressionError(f"there is no item {place}: the list has {len(whole)}")
+    return whole[place]
 
 
-def _call(function: ast.expr, arguments: list[Value]) -> Value:
-    name = function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
-    if isinstance(function, ast.Attribute) and getattr(function.value, "id", "") != "math":
-        name = ast.unparse(function)[:60]
-    if name not in FUNCTIONS:
-        raise ExpressionError(f"no function is called {name!r}.{did_you_mean(name, FUNCTIONS)}")
-    return _checked(FUNCTIONS[name](*arguments))
+def _attribute(whole: Value, name: str) -> Value:
+    """Return an entry of a dictionary, written as ``dictionary.name``."""
+    if not isinstance(whole, dict):
+        raise ExpressionError(f"{written(whole)[:40]} has no entry {name[:40]!r}")
+    if name not in whole:
+        raise ExpressionError(
+            f"the dictionary has no {name[:60]!r}.{did_you_mean(name, map(str, whole))}"
+        )
+    return checked(whole[name])
 
 
 def _binary(operation: ast.operator, left: Value, right: Value) -> Value:
-    if isinstance(left, str) or isinstance(right, str):
-        if not (
-            isinstance(operation, ast.Add) and isinstance(left, str) and isinstance(right, str)
-        ):
-            raise ExpressionError(f"{left!r} and {right!r}: texts can only be added to texts")
-        return _checked(left + right)
-    return _checked(BINARY[type(operation)](left, right))
-
-
-def _power(left: int | float, right: int | float) -> Value:
-    if isinstance(left, int) and isinstance(right, int) and 0 <= right <= 64 and abs(left) <= 64:
-        return _checked(left**right)
-    result = float(left) ** float(right)
-    if isinstance(result, complex):
-        raise ExpressionError(f"{left}**{right} is no real number")
-    return _checked(result)
+    kinds = {type(each) for each in (left, right) if isinstance(each, str | list)}
+    if kinds and not (isinstance(operation, ast.Add) and type(left) is type(right)):
+        what = "lists" if kinds == {list} else "texts"
+        raise ExpressionError(f"{left!r} and {right!r}: {what} can only be added to {what}"[:200])
+    return checked(BINARY[type(operation)](left, right))
 
 
 def _number(value: Value) -> int | float:
-    if isinstance(value, str):
-        raise ExpressionError(f"{value[:40]!r} is not a number")
-    return value
-
-
-def _checked(value: Any) -> Value:
-    """Refuse numbers and texts beyond the limits."""
-    if isinstance(value, str) and len(value) > MAX_LENGTH:
-        raise ExpressionError(f"a text longer than {MAX_LENGTH} characters")
-    if isinstance(value, int) and abs(value) > MAX_INTEGER:
-        return float(value)
-    if not isinstance(value, bool | int | float | str):
-        raise ExpressionError("the result is neither a number nor a text")
+    if not isinstance(value, int | float):
+        raise ExpressionError(f"{written(value)[:40]!r} is not a number")
     return value

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from lxml import etree
 
 from ..errors import did_you_mean
-from .expression import ExpressionError, Value
 from .scope import Scope, literal_of
+from .value import ExpressionError, Value
 
 PARAMETER = re.compile(
     r"(?P<stars>\*{0,2})(?P<name>[A-Za-z_][\w.-]*)"

@@ -7,14 +7,15 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from ..errors import did_you_mean
-from .expression import CONSTANTS, MAX_LENGTH, ExpressionError, Value, evaluate, literal, written
+from .expression import CONSTANTS, Functions, evaluate, literal
+from .value import MAX_LENGTH, ExpressionError, Value, written
 
 if TYPE_CHECKING:
     from lxml import etree
 
 MAX_DEPTH = 60
 """Most properties that may refer to one another in a chain."""
-PART = re.compile(r"\$\$(?=[{(])|\$\{[^{}]*\}|\$\([^()]*\)|\$")
+PART = re.compile(r"\$\$(?=[{(])|\$\{[^{}]*\}|\$\((?:[^()$]|\$\{[^{}]*\}|\([^()]*\))*\)|\$")
 """An escaped dollar, an expression, a substitution, or a dollar that is one."""
 
 
@@ -26,10 +27,13 @@ class Scope:
     Args:
         around: the scope around it.
         substitute: returns the text of ``$(...)``, without its brackets.
+        functions: the functions that expressions may call, by their names.
     """
 
-    def __init__(self, around: Scope | None, substitute: Callable[[str], str]) -> None:
-        self._around, self._substitute = around, substitute
+    def __init__(
+        self, around: Scope | None, substitute: Callable[[str], str], functions: Functions
+    ) -> None:
+        self._around, self._substitute, self._functions = around, substitute, functions
         self._texts: dict[str, str] = {}
         self._values: dict[str, Value] = {}
         self._busy: list[str] = []
@@ -38,7 +42,7 @@ class Scope:
 
     def inner(self) -> Scope:
         """Return a scope within this one."""
-        return Scope(self, self._substitute)
+        return Scope(self, self._substitute, self._functions)
 
     @property
     def around(self) -> Scope:
@@ -119,9 +123,13 @@ class Scope:
 
     def _part(self, part: str) -> Value:
         if part.startswith("${"):
-            return evaluate(part[2:-1], self.value)
+            inner = part[2:-1]
+            if "$(" in inner:  # as in ROS, what is substituted is part of the expression
+                inner = written(self.text(inner))
+            return evaluate(inner, self.value, self._functions)
         if part.startswith("$("):
-            return self._substitute(part[2:-1])
+            inner = part[2:-1]
+            return self._substitute(written(self.text(inner)) if "${" in inner else inner)
         return "$"
 
 

@@ -106,9 +106,10 @@ def test_children_are_walked_in_the_order_of_their_joints_names(tmp_path: Path) 
     assert [link.name for link in robot.links] == ["a", "c", "b"]
 
 
-def test_a_limit_without_bounds_freezes_the_joint(tmp_path: Path) -> None:
-    limit = '<limit effort="1" velocity="1"/>'
-    (slew,) = robot_of('<link name="a"/><link name="b"/>' + joint("s", limit), tmp_path).joints
+@pytest.mark.parametrize("kind", ["revolute", "prismatic"])
+def test_a_limit_without_bounds_freezes_the_joint(kind: str, tmp_path: Path) -> None:
+    given = joint("s", '<limit effort="1" velocity="1"/>', kind=kind)
+    (slew,) = robot_of('<link name="a"/><link name="b"/>' + given, tmp_path).joints
     assert (slew.lower, slew.upper) == (0, 0)
 
 

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ...errors import BadSetting
 from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
 from ...runs.planning.plan_request import PlanRequest
+from ...scene.settings import OF_XACRO
 from .completion import benchmark_names, one_of, scene_names
 from .help_texts import FILES, INPUT, OUTPUT, RUN, in_group
 
@@ -58,6 +61,16 @@ SetOption = Annotated[
         help="Change the scene, an updater or the algorithm, as oceanState.fog.density=0.4, "
         "vehicle[girona500].virtualCamera[bowtech1].std=0.016 or algorithm.kp=0.4; "
         "may be repeated.",
+    ),
+]
+
+XacroOption = Annotated[
+    list[str] | None,
+    in_group(
+        INPUT,
+        "--xacro",
+        metavar="NAME:=VALUE",
+        help="Value of an <xacro:arg> of the scene and its robots; may be repeated.",
     ),
 ]
 
@@ -160,7 +173,13 @@ class SettingOptions:
     """What is changed in the files."""
 
     settings: SetOption = None
+    xacro: XacroOption = None
     compat: CompatOption = None
+
+    @property
+    def all_settings(self) -> list[str]:
+        """Those of ``--set``, and the xacro arguments as settings; raises BadSetting."""
+        return [*(self.settings or ()), *xacro_settings(self.xacro)]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -195,12 +214,23 @@ class CodeOptions:
         return tuple(self.data_path or ())
 
 
+def xacro_settings(words: Sequence[str] | None) -> list[str]:
+    """Return ``NAME:=VALUE`` of ``--xacro`` as settings ``xacro.NAME=VALUE``; raises BadSetting."""
+    settings = []
+    for word in words or ():
+        name, sign, value = word.partition(":=")
+        if not sign or not name.strip():
+            raise BadSetting(f"--xacro {word!r}: expected NAME:=VALUE.")
+        settings.append(f"{OF_XACRO}{name.strip()}={value.strip()}")
+    return settings
+
+
 def request_of(task: TaskOptions, changes: SettingOptions, files: CodeOptions) -> PlanRequest:
     """Return what these options ask for; the rest as it is without options."""
     return PlanRequest(
         benchmark=task.benchmark,
         scene=task.scene,
-        settings=changes.settings or (),
+        settings=changes.all_settings,
         compat=changes.compat or (),
         data_path=files.folders,
         plugins=files.plugin or (),

@@ -151,8 +151,8 @@ def _joint(joint: JointSpec) -> Fields:
     return {
         "name": joint.name,
         "kind": joint.kind,
-        "lower": joint.lower,
-        "upper": joint.upper,
+        "lower": joint.lower if joint.has_stops else None,
+        "upper": joint.upper if joint.has_stops else None,
         "unit": "m" if joint.kind == "prismatic" else "rad",
         "mimics": joint.mimic.joint if joint.mimic is not None else None,
     }

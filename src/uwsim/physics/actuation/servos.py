@@ -80,7 +80,9 @@ class Servos:
 
     def put(self, values: Array) -> None:
         """Set the joints, at rest, and hold them there."""
-        self.aim(dict(enumerate(values.tolist())))
+        leaders = [self._specs[place] for place in self._vector]
+        clamped = (joint.clamped(value) for joint, value in zip(leaders, values, strict=False))
+        self.aim(dict(enumerate(clamped)))
         self._state["target"] = self._state["aim"]
         self._state["integral"] = 0.0
         self._data.qpos[self._records["place"]] = self._state["aim"]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...assets.bundled import benchmark_file, scene_file
 from ...errors import AllErrors, AssetNotFound, BadSetting
+from ...scene.settings import OF_XACRO, xacro_arguments
 from ...schema.source_line import line_of
 from ...terminal import print_warnings
 from ...world import TIMESTEP
@@ -59,8 +60,8 @@ def make_plan(request: PlanRequest) -> Plan:
     inputs: dict[int, bytes] = {}
     with wrong.kept():
         request, inputs = with_stored_pilot(request)
-    read = _read_files(request, wrong)
     pairs = pairs_of(request.settings, wrong)
+    read = _read_files(request, xacro_arguments(pairs), wrong)
     parameters = {
         name.removeprefix(OF_ALGORITHM): number_or_text(value)
         for name, value in pairs
@@ -133,8 +134,8 @@ def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
     return (ALGORITHMS[name],) if name in ALGORITHMS else ()
 
 
-def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
-    """Read plugins, benchmark and scene; collects their errors."""
+def _read_files(request: PlanRequest, arguments: Mapping[str, str], wrong: AllErrors) -> _Files:
+    """Read plugins, benchmark and scene, with xacro arguments; collects their errors."""
     plugins: tuple[Plugin, ...] = ()
     tables: Tables | None = None
     path: Path | None = None
@@ -147,7 +148,7 @@ def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
         path = benchmark_file(request.benchmark, data_path)
         spec = None if tables is None else benchmark_of(path, plugins, tables)
     with wrong.kept():
-        scene = scene_of(request.scene, path, spec, data_path)
+        scene = scene_of(request.scene, path, spec, data_path, arguments)
     return _Files(plugins=plugins, tables=tables, benchmark=spec, scene=scene)
 
 
@@ -163,7 +164,7 @@ def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErr
     spec, scene = read.benchmark, read.scene
     for name, value in pairs:
         with wrong.kept():
-            if name.startswith(OF_ALGORITHM):
+            if name.startswith((OF_ALGORITHM, OF_XACRO)):
                 continue
             if spec is not None and leads_to_updater(spec, name):
                 spec = apply_updater_setting(spec, name, value)
@@ -225,6 +226,7 @@ def scene_of(
     benchmark: Path | None,
     spec: BenchmarkSpec | None,
     data_path: tuple[Path, ...],
+    arguments: Mapping[str, str],
 ) -> SceneSpec | None:
     """Read the scene; None where the benchmark that names it could not be read.
 
@@ -245,7 +247,7 @@ def scene_of(
     folders = data_path if benchmark is None else (benchmark.parent, *data_path)
     try:
         path = scene_file(named, folders, named_by=None if scene else benchmark)
-        return read_scene(path, data_path=folders)
+        return read_scene(path, data_path=folders, arguments=arguments)
     except AssetNotFound:
         if benchmark is None:
             return None  # it may be next to the benchmark, which was not found

@@ -37,8 +37,17 @@ class Library(Protocol):
     def doubtful_size(self, name: str, scale: tuple[float, float, float], named_by: Path) -> str:
         """Why a robot's mesh is likely not in metres; empty if it may be."""
 
-    def searched(self, named_by: Path) -> str:
-        """The folders that were searched."""
+    def place_remark(self, name: str, named_by: Path) -> str:
+        """That a file is found elsewhere than its name states; empty if it is there, or nowhere."""
+
+    def model_place_remark(self, name: str, named_by: Path) -> str:
+        """The same of a model, whose file may have another extension."""
+
+    def package_remark(self, name: str, named_by: Path) -> str:
+        """That the package of a name is not found, or where it is; empty without a package."""
+
+    def searched(self, name: str, named_by: Path) -> str:
+        """The folders that were searched, or that its package is not found."""
 
 
 def check_models(
@@ -58,7 +67,9 @@ def check_models(
         if why := library.unreadable(name, document.path):
             diagnostics.error(spec, why)
         elif not library.has_model(name, document.path):
-            _lost(f"model {name!r}", "has no stand-in", spec, document, library, diagnostics)
+            _lost(name, "model", "has no stand-in", spec, document, library, diagnostics)
+        elif remark := library.model_place_remark(name, document.path):
+            diagnostics.warning(spec, remark)
 
 
 def _check_projectors(
@@ -75,18 +86,21 @@ def _check_projectors(
         message = f"projector {projector.name!r} shines nothing: of several only the last shines"
         diagnostics.warning(projector, message)
     for projector in projectors[-1:]:
-        what = f"image {projector.image_name!r}"
+        image = projector.image_name
         try:
-            path = library.find(projector.image_name, document.path)
+            path = library.find(image, document.path)
         except AssetError as error:
             diagnostics.error(projector, str(error))
             continue
         if path is None:
             so = f"projector {projector.name!r} shines nothing"
-            _lost(what, so, projector, document, library, diagnostics)
+            _lost(image, "image", so, projector, document, library, diagnostics)
+        elif remark := library.place_remark(image, document.path):
+            diagnostics.warning(projector, remark)
 
 
 def _lost(
+    name: str,
     what: str,
     so: str,
     spec: object,
@@ -100,5 +114,4 @@ def _lost(
     original's DOCTYPE is not at error for naming what lay in it.
     """
     say = diagnostics.warning if document.has_doctype else diagnostics.error
-    searched = library.searched(document.path)
-    say(spec, f"{what} is nowhere and {so}; searched: {searched}")
+    say(spec, f"{what} {name!r} is nowhere and {so}; {library.searched(name, document.path)}")

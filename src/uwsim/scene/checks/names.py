@@ -121,7 +121,7 @@ def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, diagnostics: Diagnosti
             f"joints ({', '.join(joint.name for joint in robot.movable)}); the rest is not used",
         )
     for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
-        held = min(max(value, joint.lower), joint.upper)
+        held = joint.clamped(value)
         if held != value:
             message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
             if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:

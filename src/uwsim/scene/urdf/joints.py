@@ -14,6 +14,13 @@ from .values import name_of, number_of, origin_of, triple_of
 
 MOVABLE = ("revolute", "continuous", "prismatic")
 STIFF = ("floating", "planar")
+NO_STOPS = (-math.inf, math.inf)
+"""Limits of a ``continuous`` joint, which turns without end.
+
+Bounds of less than a turn hold for it, too, as in the original: its robots are written so.
+"""
+A_TURN = 0.99 * math.tau
+"""Bounds this far apart leave no angle out: 3.14 on both sides is meant as pi [rad]."""
 
 
 def read_joint(
@@ -71,7 +78,7 @@ def _limits(node: etree._Element, kind: str, diagnostics: Diagnostics) -> tuple[
         if kind != "continuous" and node.find("mimic") is None:
             what = f"joint {name_of(node)!r} is {kind} without <limit>; -pi to pi"
             diagnostics.warning(node, what)
-        return -math.pi, math.pi
+        return NO_STOPS if kind == "continuous" else (-math.pi, math.pi)
     lower, upper = (number_of(limit, end, diagnostics, 0.0) for end in ("lower", "upper"))
     if kind == "revolute" and _are_degrees(lower, upper):
         diagnostics.warning(
@@ -79,6 +86,8 @@ def _limits(node: etree._Element, kind: str, diagnostics: Diagnostics) -> tuple[
             f"joint {name_of(node)!r} turns from {lower:g} to {upper:g} rad; as degrees that would "
             f"be {math.radians(lower):.5g} to {math.radians(upper):.5g}",
         )
+    if kind == "continuous" and not 0.0 < upper - lower < A_TURN:
+        return NO_STOPS
     if lower > upper:
         diagnostics.warning(
             limit, f"joint {name_of(node)!r}: lower {lower:g} is above upper {upper:g}"

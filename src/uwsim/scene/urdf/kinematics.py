@@ -22,7 +22,7 @@ def joint_positions(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dic
     positions = {joint.name: 0.0 for joint in robot.joints if joint.moves}
     for index, joint in enumerate(robot.movable):
         value = joint_values[index] if index < len(joint_values) else 0.0
-        positions[joint.name] = min(max(float(value), joint.lower), joint.upper)
+        positions[joint.name] = joint.clamped(float(value))
     driven = {joint.name: positions[joint.name] for joint in robot.movable}
     for joint in robot.joints:
         if joint.moves and joint.mimic is not None:

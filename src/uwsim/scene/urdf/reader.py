@@ -1,11 +1,12 @@
 """Reads a robot file (URDF) into a `RobotSpec`, or reports every error.
 
 UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
-names, and the movable joints in that order are the joint vector; limits hold for continuous joints
-too, and a ``<limit>`` without bounds means 0 to 0; without one a joint goes from -pi to pi,
-prismatic ones included. Its ``effort`` and ``velocity``, which UWSim passes over, limit the joints
-of simulated vehicles. Of a link all ``<visual>`` and ``<collision>`` elements count, where UWSim
-took the first. A material is meant by its name wherever it is defined, as in URDF.
+names, and the movable joints in that order are the joint vector. A ``<limit>`` without bounds means
+0 to 0; without one a joint goes from -pi to pi, prismatic ones included. A continuous joint has no
+end stops; bounds of less than a turn hold for it as in the original. ``effort`` and ``velocity`` of
+a ``<limit>``, which UWSim passes over, limit the joints of simulated vehicles. Of a link all
+``<visual>`` and ``<collision>`` elements count, where UWSim took the first. A material is meant by
+its name wherever it is defined, as in URDF.
 
 What a plug-in or another program wrote into the file (``<gazebo>``, ``<transmission>``, ...) is
 passed over, as the original does. Not read: safety controllers, textures.
@@ -13,6 +14,8 @@ passed over, as the original does. Not read: safety controllers, textures.
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Mapping
 from pathlib import Path
 
 from lxml import etree
@@ -29,25 +32,39 @@ MAX_CHAIN = 256
 """Most joints between the root and a link."""
 
 
-def read_urdf(path: Path | str, *, data_path: tuple[Path, ...] = ()) -> RobotSpec:
+def read_urdf(
+    path: Path | str,
+    *,
+    data_path: tuple[Path, ...] = (),
+    arguments: Mapping[str, str] | None = None,
+) -> RobotSpec:
     """Read a robot file.
+
+    Args:
+        path: the file.
+        data_path: further folders in which included files are looked for.
+        arguments: values of its xacro arguments, by name.
 
     Raises:
         SceneError: with every error of the file.
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
-    robot = read_robot(path, diagnostics, data_path)
+    robot = read_robot(path, diagnostics, data_path, arguments)
     diagnostics.check(SceneError)
     assert robot is not None
     return robot
 
 
 def read_robot(
-    path: Path, diagnostics: Diagnostics, data_path: tuple[Path, ...] = ()
+    path: Path,
+    diagnostics: Diagnostics,
+    data_path: tuple[Path, ...] = (),
+    arguments: Mapping[str, str] | None = None,
 ) -> RobotSpec | None:
     """Read a robot file into ``diagnostics``; None when there is no tree to build."""
-    root = parse_expanded(path, error=SceneError, data_path=data_path).root
+    document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
+    root = document.root
     if root.tag != "robot":
         diagnostics.error(root, f"the root element is <{str(root.tag)[:60]}>; expected <robot>")
         return None
@@ -68,7 +85,8 @@ def read_robot(
         diagnostics.error(root, "the robot has no <link>")
     if diagnostics.any:
         return None
-    return _tree(root, path, links, joints, diagnostics)
+    robot = _tree(root, path, links, joints, diagnostics)
+    return None if robot is None else dataclasses.replace(robot, expansion=document.expansion)
 
 
 def _tree(

@@ -16,16 +16,20 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+import sys
+from dataclasses import dataclass, field
 from typing import Literal
 
 from ...geometry import ZERO, Triple
-from ...schema import Spec
+from ...schema import Expansion, Spec
 
 Colour = tuple[float, float, float, float]
 
 ShapeKind = Literal["mesh", "box", "cylinder", "sphere"]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
+
+MAX_ANGLE = 1e6
+"""Greatest angle that a joint without end stops is set to [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,9 +113,9 @@ class JointSpec(Spec):
     axis: Triple = (1.0, 0.0, 0.0)
     """What it turns about or slides along, in its own frame [1]."""
     lower: float = 0.0
-    """Least value [rad or m]."""
+    """Least value; -inf of a joint without end stops [rad or m]."""
     upper: float = 0.0
-    """Greatest value [rad or m]."""
+    """Greatest value; inf of a joint without end stops [rad or m]."""
     effort: float = math.inf
     """Greatest effort of what drives it; of a simulated vehicle only [N m or N]."""
     velocity: float = math.inf
@@ -128,6 +132,22 @@ class JointSpec(Spec):
         """Whether it is not fixed."""
         return self.kind != "fixed"
 
+    @property
+    def has_stops(self) -> bool:
+        """Whether it stops at `lower` and `upper`; a ``continuous`` joint may turn without end."""
+        return math.isfinite(self.upper - self.lower)
+
+    def clamped(self, value: float) -> float:
+        """Return a value within the limits [rad or m].
+
+        A joint without end stops keeps its angle; one of more than `MAX_ANGLE` is reduced by whole
+        turns, so that its sine and cosine stay exact.
+        """
+        if self.has_stops:
+            return min(max(value, self.lower), self.upper)
+        finite = min(max(value, -sys.float_info.max), sys.float_info.max)
+        return math.remainder(finite, math.tau) if abs(finite) > MAX_ANGLE else finite
+
 
 @dataclass(frozen=True, kw_only=True)
 class RobotSpec(Spec):
@@ -143,6 +163,8 @@ class RobotSpec(Spec):
     """Depth first, children in the alphabetical order of their joints' names."""
     path: str = ""
     """The file it was read from."""
+    expansion: Expansion = field(default=Expansion(), compare=False)
+    """What is known of its xacro."""
 
     @property
     def movable(self) -> tuple[JointSpec, ...]:

@@ -25,6 +25,7 @@ from ..collision.collision_shapes import simulated_solids
 from ..collision.hull import hull_of
 from ..dynamics import DYNAMICS, read_dynamics
 from .object_plausibility import of_objects
+from .place_warnings import place_warnings
 from .start_plausibility import Starts
 from .step_plausibility import step_warnings
 from .thrust_warnings import thrust_said
@@ -98,7 +99,8 @@ def warnings_of(
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
     implausible = plausibility_warnings(scene, robots, dynamics, data_path, timestep)
-    return [*scene_warnings(scene, robots), *implausible]
+    places = place_warnings(scene, robots, data_path)
+    return [*places, *scene_warnings(scene, robots), *implausible]
 
 
 def _of_vehicle(

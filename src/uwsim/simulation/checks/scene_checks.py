@@ -29,11 +29,11 @@ def check_simulated(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> list[
         data_path: folders in which files are looked for.
     """
     robots: dict[int, RobotSpec] = {}
+    arguments = dict(scene.expansion.arguments)
     for index, vehicle in enumerate(scene.vehicles):
         with suppress(UwsimError):  # reported where robots are checked
-            robots[index] = read_urdf(
-                find_robot(vehicle.file, scene.path, data_path), data_path=data_path
-            )
+            path = find_robot(vehicle.file, scene.path, data_path)
+            robots[index] = read_urdf(path, data_path=data_path, arguments=arguments)
     search = Search(scene, robots, data_path, is_thorough=True)
     found = [*search.found, *_object_errors(scene, search.dynamics, data_path)]
     if not any(diagnostic.severity == "error" for diagnostic in found):

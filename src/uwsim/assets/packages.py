@@ -1,0 +1,190 @@
+"""ROS packages: the folders that a package's name stands for, in ``package://NAME/...``.
+
+A package is a folder called NAME, or one whose ``package.xml`` gives that name. It is looked for
+
+1. above the file that names it, and beside each of these folders, also as a workspace has it:
+   ``src/NAME``, ``share/NAME``, ``install/NAME/share/NAME``. Where the file lies in a package or in
+   a workspace, in all folders of the workspace;
+2. in and below every data path;
+3. below the folders of ``ROS_PACKAGE_PATH``, and as ``share/NAME`` in those of
+   ``AMENT_PREFIX_PATH``.
+
+The package ``uwsim`` is the original's, whose files are also looked for without its name.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+PREFIXES = ("package://", "model://")
+"""Beginnings of the names that a package, or a model of Gazebo, is part of."""
+OURS = "uwsim"
+"""The package whose files are those of this program and of the original."""
+LAYOUTS = (".", "src", "share", "install/share", "devel/share", "install/{0}/share", "{0}/share")
+"""Where a folder has a package: below these, as a folder of its name."""
+BUILT = ("build", "devel", "install", ".catkin_tools", ".catkin_workspace")
+"""What tells a workspace from another folder with a ``src``."""
+LEFT_OUT = frozenset({"build", "log", "logs", "node_modules", "__pycache__", "site-packages"})
+"""Folders without packages of their own."""
+WORKSPACE_DEPTH = 5
+"""Deepest folder that is looked at below a workspace or a data path: ``src/GROUP/REPOSITORY/X``."""
+MAX_FOLDERS = 4000
+"""Most folders that are looked at below one."""
+NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
+DECLARED = re.compile(rb"<name>\s*([A-Za-z0-9_.-]+)\s*</name>")
+HEAD = 65536
+"""Bytes of a ``package.xml`` in which its name is looked for."""
+
+
+def package_of(name: str) -> tuple[str, str] | None:
+    """Split a name into its package and the path in it; None where it has no package."""
+    name = name.strip()
+    if name.startswith("file://") and name.removeprefix("file://").startswith(PREFIXES):
+        name = name.removeprefix("file://")
+    for prefix in PREFIXES:
+        if name.startswith(prefix):
+            package, _, path = name.removeprefix(prefix).partition("/")
+            return package, path.lstrip("/")
+    return None
+
+
+def package_folders(
+    package: str, above: Iterable[Path], data_path: Iterable[Path] = ()
+) -> Iterator[Path]:
+    """Give every folder that a package's name may stand for, the likeliest first.
+
+    Args:
+        package: its name.
+        above: the folder of the file that names it, and those above it, from the inside.
+        data_path: folders that the user gave.
+    """
+    if not NAME.fullmatch(package):
+        return
+    seen: set[Path] = set()
+    above = list(above)
+    enclosing = next((i for i, folder in enumerate(above) if _declared(folder)), len(above))
+    for i, folder in enumerate(above):
+        depth = WORKSPACE_DEPTH if _is_workspace(folder) else max(0, min(i - enclosing, 2))
+        yield from _fresh(_in(package, folder, depth), seen)
+    for folder in (*data_path, *_entries("ROS_PACKAGE_PATH")):
+        yield from _fresh(_in(package, folder.absolute(), WORKSPACE_DEPTH), seen)
+    for prefix in _entries("AMENT_PREFIX_PATH"):
+        yield from _fresh([prefix / "share" / package], seen)
+
+
+def environment_folders() -> list[Path]:
+    """Return the folders in which the environment variables of ROS have packages."""
+    shares = [prefix / "share" for prefix in _entries("AMENT_PREFIX_PATH")]
+    return [*_entries("ROS_PACKAGE_PATH"), *shares]
+
+
+def _entries(variable: str) -> list[Path]:
+    words = os.environ.get(variable, "").split(os.pathsep)
+    return [Path(word) for word in words if Path(word).is_absolute()]
+
+
+def _fresh(folders: Iterable[Path], seen: set[Path]) -> Iterator[Path]:
+    """Give those that are folders, each once."""
+    for folder in folders:
+        if folder not in seen and _is_folder(folder):
+            seen.add(folder)
+            yield folder
+
+
+def _in(package: str, folder: Path, depth: int) -> Iterator[Path]:
+    """Give the folders of a package that are this folder, or in it, to a depth."""
+    if folder.name == package or _declared(folder) == package:
+        yield folder
+    yield from (folder / layout.format(package) / package for layout in LAYOUTS)
+    if depth > 0:
+        yield from _packages_below(folder, depth).get(package, ())
+
+
+def _is_workspace(folder: Path) -> bool:
+    is_built = _is_folder(folder / "src") and any((folder / name).exists() for name in BUILT)
+    return folder.name == "src" or is_built
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def _declared(folder: Path) -> str:
+    """Return the name in the ``package.xml`` of a folder; empty without one."""
+    try:
+        with (folder / "package.xml").open("rb") as file:
+            found = DECLARED.search(file.read(HEAD))
+    except (OSError, ValueError):
+        return ""
+    return found[1].decode() if found else folder.name
+
+
+@dataclass(frozen=True)
+class _Index:
+    """The packages below a folder, and when what was looked at had last changed."""
+
+    stamps: dict[Path, int]
+    packages: dict[str, tuple[Path, ...]]
+
+    def is_current(self) -> bool:
+        return all(_stamp(path) == stamp for path, stamp in self.stamps.items())
+
+
+_indices: dict[tuple[Path, int], _Index] = {}
+
+
+def _packages_below(root: Path, depth: int) -> dict[str, tuple[Path, ...]]:
+    """Return name -> folders below a folder, those with a ``package.xml`` of that name first."""
+    index = _indices.get((root, depth))
+    if index is None or not index.is_current():
+        index = _indices[root, depth] = _walk(root, depth)
+    return index.packages
+
+
+def _walk(root: Path, depth: int) -> _Index:
+    """Look at the folders below one, level by level, in alphabetical order."""
+    stamps: dict[Path, int] = {}
+    by_file: dict[str, list[Path]] = {}
+    by_folder: dict[str, list[Path]] = {}
+    level = [root]
+    for _ in range(depth):
+        below = []
+        for folder in level:
+            for child in _children(folder) if len(stamps) < MAX_FOLDERS else ():
+                stamps[child] = _stamp(child)
+                declared = _declared(child)
+                by_folder.setdefault(child.name, []).append(child)
+                if declared:  # a package has no other packages in it
+                    stamps[child / "package.xml"] = _stamp(child / "package.xml")
+                    by_file.setdefault(declared, []).append(child)
+                else:
+                    below.append(child)
+        level = below
+    stamps[root] = _stamp(root)
+    names = {**by_file, **by_folder}
+    return _Index(
+        stamps, {name: (*by_file.get(name, ()), *by_folder.get(name, ())) for name in names}
+    )
+
+
+def _children(folder: Path) -> list[Path]:
+    """Return the folders in one that may have packages, in alphabetical order."""
+    try:
+        names = sorted(entry.name for entry in os.scandir(folder) if entry.is_dir())
+    except OSError:
+        return []
+    return [folder / name for name in names if name not in LEFT_OUT and name[0] != "."]
+
+
+def _stamp(path: Path) -> int:
+    try:
+        return path.stat().st_mtime_ns
+    except OSError:
+        return 0

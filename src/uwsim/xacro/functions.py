@@ -1,0 +1,59 @@
+"""Functions and methods that an expression may call: those of Python without side effects."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from .value import MAX_ITEMS, ExpressionError, Value, written
+
+
+def power(base: Value, exponent: Value) -> int | float:
+    """Return ``base ** exponent``; whole numbers stay whole as long as they are small."""
+    for number in (base, exponent):
+        if not isinstance(number, int | float):
+            raise ExpressionError(f"{written(number)[:40]!r} is not a number")
+    assert isinstance(base, int | float)
+    assert isinstance(exponent, int | float)
+    if isinstance(base, int) and isinstance(exponent, int) and abs(base) <= 64 >= exponent >= 0:
+        return int(base**exponent)
+    result: float | complex = float(base) ** float(exponent)
+    if isinstance(result, complex):
+        raise ExpressionError(f"{base}**{exponent} is no real number")
+    return result
+
+
+def numbers(*bounds: Any) -> list[int]:
+    """Return the whole numbers of a range."""
+    found = range(*bounds)
+    if len(found) > MAX_ITEMS:
+        raise ExpressionError(f"a range of more than {MAX_ITEMS} numbers")
+    return list(found)
+
+
+FUNCTIONS: dict[str, Callable[..., Any]] = {
+    **{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
+    **{name: getattr(math, name) for name in ("atan2", "sqrt", "exp", "log", "log10", "hypot")},
+    **{name: getattr(math, name) for name in ("floor", "ceil", "radians", "degrees", "fabs")},
+    **{name: getattr(math, name) for name in ("sinh", "cosh", "tanh", "copysign", "fmod")},
+    **{name: getattr(math, name) for name in ("log2", "log1p", "expm1", "trunc", "isfinite")},
+    **{name: getattr(math, name) for name in ("asinh", "acosh", "atanh", "isnan", "isinf")},
+    **{"abs": abs, "min": min, "max": max, "round": round, "sum": sum, "pow": power},
+    **{"int": int, "float": float, "bool": bool, "str": str, "len": len, "range": numbers},
+    **{"list": list, "tuple": tuple, "dict": dict, "sorted": sorted, "any": any, "all": all},
+}
+"""Name -> function; those of ``math`` may be written ``math.name``."""
+
+METHODS: dict[type, tuple[str, ...]] = {
+    str: ("lower", "upper", "strip", "split", "startswith", "endswith", "replace", "join", "title"),
+    list: ("index", "count"),
+    dict: ("get", "keys", "values", "items"),
+}
+"""Methods of each kind of value."""
+
+
+def method(value: Value, name: str) -> Callable[..., Any] | None:
+    """Return a method of a value; None if it has none of that name."""
+    known = METHODS.get(type(value), ())
+    return getattr(value, name) if name in known else None
