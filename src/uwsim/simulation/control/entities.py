@@ -119,7 +119,7 @@ class Entities:
             message = f"Expected finite numbers, {FARTHEST:g} m at most, and a quaternion not zero."
             return SetEntityStateResponse(Result(Result.OPERATION_FAILED, message))
         if request.set_pose:
-            world.vehicle(name).place(world.world_from_localized @ pose)
+            world.vehicle(name).put(world.world_from_localized @ pose)
         return SetEntityStateResponse()
 
     def spawn(self, request: SpawnEntity) -> SpawnEntityResponse:
