@@ -75,11 +75,11 @@ class BodyMotion:
 class MovingBody(Body, Protocol):
     """A frame on a link; the motion of the link and the contacts on it can be read."""
 
-    def motion(self, time: float) -> BodyMotion:
-        """Return how it moves at ``time`` [s].
+    def motion(self) -> BodyMotion:
+        """Return how it moves now.
 
-        Of a simulated vehicle that is the engine's; of another one it is the mean between this
-        call and the one before, and 0 at the first.
+        Of a simulated vehicle that is the engine's. Another one moves in jumps: each counts as made
+        evenly over the time since the one before (`uwsim.physics.kinematics.placed_motion`).
         """
 
     def contact_wrench(self) -> npt.NDArray[np.float64]:

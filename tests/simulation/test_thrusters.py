@@ -233,3 +233,15 @@ def test_thrusts_and_wrenches_act_on_the_next_step(kind: str, simulation: Simula
     simulation.advance()  # delivers
     simulation.advance()
     assert np.abs(controls - before).max() > 0.05
+
+
+def test_a_command_beyond_its_limit_counts_as_the_limit_in_the_track_too() -> None:
+    ends = []
+    for most in (1.0, 1500.0, 1e9):
+        with make(INTERFACES) as simulation:
+            thrust(simulation, most, -most, 0.25, -most, most)
+            run(simulation, 0.04)
+            shares = simulation.world.state.actuation[0].commands().tolist()
+            ends.append((shares, position(simulation).tobytes()))
+    assert ends[0] == ends[1] == ends[2]
+    assert ends[0][0] == [1.0, -1.0, 0.25, -1.0, 1.0]

@@ -25,7 +25,8 @@ from .engine_warnings import StepCheck
 from .grips import Grips
 from .hydrodynamics import VehicleHydrodynamics
 from .joint_wrench import JointWrench
-from .link_motion import LinkMotion
+from .kinematics.link_motion import LinkMotion
+from .kinematics.placed_motion import PlacedMotion
 from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
@@ -73,7 +74,7 @@ class Engine:
         self.poses = Poses(scene, robots, model, data)
         """Where everything is, as frames."""
         self.link_motion = LinkMotion(model, data, self.poses)
-        """How the links of simulated vehicles move."""
+        """How the links of vehicles move."""
         self.grips = Grips(model, data, self.poses, dynamics, shapes)
         """Objects that vehicles hold."""
         self._contacts = EngineContacts(scene, model, data, shapes)
@@ -213,6 +214,12 @@ class Engine:
             self.actuation[index].hold(world_from_base)
             self._contacts.hold = False
         self.poses.moved()
+
+    def placed_motion(self, index: int) -> PlacedMotion:
+        """Return how a vehicle that is not simulated moves; it records from now on."""
+        model, prefix = self._model, vehicle_joint(index, "")
+        joints = [i for i in range(model.njnt) if model.joint(i).name.startswith(prefix)]
+        return PlacedMotion(model, self._data, joints, index, self.link_motion)
 
     def joints(self, index: int) -> Array:
         """Return a copy of the joint vector of a vehicle, (n,) [rad or m]."""

@@ -106,7 +106,7 @@ class Dvl:
         is_heard = uniform >= spec.dropout
         axial = ranges * janus.cosine
         is_good = is_heard & (axial >= spec.min_altitude) & (axial <= spec.max_altitude)
-        velocity = turned_back(pose.rotation, self._mount.motion(time).velocity)
+        velocity = turned_back(pose.rotation, self._mount.motion().velocity)
         on_bottom = product(janus.directions, velocity)
         along = self._scale * on_bottom + spec.beam_std * normal[0]
         through, is_wet = self._along_water(pose, time, on_bottom, ranges)

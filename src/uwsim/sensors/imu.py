@@ -85,7 +85,7 @@ class InertialUnit:
         if not self._measures_motion:
             message.header.frame_id = "world"
             return message
-        motion = self._mount.motion(time)
+        motion = self._mount.motion()
         for part, value, drift in (
             ("angular_velocity", motion.angular_velocity, self._gyro),
             ("linear_acceleration", motion.acceleration + UP, self._accelerometer),

@@ -54,7 +54,8 @@ class Simulation:
         self.world = world = SceneStage(scene, **options)
         """The world of the scene."""
         scene, state = world.scene, world.state
-        self._drifting = [(i, v) for i, v in enumerate(scene.vehicles) if not state.is_simulated(i)]
+        placed = [i for i in range(len(scene.vehicles)) if not state.is_simulated(i)]
+        self._drifting = [world.numbered_vehicle(i) for i in placed]
         self._watchers: list[Callable[[], None]] = []
         self._wet_names = tuple(
             "" if i is None else scene.vehicles[i].name for i in state.submerged_vehicles()
@@ -270,10 +271,9 @@ class Simulation:
         world = self.world
         if world.water.is_still:
             return
-        for index, vehicle in self._drifting:
-            here = world.state.poses.vehicle(index)
-            moved = world.water.carried(here, self.time, self.timestep, vehicle.name)
-            world.state.place_vehicle(index, moved)
+        for vehicle in self._drifting:
+            here = vehicle.world_from_base
+            vehicle.drift(world.water.carried(here, self.time, self.timestep, vehicle.name))
 
     def _step_physics(self, n: int) -> None:
         """Advance the physics by some steps, in the flow of the water at their times."""

@@ -220,12 +220,12 @@ class SceneStage(SceneWorld):
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
-        index = self.vehicle(vehicle).index
-        joints = self.state.joints(index)
+        moved = self.vehicle(vehicle)
+        joints = moved.joints
         for number, value in values.items():
             if 0 <= number < len(joints):
                 joints[number] = value
-        self.state.set_joints(index, joints)
+        moved.set_joints(joints)
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""

@@ -12,13 +12,15 @@ from ..errors import UnknownName
 from ..geometry import Array, Pose
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
+from ..physics.kinematics.placed_motion import PlacedMotion
 from ..scene.mounts import MountFrames, link_from_frame
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
+from ..world import BodyMotion
 from .bodies import SceneBody
-from .moving_bodies import EngineBody, PlacedBody
+from .moving_bodies import MountedBody
 
 
 class SceneVehicle:
@@ -30,13 +32,16 @@ class SceneVehicle:
         index: its number in the scene.
         frames: the vehicle at its pose in the file.
         state: where its links are.
+        step: returns how many steps the simulation has taken.
     """
 
-    STATE = ("_offsets", "_losses")
+    STATE = ("_offsets", "_losses", "_placed")
     """Attributes of its state, for snapshots."""
 
-    def __init__(self, index: int, frames: MountFrames, state: Engine) -> None:
-        self._frames, self._state = frames, state
+    def __init__(
+        self, index: int, frames: MountFrames, state: Engine, step: Callable[[], int]
+    ) -> None:
+        self._frames, self._state, self._step = frames, state, step
         self.index = index
         """Its number in the scene."""
         self.name = frames.vehicle.name
@@ -45,6 +50,7 @@ class SceneVehicle:
         """Names of the joints of the joint vector."""
         self._offsets: list[tuple[int, float]] = []  # axis and [m or rad], one a displacer
         self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
+        self._placed: PlacedMotion | None = None  # where it is not simulated and a sensor reads it
 
     @property
     def autopilot(self) -> Autopilot | None:
@@ -90,18 +96,38 @@ class SceneVehicle:
         return self._state.joints(self.index)
 
     def place(self, world_from_base: Pose) -> None:
-        """Set its pose, at rest."""
+        """Set its pose; a simulated one is at rest there, another has come there from the last."""
         self._state.place_vehicle(self.index, world_from_base)
+        if self._placed is not None:
+            self._placed.record(self._step())
 
     def set_joints(self, values: Array) -> None:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
         self._state.set_joints(self.index, values)
+        if self._placed is not None:
+            self._placed.record(self._step())
+
+    def drift(self, world_from_base: Pose) -> None:
+        """Set its pose: the water has carried it there."""
+        self._state.place_vehicle(self.index, world_from_base)
+        if self._placed is not None:
+            self._placed.record_drift(self._step())
+
+    def put(self, world_from_base: Pose) -> None:
+        """Set its pose, at rest."""
+        self._state.place_vehicle(self.index, world_from_base)
+        if self._placed is not None:
+            self._placed.rest()
 
     def put_back(self) -> None:
         """Put it where the scene puts it now, at rest."""
+        self.put(self._scene_pose())
+
+    def _scene_pose(self) -> Pose:
+        """Where the scene puts it now, ``world_from_base``."""
         spec = self._frames.vehicle
         localized_from_base = displaced(spec.position, spec.orientation, self._offsets)
-        self.place(self._frames.world_from_localized @ localized_from_base)
+        return self._frames.world_from_localized @ localized_from_base
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return a function that displaces it along or about an axis; displacements add up."""
@@ -111,7 +137,7 @@ class SceneVehicle:
         def displace(offset: float) -> None:
             self._offsets[own] = (axis, offset)
             if own == len(self._offsets) - 1:
-                self.put_back()
+                self.place(self._scene_pose())
 
         return displace
 
@@ -142,15 +168,21 @@ class SceneVehicle:
         """Fix something to its link; raises UnknownName if there is no such link."""
         return SceneBody(f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual), None)
 
-    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> EngineBody | PlacedBody:
+    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
         link, state = (self.index, spec.relative_to), self._state
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
         contacts = partial(state.contact_wrench, *link)
         if not state.is_simulated(self.index):
-            return PlacedBody(name, pose, contacts, lambda point: np.zeros(6))
+            if self._placed is None:
+                self._placed = state.placed_motion(self.index)
+            motion = partial(self._placed_motion, self._placed, spec.relative_to)
+            return MountedBody(name, pose, contacts, lambda point: np.zeros(6), motion)
         joint = partial(state.joint_wrench.of, *link)
-        return EngineBody(name, pose, contacts, joint, partial(state.link_motion.of, *link))
+        return MountedBody(name, pose, contacts, joint, partial(state.link_motion.of, *link))
+
+    def _placed_motion(self, placed: PlacedMotion, link: str, point: Array) -> BodyMotion:
+        return placed.of(link, point, self._step())
 
     def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
         """Return what says where something on a link is."""
@@ -164,10 +196,12 @@ class SceneVehicle:
 
 
 def vehicles_of(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: Engine
+    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: Engine, step: Callable[[], int]
 ) -> tuple[SceneVehicle, ...]:
     """The vehicles of a scene, in the file's order."""
     return tuple(
-        SceneVehicle(index, MountFrames(vehicle, robots[index], scene.world_from_localized), state)
+        SceneVehicle(
+            index, MountFrames(vehicle, robots[index], scene.world_from_localized), state, step
+        )
         for index, vehicle in enumerate(scene.vehicles)
     )

@@ -90,7 +90,7 @@ class SceneWorld:
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self.state = Engine(scene, self.robots, dynamics, timestep, shapes)
         """Where everything is, and what moves it."""
-        self._vehicles = vehicles_of(scene, self.robots, self.state)
+        self._vehicles = vehicles_of(scene, self.robots, self.state, lambda: self._bus.step)
         self.scenery = Scenery(
             scene,
             self.robots,
@@ -233,6 +233,10 @@ class SceneWorld:
         if name not in self.vehicles:
             raise UnknownName("vehicle", name, self.vehicles)
         return self._vehicles[self.vehicles.index(name)]
+
+    def numbered_vehicle(self, index: int) -> SceneVehicle:
+        """Return a vehicle by its number in the file: names may be shared."""
+        return self._vehicles[index]
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""

@@ -100,11 +100,15 @@ class VehicleActuation:
             self._water.turn_fin(self._data, fin, angle)
 
     def commands(self) -> Array:
-        """Return the commands to its thrusters as shares of the largest, (n,) [-1..1]."""
+        """Return the commands to its thrusters as shares of the largest, (n,) [-1..1].
+
+        A command beyond a limit counts as the limit, as for the rotor.
+        """
         model = self._water.model
         actuators = [self._water.thrusters[number] for number in self._thrusters]
-        largest = np.abs(model.actuator_ctrlrange[actuators]).max(axis=1, initial=0.0)
-        given = self._data.ctrl[model.actuator_ctrladr[actuators]]
+        lower, upper = model.actuator_ctrlrange[actuators].T
+        largest = np.maximum(np.abs(lower), np.abs(upper))
+        given = np.clip(self._data.ctrl[model.actuator_ctrladr[actuators]], lower, upper)
         shares: Array = given / np.where(largest > 0.0, largest, 1.0)
         return shares
 

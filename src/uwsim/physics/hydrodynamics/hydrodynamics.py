@@ -205,7 +205,25 @@ def install(model: mujoco.MjModel) -> Hydrodynamics:
         callback.install()
     callback.stop_profiler()
     correct_inverse_weights(model)
+    _set_rotor_dynamics(model)
     return Hydrodynamics(model)
+
+
+def _set_rotor_dynamics(model: mujoco.MjModel) -> None:
+    """Let RK4 integrate the lag of rotors by its stages.
+
+    With MuJoCo's exact filter it would apply the lag in the stages and once more at their end,
+    which is of first order. A lag shorter than a step counts as one of a step: RK4 is unstable
+    from a third of a step down.
+    """
+    if model.opt.integrator != mujoco.mjtIntegrator.mjINT_RK4:
+        return
+    if model.nuser_actuator != c.ACTUATOR_COLUMNS:
+        return
+    lags = model.actuator_user[:, c.LAG]
+    rotors = (model.actuator_user[:, c.ROLE] == c.PROPELLER) & (lags > 0.0)
+    model.actuator_dyntype[rotors] = mujoco.mjtDyn.mjDYN_FILTER
+    model.actuator_dynprm[rotors, 0] = np.maximum(lags[rotors], model.opt.timestep)
 
 
 def _bodies_in_flow(model: mujoco.MjModel) -> set[int]:

@@ -112,7 +112,7 @@ class Entities:
             message = f"The pose is not valid; expected {EXPECTED_POSE}."
             return SetEntityStateResponse(Result(Result.OPERATION_FAILED, message))
         if request.set_pose:
-            world.vehicle(name).place(world.world_from_localized @ pose)
+            world.vehicle(name).put(world.world_from_localized @ pose)
         return SetEntityStateResponse()
 
     def spawn(self, request: SpawnEntity) -> SpawnEntityResponse:

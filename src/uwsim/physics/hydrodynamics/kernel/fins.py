@@ -49,6 +49,7 @@ from .thrusters import share_of_lag
 
 FADE = math.radians(10.0)
 """From the stall until a foil is but a plate [rad]."""
+_RK4 = 1  # mjINT_RK4
 
 
 @njit
@@ -67,7 +68,8 @@ def add_fin(m: int, d: int, at: Ints64, i: int, table: Floats, ahead: float, wor
     nbody, step = word(m + at[f.NBODY]), real(m + at[f.TIMESTEP])
     wanted = real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * nbody + i))
     angle = real(word(d + at[f.ACT]) + 8 * small(word(m + at[f.ACTUATOR_ACT]) + 4 * i))
-    speed = servo_speed(table, angle, wanted, step)
+    is_rate = small(m + at[f.INTEGRATOR]) == _RK4  # its stages integrate the rate of a time
+    speed = servo_speed(table, angle, wanted, step, is_rate)
     control = small(word(m + at[f.ACTUATOR_CTRL]) + 4 * i)
     floats(word(d + at[f.CTRL]) + 8 * control, 1)[0] = speed
     site, body = site_of(m, at, i)
@@ -81,10 +83,22 @@ def add_fin(m: int, d: int, at: Ints64, i: int, table: Floats, ahead: float, wor
 
 
 @njit
-def servo_speed(table: Floats, angle: float, wanted: float, step: float) -> float:
-    """How fast a fin turns over a step towards the angle that is wanted [rad/s]."""
+def servo_speed(table: Floats, angle: float, wanted: float, step: float, is_rate: bool) -> float:
+    """Compute how fast a fin turns towards the angle that is wanted [rad/s].
+
+    Args:
+        table: the fin's row.
+        angle: its present angle [rad].
+        wanted: the angle that is wanted [rad].
+        step: length of a step [s].
+        is_rate: whether the speed is that of the moment, not the mean of the step; a lag shorter
+            than a step then counts as a step, else the angle would overshoot.
+    """
     wanted = min(max(wanted, table[MIN_ANGLE]), table[MAX_ANGLE])
-    speed = share_of_lag(table[LAG], step) * (wanted - angle) / step
+    if is_rate:
+        speed = (wanted - angle) / max(table[LAG], step)
+    else:
+        speed = share_of_lag(table[LAG], step) * (wanted - angle) / step
     limited: float = min(max(speed, -table[RATE]), table[RATE])
     return limited
 

@@ -55,13 +55,13 @@ def add_thrust(
     n, nbody = word(m + at[f.NACTUATOR]), word(m + at[f.NBODY])
     state = small(word(m + at[f.ACTUATOR_ACT]) + 4 * i)
     control = small(word(m + at[f.ACTUATOR_CTRL]) + 4 * i)
-    command = real(word(d + at[f.CTRL]) + 8 * control)
-    if state >= 0:
+    limits = floats(word(m + at[f.ACTUATOR_RANGE]) + 16 * control, 2)
+    command = min(max(real(word(d + at[f.CTRL]) + 8 * control), limits[0]), limits[1])
+    if state >= 0:  # MuJoCo clamps what it integrates the rotor with, too
         rotor = real(word(d + at[f.ACT]) + 8 * state)
         command = rotor + share_of_lag(table[LAG], ahead) * (command - rotor)
-    limits = floats(word(m + at[f.ACTUATOR_RANGE]) + 16 * control, 2)
     losses = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * nbody, 2 * n)
-    thrust = (1.0 - losses[i]) * curve(table, min(max(command, limits[0]), limits[1]))
+    thrust = (1.0 - losses[i]) * curve(table, command)
     site, body = site_of(m, at, i)
     if table[N_ADVANCE] > 0.0:
         speed = velocity_at(m, d, at, site, body)[0]

@@ -1,8 +1,8 @@
-r"""How the links of simulated vehicles move: velocities and accelerations of points on them.
+r"""How the links of vehicles move: velocities and accelerations of points on them.
 
 With the Jacobian J of a point, :math:`v = J \dot q` and :math:`a = J \ddot q + \dot J \dot q`.
-Velocities are those at the end of the last step; :math:`\ddot q` is what the engine solved in that
-step, in which forces act at its middle: accelerations are half a step old.
+Velocities of a simulated vehicle are those at the end of the last step; :math:`\ddot q` is what the
+engine solved in that step, in which forces act at its middle: accelerations are half a step old.
 """
 
 from __future__ import annotations
@@ -10,10 +10,10 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.jit import njit
-from ..world import BodyMotion
-from .poses import Poses
+from ...geometry import Array
+from ...numerics.jit import njit
+from ...world import BodyMotion
+from ..poses import Poses
 
 
 class LinkMotion:
@@ -35,25 +35,37 @@ class LinkMotion:
         self._copied: tuple[bytes, bytes] | None = None  # the places and velocities in it
 
     def of(self, index: int, link: str, point: Array) -> BodyMotion:
-        """Return the motion of a point of W, (3,) [m], on the link of a vehicle."""
-        model, own, body = self._model, self._moved(), self._poses.link_body(index, link)
+        """Return the motion of a point of W, (3,) [m], on the link of a simulated vehicle."""
+        return self.at(index, link, point, self._data.qvel, self._data.qacc)
+
+    def at(self, index: int, link: str, point: Array, speeds: Array, rates: Array) -> BodyMotion:
+        """Return the motion of a point on a link, for given motions of all joints.
+
+        Args:
+            index: number of the vehicle.
+            link: name of the link.
+            point: in W, (3,) [m].
+            speeds: of the degrees of freedom, (nv,) [m/s, rad/s].
+            rates: of these speeds, (nv,) [m/s2, rad/s2].
+        """
+        model, own, body = self._model, self._moved(speeds), self._poses.link_body(index, link)
         place, turn, place_rate, turn_rate = self._jacobians
         mujoco.mj_jac(model, own, place, turn, point, body)
         mujoco.mj_jacDot(model, own, place_rate, turn_rate, point, body)
         found = np.empty((3, 3))
-        _multiply(self._jacobians, self._data.qvel, self._data.qacc, found)
+        _multiply(self._jacobians, speeds, rates, found)
         return BodyMotion(*found)
 
-    def _moved(self) -> mujoco.MjData:
-        """Places and velocities of all links as they are now."""
+    def _moved(self, speeds: Array) -> mujoco.MjData:
+        """Places of all links as they are now, and their velocities."""
         data, own = self._data, self._own
-        now = data.qpos.tobytes(), data.qvel.tobytes()
+        now = data.qpos.tobytes(), speeds.tobytes()
         if own is None:
             own = self._own = mujoco.MjData(self._model)
         elif now == self._copied:
             return own
         self._copied = now
-        own.qpos[:], own.qvel[:] = data.qpos, data.qvel
+        own.qpos[:], own.qvel[:] = data.qpos, speeds
         mujoco.mj_kinematics(self._model, own)
         mujoco.mj_comPos(self._model, own)
         mujoco.mj_comVel(self._model, own)

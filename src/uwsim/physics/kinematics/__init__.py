@@ -1,0 +1,1 @@
+"""How points on vehicles move: velocities and accelerations for sensors."""

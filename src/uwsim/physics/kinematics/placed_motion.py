@@ -1,0 +1,139 @@
+r"""Velocities and accelerations of a vehicle that is placed by commands, not simulated.
+
+Its commands move it in jumps, one a message. A jump counts as made evenly over the time T since
+the one before, `MAX_JUMP` at most:
+
+.. math:: \dot q = \Delta q / T, \qquad \ddot q = (\dot q - \dot q_{before}) / T
+
+Both last until the next jump; where none comes for :math:`1.5\,T` the vehicle has stopped, and
+slows down over T. So a twist that comes ten times a
+second, on time or a little late, is the velocity at every step. The commands of the base, those of
+the joints and the drift with the water, which moves a vehicle at every step, are jumps of their own
+and add up.
+"""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+
+from ...geometry import Array
+from ...world import BodyMotion
+from ..collision.kinematic_contacts import MAX_JUMP
+from .link_motion import LinkMotion
+
+
+class PlacedMotion:
+    """The motion of one vehicle that is placed.
+
+    Args:
+        model: of the scene.
+        data: its state.
+        joints: the vehicle's in the model, the free joint of its base first.
+        index: number of the vehicle.
+        links: how points on links move.
+    """
+
+    STATE = ("_now", "_base", "_joints", "_drift")
+    """Attributes of its state, for snapshots."""
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        data: mujoco.MjData,
+        joints: list[int],
+        index: int,
+        links: LinkMotion,
+    ) -> None:
+        self._data, self._index, self._links = data, index, links
+        free, *moving = joints
+        place, dof = int(model.jnt_qposadr[free]), int(model.jnt_dofadr[free])
+        self._places = np.array([*range(place, place + 7), *model.jnt_qposadr[moving]])
+        self._dofs = np.array([*range(dof, dof + 6), *model.jnt_dofadr[moving]])
+        self._now: Array = data.qpos[self._places]  # (7 + n,)
+        timestep = float(model.opt.timestep)
+        self._base, self._drift = _Jumps(6, timestep), _Jumps(6, timestep)
+        self._joints = _Jumps(len(moving), timestep)
+        self._speeds, self._rates = np.zeros(model.nv), np.zeros(model.nv)
+
+    def record(self, step: int) -> None:
+        """Record where a command has put it."""
+        change = self._change()
+        if change[:6].any():
+            self._base.add(step, change[:6])
+        if change[6:].any():
+            self._joints.add(step, change[6:])
+
+    def record_drift(self, step: int) -> None:
+        """Record where the water has carried it."""
+        self._drift.add(step, self._change()[:6])
+
+    def rest(self) -> None:
+        """Record where it was put, at rest."""
+        self._change()
+        for jumps in (self._base, self._joints, self._drift):
+            jumps.clear()
+
+    def of(self, link: str, point: Array, step: int) -> BodyMotion:
+        """Return the motion of a point of W, (3,) [m], on a link."""
+        for found, part in ((self._speeds, _Jumps.speed), (self._rates, _Jumps.rate)):
+            base = part(self._base, step) + part(self._drift, step)
+            found[self._dofs] = np.concatenate([base, part(self._joints, step)])
+        return self._links.at(self._index, link, point, self._speeds, self._rates)
+
+    def _change(self) -> Array:
+        """How far it is from where it was the last time, for each degree of freedom."""
+        before, now = self._now, self._data.qpos[self._places]
+        change = np.empty(len(self._dofs))
+        change[:3] = now[:3] - before[:3]  # in W
+        mujoco.mju_subQuat(change[3:6], now[3:7], before[3:7])  # in the base's axes
+        change[6:] = now[7:] - before[7:]
+        self._now = now
+        return change
+
+
+class _Jumps:
+    """The degrees of freedom that one source moves, with the velocity of its last jump."""
+
+    STATE = ("_speed", "_before", "_step", "_n_steps")
+    """Attributes of its state, for snapshots."""
+
+    def __init__(self, n: int, timestep: float) -> None:
+        self._timestep, self._longest = timestep, max(1, round(MAX_JUMP / timestep))
+        self._speed, self._before = np.zeros(n), np.zeros(n)
+        self._step = -self._longest
+        self._n_steps = 1  # that the last jump took
+
+    def clear(self) -> None:
+        """Forget the last jump."""
+        self._speed, self._before = np.zeros_like(self._speed), np.zeros_like(self._before)
+        self._step = -self._longest
+
+    def add(self, step: int, change: Array) -> None:
+        """Record a jump; several in one step are one."""
+        if step == self._step:
+            self._speed = self._speed + change / (self._n_steps * self._timestep)
+            return
+        self._before = self.speed(step)
+        self._n_steps = min(max(1, step - self._step), self._longest)
+        self._step = step
+        self._speed = change / (self._n_steps * self._timestep)
+
+    def speed(self, step: int) -> Array:
+        """Return the velocity, (n,) [m/s, rad/s]."""
+        is_moving = step - self._step < self._lasts
+        return self._speed if is_moving else np.zeros_like(self._speed)
+
+    def rate(self, step: int) -> Array:
+        """Return the acceleration, (n,) [m/s2, rad/s2]."""
+        age, time = step - self._step, self._n_steps * self._timestep
+        if age < self._lasts:
+            return (self._speed - self._before) / time
+        if age < self._lasts + self._n_steps:
+            return -self._speed / time
+        return np.zeros_like(self._speed)
+
+    @property
+    def _lasts(self) -> int:
+        """For how many steps a jump is the motion, unless another comes."""
+        return self._n_steps + (self._n_steps + 1) // 2
