@@ -140,7 +140,10 @@ def test_a_client_calls_services_and_asks_what_there_is(setting: Setting) -> Non
     setting.bridge.step()
     client = setting.client()
     found = setting.ask(client, service="/rosapi/topics")
-    assert found["values"] == {"topics": ["/twist"], "types": ["geometry_msgs/msg/TwistStamped"]}
+    assert found["values"] == {
+        "topics": ["/rosout", "/twist"],
+        "types": ["rcl_interfaces/msg/Log", "geometry_msgs/msg/TwistStamped"],
+    }
     assert "/reset" in setting.ask(client, service="/rosapi/services")["values"]["services"]
     asked = {"service": "/rosapi/service_type", "args": {"service": "/reset"}}
     assert setting.ask(client, **asked)["values"] == {"type": "std_srvs/srv/Empty"}

@@ -5,16 +5,21 @@ from __future__ import annotations
 import base64
 import json
 import math
+from collections.abc import Callable
 from typing import Any
 
 import cv2
 import numpy as np
 
+from ...messages import CompressedImage, Image, pixels_of
+from ..encodings import to_cdr
 from ..json_encoding import to_json, to_plain
 from ..stamps import outward
 from .cbor import encode_cbor
 
-COMPRESSIONS = ("none", "png", "cbor")
+COMPRESSIONS = ("none", "png", "cbor", "cbor-raw")
+JPEG_QUALITY = 90
+"""The JPEG quality of compressed images, 0 to 100."""
 
 
 class Outgoing:
@@ -23,10 +28,22 @@ class Outgoing:
     Args:
         topic: its name, without a leading slash.
         message: as it is on the bus.
+        size: about how many bytes it takes.
+        convert: makes of it the message that is sent; called once, in the thread that sends.
+        wrap: puts its fields into those of another message; not for ``cbor-raw``.
     """
 
-    def __init__(self, topic: str, message: object, size: int) -> None:
-        self._topic, self._message = f"/{topic}", message
+    def __init__(
+        self,
+        topic: str,
+        message: object,
+        size: int,
+        convert: Callable[[Any], object] = lambda message: message,
+        wrap: Callable[[dict[str, Any]], dict[str, Any]] = lambda fields: fields,
+    ) -> None:
+        self._topic, self._source, self._convert = f"/{topic}", message, convert
+        self._converted: object = None
+        self._wrap = wrap
         self._encoded: dict[str, str | bytes] = {}
         self.size = size
         """About how many bytes it takes."""
@@ -37,14 +54,36 @@ class Outgoing:
             self._encoded[compression] = self._frame(compression)
         return self._encoded[compression]
 
+    @property
+    def _message(self) -> object:
+        """The message that is sent, with its stamps on the clock of ROS."""
+        if self._converted is None:
+            self._converted = outward(self._convert(self._source))
+        return self._converted
+
     def _frame(self, compression: str) -> str | bytes:
         if compression == "cbor":
-            plain = to_plain(outward(self._message))
+            plain = self._wrap(to_plain(self._message))
             return encode_cbor({"op": "publish", "topic": self._topic, "msg": plain})
+        if compression == "cbor-raw":  # the message as CDR, as rosbridge of ROS 2 sends it
+            raw = np.frombuffer(to_cdr(self._message), np.uint8)
+            content = {"secs": 0, "nsecs": 0, "bytes": raw}
+            return encode_cbor({"op": "publish", "topic": self._topic, "msg": content})
         if compression == "png":
             return packed_png(str(self.encoded("none")))
-        content = {"op": "publish", "topic": self._topic, "msg": to_json(outward(self._message))}
+        fields = self._wrap(to_json(self._message))
+        content = {"op": "publish", "topic": self._topic, "msg": fields}
         return json.dumps(content, separators=(",", ":"), allow_nan=False)
+
+
+def as_jpeg(image: Image) -> CompressedImage:
+    """Return an ``rgb8`` or ``mono8`` image as JPEG."""
+    pixels = pixels_of(image)
+    ordered = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
+    _, packed = cv2.imencode(".jpg", ordered, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
+    return CompressedImage(
+        header=image.header, format=f"{image.encoding}; jpeg compressed", data=packed.reshape(-1)
+    )
 
 
 def packed_png(text: str) -> str:

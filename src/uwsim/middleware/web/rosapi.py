@@ -1,30 +1,54 @@
-"""The services of ``rosapi`` that clients of rosbridge ask what there is with."""
+"""The services of ``rosapi`` that clients of rosbridge ask what there is with.
+
+Types are accepted by their names in ROS 1 and ROS 2, and answered by those of ROS 2. There is one
+node, `NODE`; what clients publish and read is theirs. There are no parameters: requests for them
+are answered as those of a server without any.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from rosbags.interfaces import Nodetype
+
+from ...errors import BadMessage, UnknownName, UwsimError
 from ..stamps import clock_time
+from ..types import PLACEHOLDER, full_name, message_class, ros2_store, service, wire_type
 
 if TYPE_CHECKING:
     from .server import WebBridge
 
 NODE = "/uwsim"
+ROSOUT = "rosout"
+"""A topic that viewers look for: its type is how they tell ROS 2 from ROS 1."""
+ROSOUT_TYPE = "rcl_interfaces/msg/Log"
+
+
+def _topic_types(bridge: WebBridge) -> dict[str, str]:
+    return {ROSOUT: ROSOUT_TYPE, **bridge.types()}
 
 
 def _topics(bridge: WebBridge, args: Any) -> dict[str, Any]:
-    types = bridge.types()
+    types = _topic_types(bridge)
     return {"topics": [f"/{name}" for name in types], "types": list(types.values())}
 
 
+def _topics_and_raw_types(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    found = _topics(bridge, args)
+    wires = [wire_type(message_class(name)) for name in found["types"]]
+    return {**found, "typedefs_full_text": [wire.ros2_definition if wire else "" for wire in wires]}
+
+
 def _topic_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
-    return {"type": bridge.types().get(_text(args, "topic").lstrip("/"), "")}
+    return {"type": _topic_types(bridge).get(_name(args, "topic"), "")}
 
 
 def _topics_for_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
-    wanted = _text(args, "type")
-    return {"topics": [f"/{name}" for name, type in bridge.types().items() if type == wanted]}
+    requested = full_name(_text(args, "type"))
+    types = _topic_types(bridge).items()
+    return {"topics": [f"/{name}" for name, type in types if type == requested]}
 
 
 def _services(bridge: WebBridge, args: Any) -> dict[str, Any]:
@@ -32,17 +56,147 @@ def _services(bridge: WebBridge, args: Any) -> dict[str, Any]:
 
 
 def _service_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
-    found = bridge.services.get(_text(args, "service").lstrip("/"))
+    found = bridge.services.get(_name(args, "service"))
     return {"type": found.name if found else ""}
+
+
+def _services_for_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    requested = None
+    with suppress(UnknownName):
+        requested = service(_text(args, "type"))
+    found = sorted(name for name, each in bridge.services.items() if each is requested)
+    return {"services": [f"/{name}" for name in found]}
+
+
+def _service_node(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    name = _name(args, "service")
+    return {"node": NODE if name in bridge.services or name in SERVICES else ""}
+
+
+def _service_providers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    node = _service_node(bridge, args)["node"]
+    return {"providers": [node] if node else []}
+
+
+def _service_host(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    return {"host": "localhost" if _service_node(bridge, args)["node"] else ""}
+
+
+def _publishers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    name = _name(args, "topic")
+    own = [NODE] if bridge.is_published(name) or name == ROSOUT else []
+    return {"publishers": [*own, *bridge.clients_publishing(name)]}
+
+
+def _subscribers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    name = _name(args, "topic")
+    own = [NODE] if bridge.is_subscribed(name) else []
+    return {"subscribers": [*own, *bridge.clients_reading(name)]}
 
 
 def _nodes(bridge: WebBridge, args: Any) -> dict[str, Any]:
     return {"nodes": [NODE]}
 
 
+def _node_details(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    if _text(args, "node").strip("/") != NODE.strip("/"):
+        return {"subscribing": [], "publishing": [], "services": []}
+    names = bridge.types()
+    return {
+        "subscribing": [f"/{name}" for name in names if bridge.is_subscribed(name)],
+        "publishing": [f"/{ROSOUT}", *(f"/{n}" for n in names if bridge.is_published(n))],
+        "services": _services(bridge, args)["services"],
+    }
+
+
+def _message_details(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    return {"typedefs": typedefs(full_name(_text(args, "type")))}
+
+
+def _service_details(half: str) -> Callable[[WebBridge, Any], dict[str, Any]]:
+    def answer(bridge: WebBridge, args: Any) -> dict[str, Any]:
+        return {"typedefs": typedefs(f"{service(_text(args, 'type')).name}_{half}")}
+
+    return answer
+
+
 def _time(bridge: WebBridge, args: Any) -> dict[str, Any]:
     now = clock_time(bridge.clock())
     return {"time": {"sec": now.sec, "nanosec": now.nanosec}}
+
+
+def _version(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    return {"version": 2, "distro": "jazzy"}
+
+
+def _no_parameters(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    return {"names": []}
+
+
+def _no_parameter(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    default = args.get("default", "") if isinstance(args, dict) else ""
+    return {"value": str(default)}
+
+
+def _has_no_parameter(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    return {"exists": False}
+
+
+def _refuse_parameter(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    raise BadMessage("The simulation has no parameters; --set changes values of a scene.")
+
+
+def _no_action_servers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+    return {"action_servers": []}
+
+
+def typedefs(name: str) -> list[dict[str, Any]]:
+    """Return the fields of a type and of all types inside it, the type itself first.
+
+    Raises:
+        BadMessage: there is no such type.
+    """
+    definitions = ros2_store().fielddefs
+    if name not in definitions:
+        raise BadMessage(f"There is no message type {name!r:.100}.")
+    found: dict[str, dict[str, Any]] = {}
+    pending = [name]
+    while pending:
+        current = pending.pop(0)
+        if current in found:
+            continue
+        constants, members = definitions[current]
+        fields = [_field(*member) for member in members if member[0] != PLACEHOLDER]
+        found[current] = {
+            "type": current,
+            "fieldnames": [field for field, _, _ in fields],
+            "fieldtypes": [type for _, type, _ in fields],
+            "fieldarraylen": [length for _, _, length in fields],
+            "examples": ["[]" if n >= 0 else _example(type) for _, type, n in fields],
+            "constnames": [constant for constant, _, _ in constants],
+            "constvalues": [str(value) for _, _, value in constants],
+        }
+        pending += [type for _, type, _ in fields if type in definitions]
+    return list(found.values())
+
+
+def _field(name: str, description: Any) -> tuple[str, str, int]:
+    """Name, type, and length of the array: 0 is any length, -1 is no array."""
+    node, inner = description
+    length = -1
+    if node in (Nodetype.ARRAY, Nodetype.SEQUENCE):
+        length = int(inner[1]) if node == Nodetype.ARRAY else 0
+        node, inner = inner[0]
+    return name, str(inner) if node == Nodetype.NAME else str(inner[0]), length
+
+
+def _example(type: str) -> str:
+    """A value of a type as text, in the form of rosapi."""
+    if "/" in type:
+        return "{}"
+    if type in ("string", "wstring"):
+        return ""
+    return "False" if type == "bool" else "0.0" if type.startswith("float") else "0"
 
 
 def _text(args: Any, key: str) -> str:
@@ -51,13 +205,42 @@ def _text(args: Any, key: str) -> str:
     return str(args.get(key, "")) if isinstance(args, dict) else ""
 
 
+def _name(args: Any, key: str) -> str:
+    return _text(args, key).strip().lstrip("/")
+
+
+def answer(bridge: WebBridge, name: str, args: Any) -> tuple[bool, Any]:
+    """Return whether a request of `SERVICES` succeeded, and the values or the reason."""
+    try:
+        return True, SERVICES[name](bridge, args)
+    except UwsimError as error:
+        return False, str(error)
+
+
 SERVICES: dict[str, Callable[[Any, Any], dict[str, Any]]] = {
+    "rosapi/action_servers": _no_action_servers,
+    "rosapi/get_param": _no_parameter,
+    "rosapi/get_param_names": _no_parameters,
+    "rosapi/get_ros_version": _version,
     "rosapi/get_time": _time,
+    "rosapi/has_param": _has_no_parameter,
+    "rosapi/message_details": _message_details,
+    "rosapi/node_details": _node_details,
     "rosapi/nodes": _nodes,
+    "rosapi/publishers": _publishers,
+    "rosapi/service_host": _service_host,
+    "rosapi/service_node": _service_node,
+    "rosapi/service_providers": _service_providers,
+    "rosapi/service_request_details": _service_details("Request"),
+    "rosapi/service_response_details": _service_details("Response"),
     "rosapi/service_type": _service_type,
     "rosapi/services": _services,
+    "rosapi/services_for_type": _services_for_type,
+    "rosapi/set_param": _refuse_parameter,
+    "rosapi/subscribers": _subscribers,
     "rosapi/topic_type": _topic_type,
     "rosapi/topics": _topics,
+    "rosapi/topics_and_raw_types": _topics_and_raw_types,
     "rosapi/topics_for_type": _topics_for_type,
 }
 """Name -> what answers, with the bridge and the arguments."""

@@ -22,13 +22,15 @@ from websockets.http11 import Request, Response
 from ...bus import Bus, TopicEnds
 from ...errors import BadSetting, UnknownName, UwsimError
 from ...message_fields import size_of
+from ...messages import CompressedImage, Image, TFMessage
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge
 from ..log import Log
 from ..stamps import clock_time
 from ..types import message_class, wire_type
+from .frame_republisher import FEEDBACK, SOURCES, FrameRepublisher, feedback
 from .options import WebOptions
-from .outgoing import Outgoing
+from .outgoing import Outgoing, as_jpeg
 from .session import Session, Subscription
 
 LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
@@ -43,6 +45,8 @@ PING, PING_LIMIT = 20.0, 300.0
 CLOSING = 2.0
 """How long closing may take [s of wall time]."""
 CLOCK = "clock"
+COMPRESSED = "/compressed"
+"""The end of the topic that carries the images of another topic as JPEG."""
 
 
 class WebBridge(Bridge):
@@ -76,6 +80,8 @@ class WebBridge(Bridge):
         """Services of the bus."""
         self._offerers: dict[str, Session] = {}
         self._sessions: set[Session] = set()
+        self._republisher = FrameRepublisher()
+        self._republications: dict[Session, list[str]] = {}
         self._loop = asyncio.new_event_loop()
         self._listening: Future[int] = Future()
         self._ended: asyncio.Event | None = None
@@ -107,8 +113,22 @@ class WebBridge(Bridge):
             outgoing = Outgoing(topic, message, size_of(message))
             if is_latched:  # before the readers are looked at: who comes meanwhile finds it here
                 self._latched[topic] = outgoing
-            for session, subscription in self._readers.get(topic, ()):
-                session.post(subscription, outgoing)
+            self._post(topic, outgoing)
+        if isinstance(message, Image) and (derived := topic + COMPRESSED) in self._readers:
+            self._post(derived, Outgoing(derived, message, size_of(message), as_jpeg))
+        if topic in SOURCES and self._republications and isinstance(message, TFMessage):
+            self._republisher.take(message)
+            for request, frames in self._republisher.due(self.clock()):
+                if request.goal:
+                    wrap = feedback(request.goal)
+                    self._post(FEEDBACK, Outgoing(FEEDBACK, frames, size_of(frames), wrap=wrap))
+                else:
+                    self._post(request.topic, Outgoing(request.topic, frames, size_of(frames)))
+
+    def _post(self, topic: str, outgoing: Outgoing) -> None:
+        """Give what is sent on a topic to its readers."""
+        for session, subscription in self._readers.get(topic, ()):
+            session.post(subscription, outgoing)
 
     def _tick(self) -> None:
         """Serve those who came before the first step, and tell the time when it is due.
@@ -158,6 +178,8 @@ class WebBridge(Bridge):
     def type_of(self, topic: str) -> type | None:
         """The class of the messages of a topic; None if it is not known."""
         ends = self._ends.get(topic)
+        if ends is None and self._image_of(topic) is not None:
+            return CompressedImage
         return None if ends is None else ends.type
 
     def types(self) -> dict[str, str]:
@@ -167,7 +189,69 @@ class WebBridge(Bridge):
             wire = wire_type(self._ends[name].type)
             if wire is not None:
                 found[name] = wire.ros2_name
+            derived = name + COMPRESSED
+            if derived not in self._ends and self._image_of(derived) is not None:
+                found[derived] = CompressedImage.__msgtype__
         return found
+
+    def _image_of(self, topic: str) -> str | None:
+        """The published images that a topic of compressed images is made of; None if none."""
+        source = topic.removesuffix(COMPRESSED)
+        ends = self._ends.get(source) if source != topic else None
+        return source if ends and ends.type is Image and ends.is_published else None
+
+    def is_published(self, topic: str) -> bool:
+        """Whether anybody publishes a topic."""
+        ends = self._ends.get(topic)
+        return self._image_of(topic) is not None or (ends is not None and ends.is_published)
+
+    def is_subscribed(self, topic: str) -> bool:
+        """Whether anybody in the simulation reads a topic."""
+        ends = self._ends.get(topic)
+        return ends is not None and ends.is_read
+
+    def clients_publishing(self, topic: str) -> list[str]:
+        """The names of the clients that have advertised a topic, as names of nodes."""
+        found = [each.name for each in tuple(self._sessions) if each.advertises(topic)]
+        return sorted(map(_node_name, found))
+
+    def clients_reading(self, topic: str) -> list[str]:
+        """The names of the clients that have subscribed to a topic, as names of nodes."""
+        found = [each.name for each in tuple(self._sessions) if each.reads(topic)]
+        return sorted(map(_node_name, found))
+
+    def republish(self, arguments: object, session: Session, goal: str = "") -> str:
+        """Publish transforms for a client; returns the topic. In the thread of the server.
+
+        For a goal they are published as its feedback.
+
+        Raises:
+            BadMessage: the request is not valid.
+        """
+        topic = self._republisher.request(arguments, goal).topic
+        if session not in self._republications:
+            for source in SOURCES:
+                self.want(source)
+        mine = [*self._republications.get(session, []), topic]
+        self._republications = {**self._republications, session: mine}
+        return topic
+
+    def cancel_republication(self, goal: str) -> None:
+        """End the transforms for a goal. In the thread of the server."""
+        topic = self._republisher.goal_topic(goal)
+        if topic is not None:
+            self._republisher.withdraw(topic)
+
+    def end_republications(self, session: Session) -> None:
+        """Publish no more transforms for a client. In the thread of the server."""
+        for topic in self._republications.get(session, []):
+            self._republisher.withdraw(topic)
+        if session in self._republications:
+            self._republications = {
+                each: topics for each, topics in self._republications.items() if each != session
+            }
+            for source in SOURCES:
+                self.unwant(source)
 
     def service_named(self, name: str) -> Service:
         """Return the type of a service of the bus; UnknownName if it is not there."""
@@ -184,7 +268,9 @@ class WebBridge(Bridge):
         if topic == CLOCK:
             self.clock_topic.send_at_next_step()
         else:
-            self.want(topic)
+            if topic not in self._ends:
+                subscription.source = self._image_of(topic) or topic
+            self.want(subscription.source)
 
     def unread(self, topic: str, session: Session, subscription: Subscription) -> None:
         """A client does so no more. In the thread of the server."""
@@ -194,7 +280,7 @@ class WebBridge(Bridge):
         else:
             self._readers.pop(topic, None)
         if topic != CLOCK:
-            self.unwant(topic)
+            self.unwant(subscription.source)
 
     def offer_of(self, name: str, service: Service, session: Session) -> None:
         """A client offers a service. In the thread of the server."""
@@ -288,6 +374,11 @@ async def _write(connection: ServerConnection, session: Session) -> None:
     with suppress(ConnectionClosed):
         while True:
             await connection.send(await session.next_frame())
+
+
+def _node_name(client: str) -> str:
+    """The name of a client as the name of a node: ``/client_127_0_0_1_40312``."""
+    return "/" + re.sub(r"[^A-Za-z0-9_]", "_", client)
 
 
 def _token_of(request: Request) -> str:

@@ -20,6 +20,8 @@ from ..lockstep.topics import JOIN
 from ..stamps import inward, outward
 from ..types import message_class, service, service_of, wire_type
 from . import rosapi
+from .frame_republisher import ACTION_TOPICS, CANCEL, GOAL
+from .frame_republisher import SERVICE as REPUBLISH
 from .outgoing import COMPRESSIONS, Outgoing
 from .queue import MAX_MESSAGES, Lane, OutQueue
 
@@ -44,6 +46,11 @@ class Subscription:
     """The ids under which the client has subscribed."""
     last: float = -math.inf
     """When the last message was sent [s of wall time]."""
+    source: str = ""
+    """The topic of the bus that its messages are made of."""
+
+    def __post_init__(self) -> None:
+        self.source = self.source or self.topic
 
 
 class Session:
@@ -146,6 +153,10 @@ class Session:
         """Whether the client has said that it publishes ``topic``. Any thread."""
         return topic in self._advertised
 
+    def reads(self, topic: str) -> bool:
+        """Whether the client has subscribed to ``topic``. Any thread."""
+        return topic in self._subscriptions
+
     def close(self) -> None:
         """Take back everything: the client has gone."""
         for topic in list(self._subscriptions):
@@ -153,6 +164,7 @@ class Session:
         for name in self._services:
             self._bridge.withdraw_of(name, self)
         self._services.clear()
+        self._bridge.end_republications(self)
         with self._lock:
             self._has_left = True  # from here on, no call waits for it
         for future, _ in self._asked.values():
@@ -167,7 +179,10 @@ class Session:
             self._loop.call_soon_threadsafe(self._something.set)
 
     def _advertise(self, asked: dict[str, Any]) -> None:
-        topic, cls = name_in(asked, "topic"), message_class(text_in(asked, "type"))
+        topic = name_in(asked, "topic")
+        if topic in ACTION_TOPICS and self._bridge.type_of(topic) is None:
+            return
+        cls = message_class(text_in(asked, "type"))
         known = self._bridge.type_of(topic)
         if known is not None and known is not cls:
             theirs = wire_type(known)
@@ -184,12 +199,27 @@ class Session:
     def _publish(self, asked: dict[str, Any]) -> None:
         topic = name_in(asked, "topic")
         cls = self._advertised.get(topic) or self._bridge.type_of(topic)
+        if cls is None and topic in ACTION_TOPICS:
+            self._republish(topic, asked.get("msg"))
+            return
         if cls is None:
             raise BadMessage(f"Topic /{topic} is not known; advertise it with its type first.")
         message: object = inward(from_json(cls, asked.get("msg", {})))
         if topic == JOIN and isinstance(message, String):
             self._joined_as = _client_in(message.data)
         self._bridge.put(topic, message, self._name)
+
+    def _republish(self, topic: str, message: Any) -> None:
+        """Take a goal for transforms, or a cancellation."""
+        fields = message if isinstance(message, dict) else {}
+        if topic == GOAL:
+            goal_id = fields.get("goal_id")
+            goal = goal_id.get("id") if isinstance(goal_id, dict) else None
+            if not isinstance(goal, str) or not 0 < len(goal) <= 500:
+                raise BadMessage(f"/{topic}: goal_id.id is no name.")
+            self._bridge.republish(fields.get("goal"), self, goal)
+        elif topic == CANCEL:
+            self._bridge.cancel_republication(str(fields.get("id", "")))
 
     def _subscribe(self, asked: dict[str, Any]) -> None:
         topic = name_in(asked, "topic")
@@ -198,11 +228,8 @@ class Session:
             known = ", ".join(COMPRESSIONS)
             raise BadMessage(f"There is no compression {compression!r:.100}; there are {known}.")
         carried = self._bridge.type_of(topic)
-        if (
-            carried is not None
-            and asked.get("type")
-            and message_class(text_in(asked, "type")) != carried
-        ):
+        is_named = carried is not None and bool(asked.get("type"))
+        if is_named and message_class(text_in(asked, "type")) != carried:
             raise BadMessage(f"Topic /{topic} does not carry {asked['type']}.")
         throttle = number_in(asked, "throttle_rate") / 1000.0
         length = int(number_in(asked, "queue_length")) or MAX_MESSAGES
@@ -236,10 +263,13 @@ class Session:
     def _call_service(self, asked: dict[str, Any]) -> None:
         name = name_in(asked, "service")
         answer = {"op": "service_response", "service": f"/{name}", "id": asked.get("id")}
-        if (known := rosapi.SERVICES.get(name)) is not None:
-            self.reply(
-                {**answer, "values": known(self._bridge, asked.get("args") or {}), "result": True}
-            )
+        if name in rosapi.SERVICES:
+            succeeded, values = rosapi.answer(self._bridge, name, asked.get("args") or {})
+            self.reply({**answer, "values": values, "result": succeeded})
+            return
+        if name == REPUBLISH and name not in self._bridge.services:
+            topic = self._bridge.republish(asked.get("args"), self)
+            self.reply({**answer, "values": {"topic_name": f"/{topic}"}, "result": True})
             return
         try:
             of = self._bridge.service_named(name)
