@@ -124,7 +124,13 @@ def _field(content: etree._Element, field: Field) -> None:
     elif not is_needed:
         content = _sub(content, "optional")
     what = "attribute" if field.xml.attribute else "element"
-    node = _sub(content, what, **_named(field.tag))
+    own = [name for name in field.xml.original.aliases if name.startswith("{")]
+    node = _sub(content, what, **({} if own else _named(field.tag)))
+    if own:
+        names = _sub(node, "choice")
+        for name in (field.tag, *own):
+            entry = _named(name)
+            _sub(names, "name", ns=entry.get("ns", "")).text = entry["name"]
     if field.kind == "spec":
         _ref(node, field.type)
     elif field.kind == "manual":

@@ -129,7 +129,7 @@ def _children(
             _unknown_element(child, node, by_tag, diagnostics)
             continue
         index, field = entry
-        if tag not in by_tag:
+        if tag not in by_tag and not tag.startswith("{"):  # one of ours stays valid
             diagnostics.warning(child, f"{shown(child)} is an old name of <{field.shown}>")
         if diagnostics.strict and index < last[0] and not field.xml.namespaced:
             _misplaced(child, last[1], diagnostics)

@@ -21,6 +21,7 @@ ROSTwistToPAT          geometry_msgs/TwistStamped   one step of the twist (in th
 ROSOdomToPAT           nav_msgs/Odometry            a pose that is not all zero as ROSPoseToPAT,
                                                     else its twist as ROSTwistToPAT
 ROSJointStateToArm     sensor_msgs/JointState       positions, else one step of the velocities
+u:ROSCmdVelToPAT       geometry_msgs/Twist          as ROSTwistToPAT: x forward, y left, z up
 u:ROSThrustersToPAT    std_msgs/Float64MultiArray   commands of the thrusters, simulated only
 u:ROSFinsToPAT         std_msgs/Float64MultiArray   angles of the fins [rad], simulated only
 u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque, simulated only
@@ -41,7 +42,9 @@ from .comms_device_ros import AcousticCommsDeviceROSSpec, CustomCommsDeviceROSSp
 from .contact_sensor_to_ros import ContactSensorToROSSpec
 from .depth_images import RangeCameraToPCLSpec, RangeImageSensorToROSImageSpec
 from .interface import InterfaceSpec
+from .multibeam_to_point_cloud import MultibeamToPointCloud2Spec
 from .pat_to_ros_odom import PATToROSOdomSpec
+from .ros_cmd_vel_to_pat import ROSCmdVelToPATSpec
 from .ros_joint_state_to_arm import ROSJointStateToArmSpec
 from .ros_odom_to_pat import ROSOdomToPATSpec
 from .ros_pose_to_pat import ROSPoseToPATSpec
@@ -92,10 +95,12 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     "RangeCameraToPCL": RangeCameraToPCLSpec,
     "CustomCommsDeviceROS": CustomCommsDeviceROSSpec,
     "AcousticCommsDeviceROS": AcousticCommsDeviceROSSpec,
+    f"{{{NAMESPACE}}}ROSCmdVelToPAT": ROSCmdVelToPATSpec,
     f"{{{NAMESPACE}}}ROSThrustersToPAT": ROSThrustersToPATSpec,
     f"{{{NAMESPACE}}}ROSFinsToPAT": ROSFinsToPATSpec,
     f"{{{NAMESPACE}}}ROSWrenchToPAT": ROSWrenchToPATSpec,
     f"{{{NAMESPACE}}}sonarToROS": SonarToROSSpec,
+    f"{{{NAMESPACE}}}multibeamToPointCloud2": MultibeamToPointCloud2Spec,
     f"{{{NAMESPACE}}}batteryToROS": BatteryToROSSpec,
     f"{{{NAMESPACE}}}motorCurrentsToROS": MotorCurrentsToROSSpec,
 }

@@ -17,7 +17,7 @@ from ..errors import BadMessage, UnknownName
 from ..geometry import Array
 from ..message_fields import odd_number
 from ..messages import Float64MultiArray, WrenchStamped
-from ..schema import element
+from ..schema import NAMESPACE, Original, element
 from ..vehicle import MAX_COMMAND, Autopilot, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
@@ -31,9 +31,9 @@ class AutopilotTopicSpec(VehicleTopicSpec):
 
     subscribes: ClassVar[bool] = True
 
-    topic: str = element(namespaced=True)
+    topic: str = element(original=Original(aliases=(f"{{{NAMESPACE}}}topic",)))
     """Name of the topic."""
-    vehicle_name: str = element(namespaced=True)
+    vehicle_name: str = element(original=Original(aliases=(f"{{{NAMESPACE}}}vehicleName",)))
     """Name of the vehicle; it has ``u:dynamics``."""
 
     def autopilot(self, world: TopicWorld) -> Autopilot:
