@@ -30,13 +30,13 @@ def test_errors_are_status_2_and_all_are_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "scene.xml"
-    file.write_text("<UWSimScene>\n<vehicel/>\n<camera><fov>wide</fov></camera></UWSimScene>")
+    file.write_text("<UWSimScene>\n<vehicel/>\n<simParams><lightRate>wide</lightRate></simParams></UWSimScene>")
     assert status(str(file), str(tmp_path / "nothing.xml")) == 2
     said = capsys.readouterr().out.splitlines()
     assert said[0] == (
         f"{file}:2: <vehicel> is not an element of <UWSimScene>. Did you mean vehicle?"
     )
-    assert said[1] == f"{file}:3: <fov> is 'wide'; expected a number > 0 and < 180 [deg]"
+    assert said[1] == f"{file}:3: <lightRate> is 'wide'; expected a number >= 0 and <= 1e+06 [1]"
     assert f"{file}: 2 errors" in said
     assert any("there is no such file" in line for line in said)
 
