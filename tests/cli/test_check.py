@@ -30,7 +30,9 @@ def test_errors_are_status_2_and_all_are_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "scene.xml"
-    file.write_text("<UWSimScene>\n<vehicel/>\n<simParams><lightRate>wide</lightRate></simParams></UWSimScene>")
+    file.write_text(
+        "<UWSimScene>\n<vehicel/>\n<simParams><lightRate>wide</lightRate></simParams></UWSimScene>"
+    )
     assert status(str(file), str(tmp_path / "nothing.xml")) == 2
     said = capsys.readouterr().out.splitlines()
     assert said[0] == (
@@ -296,7 +298,14 @@ def test_a_wrong_namespace_names_the_right_one(
 
 
 @pytest.mark.parametrize("root", ["robot", "UWSimScene", "library", "root"])
-@pytest.mark.parametrize("extra", ["", '<xacro:property name="a" value="1"/><xacro:arg name="b"/>'])
+@pytest.mark.parametrize(
+    "extra",
+    [
+        "",
+        '<xacro:property name="a" value="1"/><xacro:arg name="b"/>',
+        '<material name="grey"><color rgba="1 1 1 1"/></material>',
+    ],
+)
 def test_a_library_of_macros_is_stated_to_be_one(
     root: str, extra: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -86,11 +86,14 @@ class _NamedFiles:
 def macros_alone(root: etree._Element) -> tuple[str, ...]:
     """Return the names of the macros of a library; empty for a file that has other elements.
 
-    A library consists of macros, properties, arguments and includes, and has a macro.
+    A library has a macro, and besides macros only properties, arguments, includes and materials.
     """
     children = [child for child in root if isinstance(child.tag, str)]
     names = {"macro", "property", "arg", "include"}
-    if not all(namespace_of(each) in XACRO and local(each) in names for each in children):
+    if not all(
+        child.tag == "material" or (namespace_of(child) in XACRO and local(child) in names)
+        for child in children
+    ):
         return ()
     return tuple(str(each.get("name")) for each in children if local(each) == "macro")
 
