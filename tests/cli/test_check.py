@@ -321,6 +321,14 @@ def test_a_library_of_macros_is_stated_to_be_one(
     assert "library of xacro" not in capsys.readouterr().out
 
 
+def test_so_is_one_of_properties(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "params.xacro"
+    xmlns = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    file.write_text(f'<robot {xmlns}><xacro:property name="mass" value="2"/></robot>')
+    assert status(str(file)) == 0
+    assert "a library of xacro properties: mass. " in capsys.readouterr().out
+
+
 def test_a_library_with_an_error_has_that_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
