@@ -5,7 +5,7 @@
 
 MESH is a URI, such as package://uwsim/data/objects/amphora.osg; a name alone is taken for one in
 package://uwsim/. The rotation is Rx Ry Rz.
-With `uwsim run cirs --web 9090`:  spawn_marker.py add toys 1 buoy.stl 1 0 3 0 0 0
+With `uwsim run cirs --web 9090`:  spawn_marker.py add toys 1 data/objects/sphere.osg 1 0 3 0 0 0
 """
 
 from __future__ import annotations

@@ -53,13 +53,19 @@ LAYOUTS: dict[str, Callable[[Path, str], Path]] = {
     "beside": lambda root, name: root / name,
     "source space": lambda root, name: root / "src" / name,
     "repositories": lambda root, name: root / "src" / f"repo_of_{name}" / name,
+    "groups of a repository": lambda root, name: root / "repo" / f"group_of_{name}" / name,
     "installed, isolated": lambda root, name: root / "install" / name / "share" / name,
     "installed, merged": lambda root, name: root / "install" / "share" / name,
 }
 
 
-@pytest.mark.parametrize("declared", [True, False])
-@pytest.mark.parametrize("layout", LAYOUTS)
+@pytest.mark.parametrize(
+    ("layout", "declared"),
+    [
+        *((layout, True) for layout in LAYOUTS),
+        *((layout, False) for layout in LAYOUTS if layout != "groups of a repository"),
+    ],
+)
 def test_neighbours_in_a_workspace_have_their_own_files(
     layout: str, declared: bool, tmp_path: Path
 ) -> None:

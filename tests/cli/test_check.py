@@ -30,13 +30,15 @@ def test_errors_are_status_2_and_all_are_reported(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "scene.xml"
-    file.write_text("<UWSimScene>\n<vehicel/>\n<camera><fov>wide</fov></camera></UWSimScene>")
+    file.write_text(
+        "<UWSimScene>\n<vehicel/>\n<simParams><lightRate>wide</lightRate></simParams></UWSimScene>"
+    )
     assert status(str(file), str(tmp_path / "nothing.xml")) == 2
     said = capsys.readouterr().out.splitlines()
     assert said[0] == (
         f"{file}:2: <vehicel> is not an element of <UWSimScene>. Did you mean vehicle?"
     )
-    assert said[1] == f"{file}:3: <fov> is 'wide'; expected a number > 0 and < 180 [deg]"
+    assert said[1] == f"{file}:3: <lightRate> is 'wide'; expected a number >= 0 and <= 1e+06 [1]"
     assert f"{file}: 2 errors" in said
     assert any("there is no such file" in line for line in said)
 
@@ -296,7 +298,14 @@ def test_a_wrong_namespace_names_the_right_one(
 
 
 @pytest.mark.parametrize("root", ["robot", "UWSimScene", "library", "root"])
-@pytest.mark.parametrize("extra", ["", '<xacro:property name="a" value="1"/><xacro:arg name="b"/>'])
+@pytest.mark.parametrize(
+    "extra",
+    [
+        "",
+        '<xacro:property name="a" value="1"/><xacro:arg name="b"/>',
+        '<material name="grey"><color rgba="1 1 1 1"/></material>',
+    ],
+)
 def test_a_library_of_macros_is_stated_to_be_one(
     root: str, extra: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -310,6 +319,14 @@ def test_a_library_of_macros_is_stated_to_be_one(
     file.write_text(f'<robot {xmlns}>{macros}<link name="a"/></robot>')
     assert status(str(file)) == 0
     assert "library of xacro" not in capsys.readouterr().out
+
+
+def test_so_is_one_of_properties(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "params.xacro"
+    xmlns = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    file.write_text(f'<robot {xmlns}><xacro:property name="mass" value="2"/></robot>')
+    assert status(str(file)) == 0
+    assert "a library of xacro properties: mass. " in capsys.readouterr().out
 
 
 def test_a_library_with_an_error_has_that_error(

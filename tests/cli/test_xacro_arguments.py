@@ -74,6 +74,17 @@ def test_an_argument_that_no_file_has_is_reported(
     assert "no <xacro:arg>" not in out
 
 
+def test_an_argument_that_is_used_and_not_declared_has_a_value_from_outside(
+    scene: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    robot = scene.parent / "rov.urdf.xacro"
+    robot.write_text(f'<robot name="rov" {NAMESPACES}><link name="$(arg space)/hull"/></robot>')
+    status, out, _ = call(capsys, "check", scene)
+    assert (status, "--xacro NAME:=VALUE gives one" in out) == (2, True)
+    status, out, _ = call(capsys, "check", scene, "--xacro", "space:=a")
+    assert (status, "<xacro:arg>" in out) == (0, False)
+
+
 @pytest.mark.parametrize("word", ["depth=7", ":=7", "depth"])
 def test_what_is_no_argument_is_refused(
     word: str, scene: Path, capsys: pytest.CaptureFixture[str]

@@ -11,7 +11,8 @@ from uwsim.errors import SceneError
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.xacro import parse_expanded
-from uwsim.xacro.expression import ExpressionError, evaluate
+from uwsim.xacro.expression import evaluate
+from uwsim.xacro.value import ExpressionError
 
 NAMESPACES = 'xmlns:xacro="http://ros.org/wiki/xacro" xmlns:xi="http://www.w3.org/2001/XInclude"'
 

@@ -32,6 +32,8 @@ LEFT_OUT = frozenset({"build", "log", "logs", "node_modules", "__pycache__", "si
 """Folders without packages of their own."""
 WORKSPACE_DEPTH = 5
 """Deepest folder that is looked at below a workspace or a data path: ``src/GROUP/REPOSITORY/X``."""
+REPOSITORY_DEPTH = 3
+"""Deepest folder that is looked at below the two folders above a package: ``GROUP/X`` beside it."""
 MAX_FOLDERS = 4000
 """Most folders that are looked at below one."""
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
@@ -68,7 +70,8 @@ def package_folders(
     above = list(above)
     enclosing = next((i for i, folder in enumerate(above) if _declared(folder)), len(above))
     for i, folder in enumerate(above):
-        depth = WORKSPACE_DEPTH if _is_workspace(folder) else max(0, min(i - enclosing, 2))
+        is_near = enclosing < i <= enclosing + 2
+        depth = WORKSPACE_DEPTH if _is_workspace(folder) else REPOSITORY_DEPTH * is_near
         yield from _fresh(_in(package, folder, depth), seen)
     for folder in (*data_path, *_entries("ROS_PACKAGE_PATH")):
         yield from _fresh(_in(package, folder.absolute(), WORKSPACE_DEPTH), seen)

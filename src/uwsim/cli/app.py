@@ -17,6 +17,7 @@ import typer
 from .. import __version__
 from ..numerics.compiling import when_many_are_compiled
 from .exit_status import INTERRUPTED, exit_status, one_line
+from .old_options import refuse_old_options
 from .options.completion import words_typed
 from .options.help_texts import HELP_NAMES, TaughtCommand
 from .options.option_groups import with_flat_options
@@ -170,6 +171,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     wanted = [argument for argument in given if argument != TRACEBACK] or ["--help"]
     when_many_are_compiled(tell_of_compiling)
     try:
+        refuse_old_options(wanted, COMMANDS)
         result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False, obj=wanted)
         sys.stdout.flush()
     except BrokenPipeError:

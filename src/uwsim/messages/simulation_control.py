@@ -290,6 +290,7 @@ class SpawnEntityResponse:
     NAME_NOT_UNIQUE: ClassVar[int] = 101
     NAME_INVALID: ClassVar[int] = 102
     NO_RESOURCE: ClassVar[int] = 104
+    MISSING_ASSETS: ClassVar[int] = 107
     INVALID_POSE: ClassVar[int] = 109
     result: Result = field(default_factory=Result)
     entity_name: str = ""

@@ -170,6 +170,11 @@ def _named(tag: str, *, within: Field | None = None) -> dict[str, str]:
     return {"name": tag, "ns": ""} if within and within.xml.namespaced else {"name": tag}
 
 
+def _literal(word: str) -> str:
+    """A word as a pattern of XML Schema, which has no escaped blanks."""
+    return re.escape(word).replace("\\ ", " ")
+
+
 def _data(node: etree._Element, field: Field, *, may_be_empty: bool = False) -> None:
     """The pattern of a scalar."""
     if field.kind == "str":
@@ -182,7 +187,7 @@ def _data(node: etree._Element, field: Field, *, may_be_empty: bool = False) -> 
         "int": r"[+\-]?[0-9]+",
         "numbers": rf"({NUMBER})([ ,]+({NUMBER}))*",
         "bool": "true|false|0|1" if field.xml.attribute else "0|1",
-        "word": "|".join(map(re.escape, field.type)) if field.kind == "word" else "",
+        "word": "|".join(map(_literal, field.type)) if field.kind == "word" else "",
     }
     inner = f"({patterns.get(field.kind, NUMBER)})" + ("?" if may_be_empty else "")
     _pattern(node, f"{SPACE}{inner}{SPACE}")

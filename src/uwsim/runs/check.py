@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 MAX_MACROS = 12
-"""Macros of a library that are listed."""
+"""Macros or properties of a library that are listed."""
 
 
 def diagnostics_of(
@@ -43,7 +43,7 @@ def diagnostics_of(
     """
     from ..scene.reader import ROOT, check_robot, check_scene
     from ..schema import parse, shown_tag
-    from ..xacro import macros_alone
+    from ..xacro import library_of
 
     try:
         node = parse(file).root
@@ -51,8 +51,8 @@ def diagnostics_of(
         return list(error.diagnostics)
     root = str(node.tag)
     library = _Folders(data_path)
-    if macros := macros_alone(node):
-        return _of_library(file, macros, data_path, arguments)
+    if library_has := library_of(node):
+        return _of_library(file, *library_has, data_path, arguments)
     if root == "robot":
         return check_robot(file, library=library, data_path=data_path, arguments=arguments)
     if root == "benchmark":
@@ -81,21 +81,22 @@ def diagnostics_of(
 
 def _of_library(
     file: Path,
-    macros: Sequence[str],
+    kind: str,
+    names: Sequence[str],
     data_path: tuple[Path, ...],
     arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
-    """State that a file is a library of xacro macros; with the errors of its expansion."""
+    """State that a file is a library of macros or properties; with errors of its expansion."""
     from ..xacro import parse_expanded
 
     try:
         document = parse_expanded(file, data_path=data_path, arguments=arguments)
     except FileError as error:
         return list(error.diagnostics)
-    listed = ", ".join(macros[:MAX_MACROS]) + (", ..." if len(macros) > MAX_MACROS else "")
+    listed = ", ".join(names[:MAX_MACROS]) + (", ..." if len(names) > MAX_MACROS else "")
     message = (
-        f"a library of xacro macros: {listed}. It has nothing to simulate by itself; check a file "
-        "that includes it and calls them"
+        f"a library of xacro {kind}: {listed}. It has nothing to simulate by itself; check a file "
+        "that includes it and uses them"
     )
     whole = Diagnostic(file=str(file), line=None, message=message, severity="warning")
     return [*document.expansion.warnings, whole]

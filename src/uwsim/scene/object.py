@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from ..acoustics import MaterialName
 from ..geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
 from ..numerics.linear import product
-from ..schema import MAX_DISTANCE, REQUIRED, Spec, element
+from ..schema import CLAMPED, MAX_DISTANCE, REQUIRED, Spec, element
 from .checks.plausibility import ObjectWarning
 from .on_floor import OnFloorSpec
+
+ShapeType = Literal[
+    "box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh"
+]
 
 TERRAIN = "terrain"
 """An object of this name is the ground: nothing picks it up, and without ``<physics>`` it is
@@ -20,12 +25,12 @@ fixed, and solid for simulated vehicles."""
 class PhysicsSpec(Spec):
     """A ``<physics>`` block of an object."""
 
-    mass: float = element(default=1.0, minimum=0)
+    mass: float = element(default=1.0, minimum=0, original=CLAMPED)
     """Its mass; 0 never moves [kg]."""
     inertia: Triple = ZERO
     """About its axes; all zero: that of the ball, or of the box around its shape [kg m2]."""
-    collision_shape_type: str = "box"
-    """box, sphere, compound box, compound cylinder, trimesh or compound trimesh."""
+    collision_shape_type: ShapeType = "box"
+    """What is made of its mesh for contacts."""
     collision_shape: str = ""
     """Another file to make the shape from."""
     linear_damping: float = 0.0
@@ -91,7 +96,7 @@ class ObjectSpec(Spec):
     """In the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy", original=REQUIRED)
     """In the file's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
+    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED)
     """Scale along x, y, z [1]."""
     offsetp: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Point of the mesh that becomes the origin of the object [m]."""

@@ -74,23 +74,23 @@ class ProfileSpec(Spec):
 class OceanStateSpec(Spec):
     """An ``<oceanState>``: the surface and the water."""
 
-    windx: float = 0.04
+    windx: float = element(default=0.04, original=Original(of_window=True))
     """Wind along x; not normalised, its length scales the waves [1]."""
-    windy: float = 0.04
+    windy: float = element(default=0.04, original=Original(of_window=True))
     """Wind along y; not normalised, its length scales the waves [1]."""
-    wind_speed: float = 12.0
+    wind_speed: float = element(default=12.0, original=Original(of_window=True))
     """Wind speed of the wave spectrum [m/s]."""
-    depth: float = 1000.0
+    depth: float = element(default=1000.0, original=Original(of_window=True))
     """Depth of the water, for the speed of waves only: it is no floor [m]."""
-    reflection_damping: float = 0.35
+    reflection_damping: float = element(default=0.35, original=Original(of_window=True))
     """Factor on waves that run against the wind [1]."""
-    wave_scale: float = 1e-7
+    wave_scale: float = element(default=1e-7, original=Original(of_window=True))
     """Amplitude of the wave spectrum [1]."""
-    is_not_choppy: bool = element(default=False, original=Original(invalid=True))
+    is_not_choppy: bool = element(default=False, original=Original(invalid=True, of_window=True))
     """Whether waves move points only up and down."""
-    choppy_factor: float = 2.5
+    choppy_factor: float = element(default=2.5, original=Original(of_window=True))
     """Horizontal displacement of points by waves [1]."""
-    crest_foam_height: float = 2.2
+    crest_foam_height: float = element(default=2.2, original=Original(of_window=True))
     """Height from which crests foam; read and not used, as in the original [m]."""
     ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Height of the water surface in the world, z up [m]."""

@@ -10,6 +10,8 @@ from ..schema import MAX_DISTANCE, Original, Spec, element
 
 Integrator = Literal["implicitfast", "RK4"]
 ContactMode = Literal["default", "precise"]
+Solver = Literal["Dantzig", "SolveProjectedGauss", "SequentialImpulse"]
+WINDOW_SIZE = Original(clamped=True, of_window=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,11 +32,11 @@ class ShowTrajectorySpec(Spec):
 class SimParamsSpec(Spec):
     """A ``<simParams>``: frames, window, physics, light."""
 
-    disable_shaders: bool = False
+    disable_shaders: bool = element(default=False, original=Original(of_window=True))
     """Whether water and sky are drawn without effects."""
-    resw: int = element(default=800, minimum=1)
+    resw: int = element(default=800, minimum=1, maximum=7680, original=WINDOW_SIZE)
     """Width of the window [px]."""
-    resh: int = element(default=600, minimum=1)
+    resh: int = element(default=600, minimum=1, maximum=4320, original=WINDOW_SIZE)
     """Height of the window [px]."""
     offsetp: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Origin of the file's frame in the world [m]."""
@@ -44,13 +46,15 @@ class SimParamsSpec(Spec):
     """Whether contacts and gravity act on objects."""
     gravity: Triple = ZERO
     """In the world; all zero means (0, 0, -1) [m/s2]."""
-    physics_frequency: float = element(default=60.0, above=0)
+    physics_frequency: float = element(default=60.0, above=0, original=Original(of_window=True))
     """Steps of the original's physics [Hz]."""
-    physics_sub_steps: int = 0
+    physics_sub_steps: int = element(default=0, original=Original(of_window=True))
     """Most steps per frame; 0 is automatic."""
-    physics_solver: str = "Dantzig"
-    """Dantzig, SolveProjectedGauss or SequentialImpulse."""
-    show_trajectory: tuple[ShowTrajectorySpec, ...] = ()
+    physics_solver: Solver = element(default="Dantzig", original=Original(of_window=True))
+    """Of the original's contacts; read and not used."""
+    show_trajectory: tuple[ShowTrajectorySpec, ...] = element(
+        default=(), original=Original(of_window=True)
+    )
     """Trails to draw in the viewer."""
     light_rate: float = element(default=1.0, minimum=0, maximum=1e6)
     """Factor on the light of the scene [1]."""

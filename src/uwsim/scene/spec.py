@@ -83,7 +83,7 @@ class SceneSpec(Spec):
     """The surface and the water."""
     sim_params: SimParamsSpec = element(default=SimParamsSpec())
     """Frames, window, physics, light."""
-    camera: ViewerCameraSpec | None = None
+    camera: ViewerCameraSpec | None = element(default=None, original=Original(of_window=True))
     """The viewer's camera."""
     ned_origin: NedOriginSpec | None = None
     """Where on Earth the scene lies."""

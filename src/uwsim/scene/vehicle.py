@@ -23,7 +23,7 @@ from ..devices.echo import SimulatedDevicesSpec
 from ..devices.fdm import FdmSpec
 from ..devices.tf import TfSpec
 from ..geometry import ONE, ZERO, Pose, Triple
-from ..schema import MAX_DISTANCE, Spec, element
+from ..schema import CLAMPED, MAX_DISTANCE, Spec, element
 from ..schema.names import local
 from ..sensors import SENSORS
 from .checks.plausibility import VehicleWarning
@@ -66,7 +66,7 @@ class VehicleSpec(Spec):
     """Of its base in the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
-    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6)
+    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED)
     """Scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
     links, and what is mounted on them; a simulated vehicle has none [1]."""
     parts: tuple[object, ...] = element("", choice=PARTS, default=())

@@ -29,7 +29,7 @@ Elements may be in any order. Names without a namespace are those of the origina
 `Diagnostics` also reports elements that are not in the order of the fields.
 """
 
-from .declaration import REQUIRED, Limits, Original, element
+from .declaration import CLAMPED, REQUIRED, Limits, Original, element
 from .diagnostics import MAX_DIAGNOSTICS, Diagnostics, diagnostic_at
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, Expansion, check_head, parse
 from .grammar import (
@@ -49,6 +49,7 @@ from .values import TOKENS, number
 from .writing import uses_extensions, write
 
 __all__ = [
+    "CLAMPED",
     "MAX_BYTES",
     "MAX_DEPTH",
     "MAX_DIAGNOSTICS",

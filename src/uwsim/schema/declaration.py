@@ -20,8 +20,14 @@ class Original:
     """Junk behind a number is a warning, not an error (the original uses atof)."""
     invalid: bool | None = None
     """What a flag that is neither 0 nor 1 is read as; the default when None."""
+    clamped: bool = False
+    """A number beyond the limits is clamped with a warning: the original has no limits."""
+    of_window: bool = False
+    """The element concerns the original's window alone: an error in it is a warning here."""
 
 
+CLAMPED = Original(clamped=True)
+"""An element whose number is clamped to its limits: a mass, a size."""
 REQUIRED = Original(required=True)
 """An element that the original's DTD requires although it has a default."""
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Literal, cast
 
@@ -24,12 +25,25 @@ class Diagnostics:
         self.strict = strict
         self.lenient = False
         """Whether junk behind a number is a warning, as where the original used atof."""
+        self._excuse = ""
         self._found: list[Diagnostic] = []
         self._uncounted = {"error": 0, "warning": 0}
 
     def error(self, place: object, message: str) -> None:
-        """Add an error at an element, a spec or a line number."""
-        self._append(place, message, "error")
+        """Add an error at an element, a spec or a line number; a warning if it is `excused`."""
+        if self._excuse:
+            self._append(place, f"{message.removesuffix('.')}; {self._excuse}", "warning")
+        else:
+            self._append(place, message, "error")
+
+    @contextmanager
+    def excused(self, why: str) -> Iterator[None]:
+        """Make warnings of the errors in this block, with the reason; with ``strict`` they stay."""
+        before, self._excuse = self._excuse, "" if self.strict else why
+        try:
+            yield
+        finally:
+            self._excuse = before
 
     def warning(self, place: object, message: str) -> None:
         """Add a warning at an element, a spec or a line number; the file stays valid."""

@@ -17,6 +17,8 @@ from .source_line import Spec, source_line
 from .values import BAD, BLANKS, Bad, scalar
 
 T = TypeVar("T")
+OF_WINDOW = "it concerns the original's window alone; the default counts"
+"""Why an error in an element of the window is a warning."""
 
 
 def read(
@@ -178,6 +180,15 @@ def _read_field(
     field: Field, parent: etree._Element, nodes: list[etree._Element], diagnostics: Diagnostics
 ) -> Any:
     """Read a field that is not an attribute; BAD when it is absent or invalid."""
+    if field.xml.original.of_window and nodes:
+        with diagnostics.excused(OF_WINDOW):
+            return _read_present_field(field, parent, nodes, diagnostics)
+    return _read_present_field(field, parent, nodes, diagnostics)
+
+
+def _read_present_field(
+    field: Field, parent: etree._Element, nodes: list[etree._Element], diagnostics: Diagnostics
+) -> Any:
     if field.xml.text:
         return _leaf(field, parent, diagnostics)
     if not nodes:

@@ -28,6 +28,7 @@ MAX_NUMBERS = 36
 BLANKS = " \t\n\r"
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
+_SEPARATORS = re.compile(r"[\s_-]+")
 _LEADING_INT = re.compile(r"[+-]?\d+", re.ASCII)
 
 
@@ -76,8 +77,10 @@ def scalar(
                 node,
                 f"{shown} is {cut(text)}; expected 0 or 1; read as {value:d}, as the original does",
             )
-    elif field.kind == "word" and text in field.type:
-        value = text
+    elif field.kind == "word":
+        value = _word(field, text, node, diagnostics, shown)
+    if field.xml.original.clamped and value is not BAD:
+        value = _clamped(field, value, node, diagnostics, shown)
     if value is not BAD and field.kind in ("float", "int", "triple") and not field.allows(value):
         value = BAD
     if field.kind in ("float", "triple") and value is not BAD and abs(value) > MAX_NUMBER:
@@ -91,6 +94,43 @@ def scalar(
             node, f"{shown} is {cut(text)}; expected {field.expected}.{near}".rstrip(".")
         )
     return value
+
+
+def _word(
+    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, shown: str
+) -> Any:
+    """One of a few words; of the original's also in another spelling, as ``CompoundBox``."""
+    if text in field.type:
+        return text
+    if field.xml.namespaced:
+        return BAD
+    words = {_folded(word): word for word in field.type}
+    word = words.get(_folded(text))
+    if word is None:
+        return BAD
+    diagnostics.warning(node, f"{shown} is {cut(text)}; read as {word!r}")
+    return word
+
+
+def _folded(word: str) -> str:
+    """A word in small letters, without blanks, hyphens and underscores."""
+    return _SEPARATORS.sub("", word).lower()
+
+
+def _clamped(
+    field: Field, value: float, node: etree._Element, diagnostics: Diagnostics, shown: str
+) -> float:
+    """A number within the limits of its field; not one of the wrong sign, nor no pixels."""
+    lowest = field.xml.limits.get("minimum", -MAX_NUMBER)
+    highest = field.xml.limits.get("maximum", MAX_NUMBER)
+    limited = min(max(value, lowest), highest)
+    has_no_size = value < lowest and (value < 0.0 < lowest or field.kind == "int")
+    if limited == value or has_no_size:
+        return value
+    diagnostics.warning(
+        node, f"{shown} is {value:g}; expected {field.expected}; clamped to {limited:g}"
+    )
+    return limited if field.kind != "int" else int(limited)
 
 
 def numbers(

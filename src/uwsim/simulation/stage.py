@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
 
+from ..assets import has_model
 from ..assets.pattern import read_pattern
 from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
@@ -81,7 +83,10 @@ class SceneStage(SceneWorld):
         self._faulty_topics: list[FaultyTopic] = []
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
-        self.markers = Markers(lambda: self.time)
+        place = Path(self.scene.path) if self.scene.path else None
+        self.markers = Markers(
+            lambda: self.time, partial(has_model, named_by=place, data_path=self._data_path)
+        )
         """What programs have spawned."""
         self.bus.services.serve(SERVICE, SpawnMarker, self.markers.answer)
         self.trajectories = tuple(self._bound_trajectories())

@@ -19,6 +19,6 @@ Nothing is given to Python's ``eval``, so a file of somebody else runs no code.
 
 from __future__ import annotations
 
-from .document import macros_alone, parse_expanded
+from .document import library_of, parse_expanded
 
-__all__ = ["macros_alone", "parse_expanded"]
+__all__ = ["library_of", "parse_expanded"]

@@ -48,7 +48,7 @@ def parse_expanded(
     expander.check(error)
     _merge_interfaces(document.root)
     expansion = Expansion(
-        arguments=given, declared=tuple(sorted(expander.declared)), warnings=expander.warnings
+        arguments=given, declared=expander.arguments.known, warnings=expander.warnings
     )
     return replace(document, expansion=expansion)
 
@@ -83,16 +83,22 @@ class _NamedFiles:
         return place_remark(name, path, named_by=named_by, data_path=self._data_path)
 
 
-def macros_alone(root: etree._Element) -> tuple[str, ...]:
-    """Return the names of the macros of a library; empty for a file that has other elements.
+def library_of(root: etree._Element) -> tuple[str, tuple[str, ...]] | None:
+    """Return what a library of xacro has, and the names; None for a file with other elements.
 
-    A library consists of macros, properties, arguments and includes, and has a macro.
+    A library has macros, else properties, and besides them only arguments, includes and materials.
     """
     children = [child for child in root if isinstance(child.tag, str)]
     names = {"macro", "property", "arg", "include"}
-    if not all(namespace_of(each) in XACRO and local(each) in names for each in children):
-        return ()
-    return tuple(str(each.get("name")) for each in children if local(each) == "macro")
+    if not all(
+        child.tag == "material" or (namespace_of(child) in XACRO and local(child) in names)
+        for child in children
+    ):
+        return None
+    for kind, plural in (("macro", "macros"), ("property", "properties")):
+        if names_of := tuple(str(each.get("name")) for each in children if local(each) == kind):
+            return plural, names_of
+    return None
 
 
 def local(node: etree._Element) -> str:

@@ -19,7 +19,7 @@ from ..schema import MAX_NODES, Diagnostics
 from .functions import FUNCTIONS
 from .macro import Macro, parameters_of
 from .scope import Scope, literal_of
-from .substitution import argument, substituted
+from .substitution import Arguments, substituted
 from .value import ExpressionError, Value, written
 from .yaml_file import read_yaml
 
@@ -79,9 +79,8 @@ class Expander:
         self._path, self._files = path, files
         self._diagnostics: dict[str, Diagnostics] = {}
         self._macros: dict[str, Macro] = {}
-        self._arguments = dict(arguments)
-        self.declared: set[str] = set()
-        """Names of all ``<xacro:arg>``."""
+        self.arguments = Arguments(arguments)
+        """The values of ``<xacro:arg>``."""
         self._n_nodes = self._n_files = 0
         self._depth = 0
         self._file = path
@@ -93,7 +92,7 @@ class Expander:
         functions = {
             **FUNCTIONS,
             **dict.fromkeys(("xacro.load_yaml", "load_yaml"), self._yaml),
-            "xacro.arg": lambda name: literal_of(argument(name, self._arguments)),
+            "xacro.arg": lambda name: literal_of(self.arguments.value(name)),
         }
         scope = Scope(None, self._substituted, functions)
         root[:] = self._expanded(list(root), scope)
@@ -149,9 +148,9 @@ class Expander:
         elif name == "property":
             self._property(node, scope)
         elif name == "arg":
-            self.declared.add(needed(node, "name"))
-            if (default := node.get("default")) is not None:
-                self._arguments.setdefault(needed(node, "name"), written(scope.text(default)))
+            default = node.get("default")
+            text = None if default is None else written(scope.text(default))
+            self.arguments.declare(needed(node, "name"), text)
         elif name == "macro":
             self._define(node)
         elif name == "include":
@@ -296,7 +295,7 @@ class Expander:
             self._file, self._line = before
 
     def _substituted(self, text: str) -> str:
-        return substituted(text, self._arguments, self._file)
+        return substituted(text, self.arguments, self._file)
 
 
 def _is_stripped(root: etree._Element) -> bool:

@@ -13,7 +13,41 @@ from .scope import literal_of
 from .value import ExpressionError, Value, written
 
 
-def substituted(text: str, arguments: Mapping[str, str], file: Path) -> str:
+class Arguments:
+    """The values of ``<xacro:arg>`` by name: from outside, else the defaults of the files.
+
+    Args:
+        given: values from outside.
+    """
+
+    def __init__(self, given: Mapping[str, str]) -> None:
+        self._values = dict(given)
+        self._known: set[str] = set()
+
+    @property
+    def known(self) -> tuple[str, ...]:
+        """Names that files declare or use, sorted."""
+        return tuple(sorted(self._known))
+
+    def declare(self, name: str, default: str | None) -> None:
+        """Add an argument; a default counts without a value from outside."""
+        self._known.add(name)
+        if default is not None:
+            self._values.setdefault(name, default)
+
+    def value(self, name: str) -> str:
+        """Return the value of an argument; raises ExpressionError."""
+        self._known.add(name)
+        if name not in self._values:
+            near = did_you_mean(name, self._values)
+            raise ExpressionError(
+                f"$(arg {name[:60]}): there is no such <xacro:arg> with a value.{near} "
+                "--xacro NAME:=VALUE gives one"
+            )
+        return self._values[name]
+
+
+def substituted(text: str, arguments: Arguments, file: Path) -> str:
     """Return what ``$(text)`` stands for in a file.
 
     Raises:
@@ -22,7 +56,7 @@ def substituted(text: str, arguments: Mapping[str, str], file: Path) -> str:
     words = text.split()
     match words:
         case ["arg", name]:
-            return argument(name, arguments)
+            return arguments.value(name)
         case ["find", package]:
             return f"package://{package}"
         case ["dirname"]:
@@ -42,22 +76,14 @@ def substituted(text: str, arguments: Mapping[str, str], file: Path) -> str:
     )
 
 
-def argument(name: str, arguments: Mapping[str, str]) -> str:
-    """Return the value of an argument; raises ExpressionError."""
-    if name not in arguments:
-        near = did_you_mean(name, arguments)
-        raise ExpressionError(f"$(arg {name[:60]}): there is no such <xacro:arg>.{near}")
-    return arguments[name]
-
-
-def _evaluated(expression: str, arguments: Mapping[str, str]) -> str:
+def _evaluated(expression: str, arguments: Arguments) -> str:
     """Return the value of an expression over the arguments, as text."""
 
     def look_up(name: str) -> Value:
-        return CONSTANTS[name] if name in CONSTANTS else literal_of(argument(name, arguments))
+        return CONSTANTS[name] if name in CONSTANTS else literal_of(arguments.value(name))
 
     def arg(name: str) -> Value:
-        return literal_of(argument(name, arguments))
+        return literal_of(arguments.value(name))
 
     def find(package: str) -> str:
         return f"package://{package}"

@@ -121,7 +121,7 @@ def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
         bridge.step()  # who comes before the first step finds the services, too
 
         def spawn(action: str, *place: str) -> tuple[int, str]:
-            words = [action, "toys", "1", "buoy.stl", *place, "0", "0", "1.5"]
+            words = [action, "toys", "1", "data/objects/sphere.osg", *place, "0", "0", "1.5"]
             uri = f"ws://127.0.0.1:{bridge.port}"
             program = subprocess.Popen(
                 [sys.executable, str(EXAMPLES / "spawn_marker.py"), *words, "--uri", uri],
@@ -139,7 +139,7 @@ def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
             added = spawn("add", "1", "2", "3")
             assert added == (0, "object 1 toys was successfully ADDED.\n")
             marker = simulation.world.markers.shown["1+toys"]
-            assert marker.mesh_resource == "package://uwsim/buoy.stl"
+            assert marker.mesh_resource == "package://uwsim/data/objects/sphere.osg"
             assert (marker.pose.position.x, marker.scale.z, marker.color.a) == (1.0, 1.0, 1.0)
             assert spawn("del", "0", "0", "0") == (0, "object 1 toys was successfully DELETED.\n")
             assert spawn("del", "0", "0", "0") == (1, "object 1 toys not found.\n")

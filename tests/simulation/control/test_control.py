@@ -157,7 +157,7 @@ def test_entities_are_listed_placed_and_spawned(controlled: Controlled) -> None:
     state = controlled.bus.services.call("get_entity_state", GetEntityState(entity="rov")).state
     assert state.pose.position == messages.Point(1.0, 2.0, 3.0)
 
-    spawn = SpawnEntity(name="buoy", entity_resource=Resource(uri="buoy.obj"))
+    spawn = SpawnEntity(name="buoy", entity_resource=Resource(uri="objects/sphere.osg"))
     assert controlled.bus.services.call("spawn_entity", spawn).entity_name == "buoy"
     again = controlled.bus.services.call("spawn_entity", spawn)
     assert again.result.result == SpawnEntityResponse.NAME_NOT_UNIQUE
@@ -195,6 +195,11 @@ def test_entities_are_listed_placed_and_spawned(controlled: Controlled) -> None:
             Result.OPERATION_FAILED,
         ),
         ("spawn_entity", SpawnEntity(name="a b"), SpawnEntityResponse.NO_RESOURCE),
+        (
+            "spawn_entity",
+            SpawnEntity(name="a", entity_resource=Resource(uri="package://gone/a.dae")),
+            SpawnEntityResponse.MISSING_ASSETS,
+        ),
     ],
 )
 def test_what_cannot_be_done_has_a_code(
@@ -209,7 +214,7 @@ def test_what_cannot_be_done_has_a_code(
 def test_an_expression_that_may_take_for_ever_is_refused(
     controlled: Controlled, filter: str
 ) -> None:
-    spawn = SpawnEntity(name="a" * 60 + ".", entity_resource=Resource(uri="buoy.obj"))
+    spawn = SpawnEntity(name="a" * 60 + ".", entity_resource=Resource(uri="objects/sphere.osg"))
     assert controlled.bus.services.call("spawn_entity", spawn).result.result == Result.OK
     request = GetEntities(filters=EntityFilters(filter=filter))
     answer = controlled.bus.services.call("get_entities", request)

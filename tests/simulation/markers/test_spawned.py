@@ -49,7 +49,7 @@ def test_a_marker_is_added_modified_and_deleted(simulation: uwsim.Simulation) ->
 
 @pytest.mark.parametrize("kind", range(12))
 def test_every_type_is_kept(simulation: uwsim.Simulation, kind: int) -> None:
-    assert spawn(simulation, type=kind, mesh_resource="package://x/y.obj").success
+    assert spawn(simulation, type=kind, mesh_resource="objects/torus.osg").success
 
 
 @pytest.mark.parametrize(
@@ -57,6 +57,10 @@ def test_every_type_is_kept(simulation: uwsim.Simulation, kind: int) -> None:
     [
         {"type": 12},
         {"type": Marker.MESH_RESOURCE},
+        {"type": Marker.MESH_RESOURCE, "mesh_resource": "package://gone/buoy.stl"},
+        {"type": Marker.MESH_RESOURCE, "mesh_resource": "buoy.stl"},
+        {"type": Marker.MESH_RESOURCE, "mesh_resource": "file:///home/someone/buoy.dae"},
+        {"type": Marker.MESH_RESOURCE, "mesh_resource": "file:///etc/passwd"},
         {"type": Marker.TRIANGLE_LIST, "points": [Point()]},
         {"pose": Pose(position=Point(x=float("nan")))},
     ],
@@ -88,3 +92,22 @@ def test_markers_are_on_tf_with_the_objects() -> None:
         assert found.header.frame_id == "world"
         place = found.transform.translation
         assert np.array([place.x, place.y, place.z]) == pytest.approx([1.0, 2.0, 3.0])
+
+
+@pytest.mark.parametrize("by", ["name", "package", "data path"])
+def test_a_mesh_next_to_the_scene_or_in_a_data_path_is_shown(by: str, tmp_path: Path) -> None:
+    scene = tmp_path / "scenes" / "scene.xml"
+    scene.parent.mkdir()
+    scene.write_text("<UWSimScene/>")
+    folder = {"name": scene.parent, "package": tmp_path / "toys"}.get(by, tmp_path / "data")
+    folder.mkdir(exist_ok=True)
+    (folder / "buoy.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    name = "package://toys/buoy.obj" if by == "package" else "buoy.obj"
+    data_path = [tmp_path / "data"] if by == "data path" else []
+    with uwsim.load(scene, data_path=data_path) as simulation:
+        fields = {"type": Marker.MESH_RESOURCE, "mesh_resource": name}
+        assert spawn(simulation, **fields).success
+        (folder / "buoy.obj").unlink()
+        said = spawn(simulation, **fields)
+    assert not said.success
+    assert f"there is no mesh {name!r}" in said.status_message

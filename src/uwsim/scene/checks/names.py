@@ -16,16 +16,12 @@ from ...schema import Diagnostics, line_of
 from ...topics import InterfaceSpec, element_of
 from ...topics.simulated_device_ros import unwrapped
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
-from ..object import ObjectSpec
 from ..spec import SceneSpec
 from ..urdf.robot import RobotSpec
 from ..vehicle import VehicleSpec
 from .angles import MORE_THAN_A_TURN
 from .comms import check_comms
 from .shared_names import check_shared_names
-
-SOLVERS = ("dantzig", "solveprojectedgauss", "sequentialimpulse")
-SHAPES = ("box", "sphere", "compound box", "compound cylinder", "trimesh", "compound trimesh")
 
 MAX_NAMED = 8
 """Objects that one warning names."""
@@ -54,16 +50,9 @@ def check_names(
     lamps = [lamp for vehicle in drawn for lamp in vehicle.parts_of(LampSpec)]
     for lamp in lamps[MAX_LAMPS:]:
         diagnostics.error(lamp, f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps")
-    for thing in scene.objects:
-        _check_physics(thing, diagnostics)
     if scene.is_dynamic:
         _check_passable_objects(scene, diagnostics)
         _check_passable_vehicles(scene, robots, diagnostics)
-    if scene.sim_params.physics_solver.lower() not in SOLVERS:
-        diagnostics.warning(
-            scene.sim_params,
-            f"<physicsSolver> is {scene.sim_params.physics_solver!r}; read as Dantzig",
-        )
 
 
 def check_left_out(
@@ -194,15 +183,6 @@ def _check_sources(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         second = [vehicle for vehicle in scene.vehicles if vehicle.name == name][1]
         message = f"several vehicles are called {name!r}; searches find the first"
         diagnostics.warning(second, message)
-
-
-def _check_physics(thing: ObjectSpec, diagnostics: Diagnostics) -> None:
-    if thing.physics is not None and thing.physics.collision_shape_type not in SHAPES:
-        message = thing.physics.collision_shape_type
-        diagnostics.warning(
-            thing.physics,
-            f"<collisionShapeType> is {message[:60]!r}; read as box; known: {', '.join(SHAPES)}",
-        )
 
 
 def _check_passable_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:

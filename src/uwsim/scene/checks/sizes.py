@@ -10,7 +10,6 @@ from ...sensors.sonar.profiling_sonar import ProfilingSonarSpec
 from ...sensors.sonar.spec import SonarSpec
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...sensors.virtual_range_image import VirtualRangeImageSpec
-from ..sim_params import SimParamsSpec
 from ..spec import SceneSpec
 
 MAX_PIXELS = 7680 * 4320
@@ -24,13 +23,11 @@ MAX_CELLS = 20_000_000
 MAX_RAYS = 1_000_000
 """Most rays of a ping of a sonar."""
 
-ImageSpec = VirtualCameraSpec | VirtualRangeImageSpec | SimParamsSpec
-
 
 def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Report cameras, windows, fans of beams and sonars that are too large, or see nothing."""
+    """Report cameras, fans of beams and sonars that are too large, or see nothing."""
     n_all = 0
-    for image in (scene.sim_params, *_cameras(scene)):
+    for image in _cameras(scene):
         n = image.resw * image.resh
         if n > MAX_PIXELS:
             diagnostics.error(

@@ -6,10 +6,20 @@ from typing import cast
 
 from lxml import etree
 
-from ...geometry import ZERO
-from ...schema import Diagnostics, source_line
+from ...geometry import ZERO, Triple
+from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, source_line
 from .robot import Colour, LinkSpec, ShapeKind, VisualSpec
-from .values import colour_of, elements_of, name_of, number_of, origin_of, size_of, triple_of
+from .values import (
+    clamped,
+    colour_of,
+    elements_of,
+    name_of,
+    number_of,
+    numbers_of,
+    origin_of,
+    size_of,
+    triple_of,
+)
 
 
 def read_link(
@@ -62,6 +72,19 @@ def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, 
     return found
 
 
+def _edges_of(box: etree._Element, diagnostics: Diagnostics) -> Triple:
+    """The edges of a box; one beyond the limit is clamped."""
+    edges = numbers_of(box, "size", 3, diagnostics) or [0.0, 0.0, 0.0]
+    given = box.get("size", "")
+    if min(edges) < 0:
+        diagnostics.error(box, f"size of <box> is {given[:60]!r}; expected numbers >= 0")
+    elif max(edges) > MAX_NUMBER:
+        limit = f"expected numbers up to {MAX_DISTANCE:g}"
+        diagnostics.error(box, f"size of <box> is {given[:60]!r}; {limit}")
+    x, y, z = (clamped(box, "size", edge, diagnostics) if edge > 0 else edge for edge in edges)
+    return x, y, z
+
+
 def _shapes(
     nodes: list[etree._Element], materials: dict[str, Colour], diagnostics: Diagnostics
 ) -> tuple[VisualSpec, ...]:
@@ -91,10 +114,7 @@ def _shape(
             diagnostics.error(shape, "<mesh> lacks the attribute filename")
         scale = triple_of(shape, "scale", diagnostics, scale)
     elif kind == "box":
-        size = triple_of(shape, "size", diagnostics, None)
-        if min(size) < 0:
-            given = shape.get("size", "")
-            diagnostics.error(shape, f"size of <box> is {given[:60]!r}; expected numbers >= 0")
+        size = _edges_of(shape, diagnostics)
     elif kind in ("cylinder", "sphere"):
         wide = 2 * size_of(shape, "radius", diagnostics, None)
         tall = size_of(shape, "length", diagnostics, None) if kind == "cylinder" else wide

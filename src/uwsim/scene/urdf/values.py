@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from lxml import etree
 
 from ...geometry import ZERO, Triple
-from ...schema import MAX_DISTANCE, Diagnostics, number
+from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, number
 from ..checks.angles import degrees_for_radians
 from .robot import Colour
 
@@ -59,8 +59,10 @@ def triple_of(
 def size_of(
     node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
 ) -> float:
-    """A length or mass: not below 0."""
+    """A length or mass: not below 0; one beyond the limit, and a negative mass, is clamped."""
     value = number_of(node, attribute, diagnostics, default)
+    if node.tag == "mass" or MAX_DISTANCE < value <= MAX_NUMBER:
+        return clamped(node, attribute, value, diagnostics)
     if not 0 <= value <= MAX_DISTANCE:
         given = node.get(attribute, "")
         diagnostics.error(
@@ -68,6 +70,18 @@ def size_of(
         )
         return 0.0
     return value
+
+
+def clamped(node: etree._Element, attribute: str, value: float, diagnostics: Diagnostics) -> float:
+    """A size or mass between 0 and the limit, with a warning."""
+    limited = min(max(value, 0.0), MAX_DISTANCE)
+    if limited != value:
+        diagnostics.warning(
+            node,
+            f"{attribute} of <{node.tag}> is {value:g}; expected 0 to {MAX_DISTANCE:g}; clamped to "
+            f"{limited:g}",
+        )
+    return limited
 
 
 def number_of(

@@ -132,7 +132,9 @@ class Entities:
         marker.scale = Vector3(1.0, 1.0, 1.0)
         answer = self._simulation.world.markers.answer(SpawnMarker(marker=marker))
         if not answer.success:
-            return code(Result(code.INVALID_POSE, answer.status_message))
+            is_lost = "there is no mesh" in answer.status_message
+            failed = code.MISSING_ASSETS if is_lost else code.INVALID_POSE
+            return code(Result(failed, answer.status_message))
         self._spawned[name] = self._n_spawned
         self._n_spawned += 1
         return code(entity_name=name)

@@ -2,7 +2,8 @@
 
 A marker is named ``<id>+<ns>``. One that is there already is modified; ``DELETE`` removes it, and
 ``DELETEALL`` all of them. Poses are in L, whatever frame the header names. Markers have no mass,
-touch nothing, and are not in the images of virtual cameras.
+touch nothing, and are not in the images of virtual cameras. A mesh is looked for as those of the
+scene are; one that is not there is refused.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import math
 from collections.abc import Callable
 from functools import partial
 
+from ...errors import AssetError
 from ...external_values import EXPECTED_POSE, read_pose
 from ...messages import Marker, SpawnMarker, SpawnMarkerResponse
 from ...messages.build import NANOSECONDS
@@ -36,12 +38,13 @@ class Markers:
 
     Args:
         clock: returns the simulation time [s].
+        has_mesh: whether there is a mesh of a name; raises AssetError where it may not be read.
     """
 
     STATE = ("_markers", "_ends")
 
-    def __init__(self, clock: Callable[[], float]) -> None:
-        self._clock = clock
+    def __init__(self, clock: Callable[[], float], has_mesh: Callable[[str], bool]) -> None:
+        self._clock, self._has_mesh = clock, has_mesh
         self._markers: dict[str, Marker] = {}
         self._ends: dict[str, float] = {}
 
@@ -88,6 +91,15 @@ class Markers:
             return f"its pose is not valid; expected {EXPECTED_POSE}"
         if marker.type == Marker.TRIANGLE_LIST and len(marker.points) % 3:
             return f"its {len(marker.points)} points are no triangles"
-        if marker.type == Marker.MESH_RESOURCE and not marker.mesh_resource:
+        return self._wrong_mesh(marker) if marker.type == Marker.MESH_RESOURCE else None
+
+    def _wrong_mesh(self, marker: Marker) -> str | None:
+        """Why a marker's mesh cannot be shown; None: it can."""
+        name = marker.mesh_resource
+        if not name:
             return "it names no mesh_resource"
-        return None
+        try:
+            is_there = self._has_mesh(name)
+        except AssetError as error:
+            return str(error).removesuffix(".")
+        return None if is_there else f"there is no mesh {name[:200]!r} in the folders searched"
