@@ -347,6 +347,7 @@ def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timi
     """Write provenance, plots and report, and print the table."""
     from ..results.directory import REPORT
     from ..results.provenance import carried, save_provenance
+    from ..results.refused_lines import refused_lines
     from ..results.table import table
 
     save_provenance({**timing.provenance(run), **carried(run.out)}, run.out)
@@ -355,4 +356,6 @@ def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timi
     console.print(table(result, width=console.width))
     background.wait()
     report = run.out / REPORT
+    for line in refused_lines(result):
+        warn(line)
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")

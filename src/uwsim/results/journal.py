@@ -24,6 +24,8 @@ TRACK = ".motion"
 """Suffix of the motion track of a trial, beside its journal."""
 INPUTS = ".inputs"
 """Suffix of what a pilot did in a trial, beside its journal."""
+REFUSED = "refused"
+"""Key of a row -> what came from programs that do not take part."""
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
 """Key of a line -> shape of its value."""
 MAX_LINE_LENGTH = 200
@@ -176,7 +178,7 @@ class Journal:
         is_new = self._n_rows >= len(self._stored.rows)
         if not is_new:
             before = self._stored.rows[self._n_rows]
-            if _text(before) != _text(row):
+            if _text(_own(before)) != _text(_own(row)):
                 raise ReplayDiffers(
                     f"{self._path}: row {self._n_rows}, repeated, differs from the stored one "
                     f"in {_difference(before, row)}. The run is not repeatable here: "
@@ -233,6 +235,11 @@ def _other_run(found: Record, head: Record) -> str:
         if before.get(name) != now.get(name)
     ]
     return "; ".join(line[:MAX_LINE_LENGTH] for line in messages[:MAX_LINES])
+
+
+def _own(row: Record) -> Record:
+    """Return a row without what other programs have sent, which is chance."""
+    return {name: value for name, value in row.items() if name != REFUSED}
 
 
 def _part(head: Record, name: str) -> Record:

@@ -52,6 +52,11 @@ def decode_header(body: bytes) -> dict[str, str]:
     return fields
 
 
+def node_of(header: Mapping[str, str]) -> str:
+    """Return how messages and calls name the node at the other end, from its header."""
+    return f"node {header.get('callerid', 'without a name')[:100]}"
+
+
 def read_header(connection: socket.socket) -> dict[str, str]:
     """Read a connection header.
 

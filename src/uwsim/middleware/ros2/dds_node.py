@@ -13,11 +13,12 @@ from ...errors import UwsimError
 from ..log import Log
 from ..types import WireService, ros2_store, wire_type
 from .names import topic_name, type_hash_data
-from .node import Call
+from .node import Call, Receive
 from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
 from .presence import Presence
 from .quality import Quality
 from .raw_types import RawSample, raw_type
+from .senders import Senders
 from .service_server import ServiceServer
 from .settings import NODE, Ros2Settings
 
@@ -68,16 +69,17 @@ class DdsNode:
         topic: str,
         type: type,
         quality: Quality,
-        receive: Callable[[bytes], None],
+        receive: Receive,
         on_refused: Callable[[], None],
     ) -> DdsReader:
         """Make a reader."""
         raw, user_data = self._raw(type)
+        senders = Senders()
         entity = self._participant.reader(
             topic_name(topic),
             raw,
             quality,
-            lambda sample: receive(sample.data),
+            lambda sample: receive(sample.data, senders.sender_of(entity, sample)),
             user_data=user_data,
             events={WRITER_REFUSED: lambda _: on_refused()},
         )

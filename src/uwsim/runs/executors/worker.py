@@ -180,6 +180,7 @@ def _record(row: LevelRow, images: dict[str, str]) -> journal.Record:
             for snapshot in row.snapshots
         ],
         "fingerprint": row.fingerprint,
+        **({"refused": [list(each) for each in row.refused]} if row.refused else {}),
     }
 
 
