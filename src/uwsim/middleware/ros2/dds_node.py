@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 from ...errors import UwsimError
 from ..log import Log
 from ..types import WireService, ros2_store, wire_type
+from .loopback import bind_to_loopback, open_sockets
 from .names import topic_name, type_hash_data
 from .node import Call, Receive
 from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
@@ -40,7 +41,11 @@ class DdsNode:
 
     def __init__(self, settings: Ros2Settings, log: Log, *, more: str = "") -> None:
         self._log = log
+        before = open_sockets()
         self._participant = Participant(settings.domain, settings.configuration(more))
+        keeps_here = settings.is_local and not settings.static_peers and not more
+        self.is_closed = keeps_here and bind_to_loopback(before)
+        """Whether other computers cannot reach it."""
         self._presence = Presence(self._participant, NODE)
         self._types: dict[type, type[RawSample]] = {}
 
