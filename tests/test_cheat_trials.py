@@ -6,7 +6,17 @@ from pathlib import Path
 
 import pytest
 
-from tests.cheat_trials import CHEATS, GAINS, Bursts, Holds, bench_of, by_name, errors, trial
+from tests.cheat_trials import (
+    CHEATS,
+    GAINS,
+    Bursts,
+    Holds,
+    ReadsTheFolder,
+    bench_of,
+    by_name,
+    errors,
+    trial,
+)
 from tests.short_trial import rows_of
 
 
@@ -26,3 +36,12 @@ def test_no_cheat_gains_but_those_within_their_own_process(tmp_path: Path) -> No
     assert errors(results) == []
     for cheat in GAINS:
         assert results[cheat.__name__].values("total") == pytest.approx((0.0, 0.0), abs=0.1)
+
+
+@pytest.mark.slow
+def test_the_rows_of_a_run_tell_the_truth_only_when_they_are_not_sealed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("uwsim.runs.sealed.is_foreign", lambda plan: False)
+    results = by_name(trial(tmp_path, (ReadsTheFolder,), seed=2, length=0.5))
+    assert len(errors(results)) == 2  # else the test above says nothing

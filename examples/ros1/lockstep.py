@@ -17,6 +17,7 @@ while a service of the program is called.
 """
 
 import json
+import os
 import threading
 import time
 from xmlrpc.client import ServerProxy
@@ -97,7 +98,9 @@ class LockStep:
             own = sorted(set(self._callbacks) & set(self._published))
             for topic in set(own) - set(self._waiting):
                 self._expect(topic)
-            self._say(join, topics=list(self._waiting), own=own, next=self._next())
+            secret = os.environ.get("UWSIM_CLIENT_SECRET")  # if the simulation was given one
+            has = {"secret": secret} if secret else {}
+            self._say(join, topics=list(self._waiting), own=own, next=self._next(), **has)
             # this may have gone to a trial that ends
             self._wait(lambda: self._ticks, PATIENCE)
         # that of the next trial may be there before rospy has dropped that of this one

@@ -19,6 +19,7 @@ simulation calls (`autoInit`) are offered by `LockStep.serve`.
 
 import contextlib
 import json
+import os
 import secrets
 import sys
 import time
@@ -107,10 +108,10 @@ class LockStep:
     def join(self) -> None:
         """Tell the simulation to wait for this client from now on."""
         self.run = self.next_run
-        topics, later = list(self._callbacks), self._next(0.0)
-        self._say(
-            self._join, topics=topics, publishes=self._types, services=self._services, **later
-        )
+        topics, more = list(self._callbacks), self._next(0.0)
+        if secret := os.environ.get("UWSIM_CLIENT_SECRET"):  # if the simulation was given one
+            more["secret"] = secret
+        self._say(self._join, topics=topics, publishes=self._types, services=self._services, **more)
 
     def answer(self) -> None:
         """Answer the tick for which all messages are there, if there is one."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -86,7 +87,9 @@ class Client:
         self._send(op="advertise", topic=JOIN, type=TEXT)
         self._send(op="advertise", topic=ACK, type=TEXT)
         self._send(op="subscribe", topic=TICK)
-        self._say(JOIN, topics=list(self._callbacks), next=self._next())
+        secret = os.environ.get("UWSIM_CLIENT_SECRET")  # if the simulation was given one
+        has = {} if secret is None else {"secret": secret}
+        self._say(JOIN, topics=list(self._callbacks), next=self._next(), **has)
         with suppress(ConnectionClosedOK):
             while True:
                 self._handle(self._receive())

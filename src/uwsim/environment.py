@@ -1,10 +1,20 @@
-"""Environment variables that are set for the duration of a block."""
+"""Environment variables: those set for the duration of a block, and those that hold secrets."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+
+WEB_TOKEN = "UWSIM_WEB_TOKEN"
+"""Variable with the token of web clients."""
+CLIENT_SECRET = "UWSIM_CLIENT_SECRET"
+"""Variable with the secret that the join of a client in lock-step has to have."""
+
+
+def without_secrets(variables: Mapping[str, str]) -> dict[str, str]:
+    """Return the variables without those that hold secrets, for a process that needs none."""
+    return {k: v for k, v in variables.items() if k not in (WEB_TOKEN, CLIENT_SECRET)}
 
 
 def not_chosen(variables: Mapping[str, str]) -> dict[str, str]:

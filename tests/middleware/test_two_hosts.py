@@ -95,7 +95,7 @@ def test_two_nodes_of_ros_1_on_another_host_drive_a_vehicle_each(
 
 def test_two_web_clients_on_another_host_drive_a_vehicle_each(hosts: tuple[Host, Host]) -> None:
     here, there = hosts
-    simulation(here, "--web", "9090", "--web-host", here.address, "--web-token", "secret")
+    simulation(here, "--web", "9090", "--web-host", here.address, UWSIM_WEB_TOKEN="secret")
     uri = f"ws://{here.address}:9090/?token=secret"
     drivers = [
         there.start(sys.executable, "-c", WEB_DRIVER, uri, name, speed)
@@ -108,7 +108,7 @@ def test_two_web_clients_on_another_host_drive_a_vehicle_each(hosts: tuple[Host,
 
 def test_another_host_without_the_token_is_refused(hosts: tuple[Host, Host]) -> None:
     here, there = hosts
-    simulation(here, "--web", "9090", "--web-host", here.address, "--web-token", "secret")
+    simulation(here, "--web", "9090", "--web-host", here.address, UWSIM_WEB_TOKEN="secret")
     driver = there.start(
         sys.executable, "-c", WEB_DRIVER, f"ws://{here.address}:9090", "first", "1"
     )

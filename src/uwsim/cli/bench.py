@@ -267,17 +267,21 @@ def run_and_finish(
         refuse_if_a_simulation_failed,
         refuse_if_all_broke,
     )
+    from ..runs.sealed import is_foreign
 
     for run in runs:
         if message := save_beginning(command, run.out):
             warn(message)
     with BackgroundProcess(load_reporter) as background:
         controls = [control_of(run) for run in runs if wants_control(run.plan)]
-        if controls:
+        waits = any(is_foreign(run.plan) for run in runs)  # it could read the control's rows
+        if controls and not waits:
             background.ask(controls[0])
         outcome = run_with_progress(runs, executor, n_at_once(workers))
         failed = {id(run) for run, _ in outcome.failures}
         if controls and len(failed) < len(runs):
+            if waits:
+                background.ask(controls[0])
             wait_for_controls(background, controls)
         timing = Timing(
             began=watch.began, wall=watch.passed(), workers=workers, command=command, runs=runs
@@ -347,6 +351,7 @@ def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timi
     """Write provenance, plots and report, and print the table."""
     from ..results.directory import REPORT
     from ..results.provenance import carried, save_provenance
+    from ..results.refused_lines import refused_lines
     from ..results.table import table
 
     save_provenance({**timing.provenance(run), **carried(run.out)}, run.out)
@@ -355,4 +360,6 @@ def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timi
     console.print(table(result, width=console.width))
     background.wait()
     report = run.out / REPORT
+    for line in refused_lines(result):
+        warn(line)
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")

@@ -17,6 +17,7 @@ from ..results.journal import Record
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
 from ..runs.planning.plan import Plan, Trial
 from ..runs.run import Run
+from ..runs.sealed import sealed
 from .criterion import Criterion, Judgement
 from .search import Search, SeedSearch, Strategy
 
@@ -72,7 +73,8 @@ class Evaluations:
             UwsimError: a run could not be executed.
         """
         queue = _JobQueue(self, strategy, on_run)
-        executor.execute(queue)
+        with sealed([self.main_run]):
+            executor.execute(queue)
         if queue.failure is not None:
             raise queue.failure
         assert queue.found is not None
@@ -82,7 +84,7 @@ class Evaluations:
         """Return whether a run is broken; None if it was not run yet."""
         if (seed, value) not in self.made:
             trial = self.trial(seed, value)
-            stored = journal.read(self.main_run.out, trial.index, self.main_run.head(trial))
+            stored = self.main_run.stored(trial)
             if stored.end is None or not stored.rows:
                 return None
             row = stored.rows[0]

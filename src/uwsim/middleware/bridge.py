@@ -17,8 +17,8 @@ Any thread of the transport may call:
 - ``put(topic, message, by)``: a message from outside, stamps already in simulation time (`inward`),
   and who sent it; it is given away. It waits in a bounded queue (latest wins) for the next step
   boundary.
-- ``request(name, request)``: call a service of the bus; returns a Future with the response, which
-  comes at the next step boundary.
+- ``request(name, request, by)``: call a service of the bus; returns a Future with the response,
+  which comes at the next step boundary.
 - ``offer(name, service)`` and ``withdraw(name)``: somebody outside offers a service to the bus. A
   call of it is handed to ``call_outside``, and the simulation waits for the response; calls that
   come in meanwhile are answered, so that the one asked may ask back.
@@ -45,17 +45,19 @@ from abc import ABC, abstractmethod
 from collections import Counter
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
+from functools import partial
 from typing import ClassVar
 
 from ..bus import Bus, TopicEnds
 from ..errors import BadMessage, RunFailed, UwsimError
 from ..message_fields import size_of
 from ..messages.services import Service
+from .admission import Admission
 from .clock_topic import ClockTopic
 from .later_answers import LaterAnswers, pass_on
 from .log import Log
 from .queues import LatestQueue
-from .types import service_of, wire_type
+from .shown import known_services, known_topics
 
 MAX_REQUESTS = 1000
 """Calls of services that may wait for the end of a step."""
@@ -66,6 +68,7 @@ LATCHED = ("tf_static", "robot_description", "scene")
 DEPTH, LATCHED_DEPTH = 10, 100
 """Messages of a topic that ROS 2 keeps for a reader that is behind, or late."""
 CLOSED = "The simulation has ended."
+NOT_ADMITTED = "only the program that takes part in this run may call."
 Tap = Callable[[object, str], None]
 """Called with a message, and who sent it."""
 
@@ -112,6 +115,8 @@ class Bridge(ABC):
         """The time outside."""
         self.later = LaterAnswers(bus.services)
         """Services whose responses come at a later step."""
+        self.admission: Admission | None = None
+        """Who may publish and call; None: everybody."""
         self._n_wanted: Counter[str] = Counter()
         self._stops: dict[str, Callable[[], None]] = {}
         self._publishers: dict[str, Callable[[object], None]] = {}
@@ -202,6 +207,10 @@ class Bridge(ABC):
         """
         name = topic.lstrip("/")
         size = size_of(message)
+        if self.admission is not None and name not in self._taps:
+            later = partial(self.put, topic, message, by)
+            if not self.admission.takes(name, by, later, size):
+                return
         with self._lock:
             if self._is_closed:
                 return
@@ -221,19 +230,23 @@ class Bridge(ABC):
                 kind=f"flood {name}",
             )
 
-    def request(self, name: str, request: object) -> Future[object]:
+    def request(self, name: str, request: object, by: str = "") -> Future[object]:
         """Call a service of the bus; the response comes at a step boundary. Any thread.
 
-        The future's exception is an UwsimError.
+        ``by`` is who calls, as for `put`. The future's exception is an UwsimError.
         """
+        name = name.lstrip("/")
         future: Future[object] = Future()
+        is_refused = self.admission is not None and not self.admission.may_call(name, by)
         with self._lock:
-            if self._is_closed:
+            if is_refused:
+                future.set_exception(UwsimError(f"Service {name!r}: {NOT_ADMITTED}"))
+            elif self._is_closed:
                 future.set_exception(UwsimError(CLOSED))
             elif len(self._requests) >= MAX_REQUESTS:
                 future.set_exception(UwsimError(f"More than {MAX_REQUESTS} calls are waiting."))
             else:
-                self._requests.append((name.lstrip("/"), request, future))
+                self._requests.append((name, request, future))
                 self._has_news = self._is_urgent = True
         self._woken.set()
         return future
@@ -307,15 +320,7 @@ class Bridge(ABC):
     def _follow(self) -> None:
         """Tell the transport what has changed on the bus."""
         self._revision = self.bus.revision
-        topics: dict[str, TopicEnds] = {}
-        for name in self.bus.topics:
-            ends = self.bus.ends(name, besides=self)
-            if ends is None or self.bus.is_withheld(name):
-                continue
-            if wire_type(ends.type) is None:
-                self.log.say(f"/{name} is not shown: {ends.type.__name__} has no definition")
-                continue
-            topics[name] = ends
+        topics = known_topics(self.bus, besides=self, log=self.log)
         if topics != self._topics:
             before, self._topics = self._topics, topics
             self.on_topics(topics)
@@ -323,12 +328,7 @@ class Bridge(ABC):
                 ends, old = topics.get(name), before.get(name)
                 if ends is not None and ends.is_published and not (old and old.is_published):
                     self._send_latched(name)
-        services: dict[str, Service] = {}
-        for name in self.bus.services.names:
-            request_type = self.bus.services.request_type(name)
-            service = service_of(request_type) if request_type is not None else None
-            if service is not None:
-                services[name] = service
+        services = known_services(self.bus.services)
         if services != self._services:
             self._services = services
             self.on_services(services)

@@ -17,6 +17,7 @@ from ..errors import ReplayDiffers, ResultError, names_file
 from .chosen_code import other_code
 from .inputs import Inputs, differing
 from .provenance import codes_of, load_provenance
+from .seal import SEALED, Seal
 from .stored.stored_shapes import END, HEAD, ROW
 
 FOLDER = "units"
@@ -24,6 +25,8 @@ TRACK = ".motion"
 """Suffix of the motion track of a trial, beside its journal."""
 INPUTS = ".inputs"
 """Suffix of what a pilot did in a trial, beside its journal."""
+REFUSED = "refused"
+"""Key of a row -> what came from programs that do not take part."""
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
 """Key of a line -> shape of its value."""
 MAX_LINE_LENGTH = 200
@@ -75,14 +78,20 @@ def trials_without_motion(directory: Path) -> tuple[int, ...]:
     )
 
 
-def read(directory: Path, index: int, head: Record) -> Stored:
+def read(directory: Path, index: int, head: Record, seal: Seal | None = None) -> Stored:
     """Read a journal; a missing file has no rows.
+
+    Args:
+        directory: of the result.
+        index: number of the trial.
+        head: identity of the trial.
+        seal: with which rows are sealed while the run goes on.
 
     Raises:
         ResultError: the file belongs to another run.
     """
     path = path_of(directory, index)
-    found, stored = read_any(path)
+    found, stored = read_any(path, seal)
     if found is not None and found != head:
         raise ResultError(
             f"{path}: belongs to another run: {_other_run(found, head)}. "
@@ -91,8 +100,8 @@ def read(directory: Path, index: int, head: Record) -> Stored:
     return stored
 
 
-def read_any(path: Path) -> tuple[Record | None, Stored]:
-    """Read a journal of any run: its head and its content.
+def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, Stored]:
+    """Read a journal of any run: its head and its content, up to what is sealed.
 
     Raises:
         ResultError: a line is not that of a journal.
@@ -104,6 +113,10 @@ def read_any(path: Path) -> tuple[Record | None, Stored]:
     for number, line in enumerate(lines, start=1):
         try:
             record = json.loads(line, parse_constant=_refuse_constant)
+            if isinstance(record, dict) and SEALED in record:
+                if seal is None:
+                    break  # of a run that goes on, or was lost when the machine went down
+                record = json.loads(_opened(record[SEALED], seal), parse_constant=_refuse_constant)
             kind = _kind(record, is_first=number == 1)
             KINDS[kind](record[kind], kind)
         except (ValueError, RecursionError):
@@ -139,6 +152,14 @@ def _kind(record: object, *, is_first: bool) -> str:
     raise ResultError(f"found {shown}; expected an object with {' or '.join(map(repr, wanted))}.")
 
 
+def _opened(content: object, seal: Seal) -> str:
+    """Return a line that is sealed; raises ResultError."""
+    try:
+        return seal.text(content)
+    except ValueError as error:
+        raise ResultError(f"a sealed row cannot be read: {error}.") from None
+
+
 def _refuse_constant(text: str) -> object:
     raise ResultError(f"it contains {text}; a missing value is null.")
 
@@ -155,14 +176,20 @@ def cut_back(directory: Path, index: int, n_rows: int) -> None:
 class Journal:
     """Writes a journal; rows that exist already are compared.
 
+    Args:
+        directory: of the result.
+        index: number of the trial.
+        head: identity of the trial, which is never sealed.
+        seal: with which rows are sealed, if they are.
+
     Raises:
         ReplayDiffers: a repeated row differs from the stored one.
     """
 
-    def __init__(self, directory: Path, index: int, head: Record) -> None:
-        self._path = path_of(directory, index)
+    def __init__(self, directory: Path, index: int, head: Record, seal: Seal | None = None) -> None:
+        self._path, self._seal = path_of(directory, index), seal
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._stored = read(directory, index, head)
+        self._stored = read(directory, index, head, seal)
         self._n_rows, self._is_finished = 0, False
         self._stream = self._path.with_suffix(".part").open("w", encoding="utf-8", newline="\n")
         self._write({"unit": head})
@@ -176,7 +203,7 @@ class Journal:
         is_new = self._n_rows >= len(self._stored.rows)
         if not is_new:
             before = self._stored.rows[self._n_rows]
-            if _text(before) != _text(row):
+            if _text(_own(before)) != _text(_own(row)):
                 raise ReplayDiffers(
                     f"{self._path}: row {self._n_rows}, repeated, differs from the stored one "
                     f"in {_difference(before, row)}. The run is not repeatable here: "
@@ -202,8 +229,11 @@ class Journal:
             self._stream.close()
 
     def _write(self, record: Record) -> None:
+        text = _text(record)
+        if self._seal is not None and "unit" not in record:
+            text = self._seal.line(text)
         with names_file(self._path):
-            self._stream.write(_text(record) + "\n")
+            self._stream.write(text + "\n")
             self._stream.flush()
             os.fsync(self._stream.fileno())
 
@@ -233,6 +263,11 @@ def _other_run(found: Record, head: Record) -> str:
         if before.get(name) != now.get(name)
     ]
     return "; ".join(line[:MAX_LINE_LENGTH] for line in messages[:MAX_LINES])
+
+
+def _own(row: Record) -> Record:
+    """Return a row without what other programs have sent, which is chance."""
+    return {name: value for name, value in row.items() if name != REFUSED}
 
 
 def _part(head: Record, name: str) -> Record:

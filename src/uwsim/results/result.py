@@ -112,6 +112,20 @@ class SavedImage:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Refused:
+    """Messages, calls or answers of a program that does not take part, which were refused."""
+
+    row: int
+    """Row in whose level they came, from 0."""
+    by: str
+    """Who sent them, as the transport names it."""
+    what: str
+    """Topic or service, with a leading slash."""
+    n: int
+    """How many there were."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Result:
     """The rows of a run with its inputs, columns and constants.
 
@@ -138,10 +152,12 @@ class Result:
     """Fingerprints of what the algorithm saw."""
     images: tuple[SavedImage, ...] = ()
     """Images kept for the report."""
+    refused: tuple[Refused, ...] = ()
+    """What came from programs that do not take part."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "facts", checked_values(self.facts, "facts"))
-        for name in ("columns", "missing", "variations", "image_streams", "images"):
+        for name in ("columns", "missing", "variations", "image_streams", "images", "refused"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "rows", checked_values(self.rows, "rows"))
         _check_columns(self)
@@ -248,6 +264,9 @@ def _check_notes(result: Result) -> None:
         for quad in (image.truth, image.estimate):
             whole = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
             _expect(whole, f"{at} has a quadrangle of other than 8 numbers: {quad!r}")
+    for i, refused in enumerate(result.refused):
+        is_there = _is_row(refused.row, n)
+        _expect(is_there, f"refused[{i}] is about row {refused.row!r}, which is not there")
 
 
 def _is_number(cell: object) -> bool:

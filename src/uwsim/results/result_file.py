@@ -4,8 +4,8 @@ The format's history, newest first:
 
 ``uwsim-result/1`` (uwsim 0.1.0)
     ``inputs``, ``run``, ``columns``, ``rows``, ``missing``; and, read as empty where they are not
-    there, ``facts``, ``variations``, ``image_streams``, ``pictures``. ``docs/result-format.md``
-    describes them.
+    there, ``facts``, ``variations``, ``image_streams``, ``pictures``, ``refused``.
+    ``docs/result-format.md`` describes them.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ..errors import ResultError, did_you_mean
 from .atomic_file import write_text
 from .inputs import Inputs
 from .interrupted import instead_of_a_result
-from .result import Column, ImageStream, Missing, Result, SavedImage, Variation
+from .result import Column, ImageStream, Missing, Refused, Result, SavedImage, Variation
 from .run_info import RunInfo
 from .stored.stored_shapes import RESULT
 
@@ -72,12 +72,13 @@ def dumps(result: Result) -> str:
         "inputs": _object(result.inputs.stored()),
         "run": _object(result.run.stored()),
         "facts": _object(result.facts),
-        **_variations(result),
+        **_if_any("variations", result.variations),
         "columns": _block("[]", [_json(_given(column)) for column in result.columns]),
         "rows": _block("[]", [_json(row) for row in result.rows]),
         "missing": _block("[]", [_json(asdict(missing)) for missing in result.missing]),
         "image_streams": _block("[]", [_json(asdict(stream)) for stream in result.image_streams]),
         "pictures": _block("[]", [_json(asdict(image)) for image in result.images]),
+        **_if_any("refused", result.refused),
     }
     return "{\n" + ",\n".join(f"  {_json(k)}: {text}" for k, text in parts.items()) + "\n}\n"
 
@@ -110,6 +111,7 @@ def loads(text: str) -> Result:
         variations=tuple(_take_each(document, "variations", Variation, [])),
         image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
         images=tuple(_take_each(document, "pictures", SavedImage, [])),
+        refused=tuple(_take_each(document, "refused", Refused, [])),
     )
     for name in document:
         known = [STORED.get(f.name, f.name) for f in fields(Result)]
@@ -133,10 +135,10 @@ def _object(values: Mapping[str, object]) -> str:
     return _block("{}", [f"{_json(key)}: {_json(value)}" for key, value in values.items()])
 
 
-def _variations(result: Result) -> dict[str, str]:
-    """The key is only there where something varies."""
-    lines = [_json(asdict(each)) for each in result.variations]
-    return {"variations": _block("[]", lines)} if lines else {}
+def _if_any(key: str, entries: Iterable[Variation | Refused]) -> dict[str, str]:
+    """The key is only there where there are entries."""
+    lines = [_json(asdict(each)) for each in entries]
+    return {key: _block("[]", lines)} if lines else {}
 
 
 def _given(column: Column) -> dict[str, object]:

@@ -7,9 +7,18 @@ from dataclasses import replace
 
 from ..benchmark.updaters import chain, swept_parameters
 from ..results.inputs import Inputs
-from ..results.journal import Record, Stored
+from ..results.journal import REFUSED, Record, Stored
 from ..results.log import TIME, Log
-from ..results.result import Cell, Column, ImageStream, Missing, Result, SavedImage, Variation
+from ..results.result import (
+    Cell,
+    Column,
+    ImageStream,
+    Missing,
+    Refused,
+    Result,
+    SavedImage,
+    Variation,
+)
 from ..results.run_info import RunInfo
 from .planning.plan import Plan, Trial
 from .trial.floor import largest
@@ -59,6 +68,11 @@ def collect(
             _image(row, image)
             for row, (_, record) in enumerate(records)
             for image in record["pictures"]
+        ),
+        refused=tuple(
+            Refused(row=row, by=by, what=what, n=n)
+            for row, (_, record) in enumerate(records)
+            for by, what, n in record.get(REFUSED, ())
         ),
     )
     return result, _logs(plan, columns, records, began), simulated_s

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from ..errors import ResultError
@@ -20,6 +20,7 @@ from ..results.log import save_log
 from ..results.result import Result
 from ..results.result_file import save
 from ..results.run_info import RunInfo
+from ..results.seal import Seal
 from ..results.summary import save_summary
 from ..terminal import warn
 from ..tracks import load_track
@@ -47,6 +48,8 @@ class Run:
     """Files that must not change during the run (`watchable`)."""
     recorder: TrialRecorder | None = None
     """Writes down the messages of its trials."""
+    seal: Seal | None = field(default=None, repr=False)
+    """Keeps an algorithm that is not of uwsim from reading the rows, while the run goes on."""
     n_resumed: int = 0
     """Levels that were on disk already when the run began."""
     n_lost: int = 0
@@ -157,7 +160,7 @@ class Run:
         """Return the stored rows of a trial; raises ResultError if they are of another run."""
         if not journal.path_of(self.out, trial.index).exists():
             return journal.NOTHING
-        return journal.read(self.out, trial.index, self.head(trial))
+        return journal.read(self.out, trial.index, self.head(trial), self.seal)
 
 
 def _has_motion(out: Path, trial: Trial) -> bool:

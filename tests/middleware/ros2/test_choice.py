@@ -38,12 +38,16 @@ def told(environment: dict[str, str], domain: int) -> list[str]:
 @pytest.mark.usefixtures("no_rclpy")
 def test_without_rclpy_it_is_a_node_on_cyclone_dds_and_a_line_says_so(domain: int) -> None:
     check({}, domain)
-    assert told({}, domain) == ["uwsim: ros2: a node on Cyclone DDS, without rclpy"]
+    assert told({}, domain) == [
+        "uwsim: ros2: a node on Cyclone DDS, without rclpy; for nodes on this computer"
+    ]
 
 
 def test_a_user_may_do_without_rclpy(domain: int) -> None:
     lines = told({"UWSIM_ROS2": "dds"}, domain)
-    assert lines == ["uwsim: ros2: a node on Cyclone DDS, without rclpy"]
+    assert lines == [
+        "uwsim: ros2: a node on Cyclone DDS, without rclpy; for nodes on this computer"
+    ]
 
 
 def test_an_rclpy_that_cannot_be_imported_is_told(
@@ -58,7 +62,7 @@ def test_an_rclpy_that_cannot_be_imported_is_told(
     assert told({}, domain) == [
         "uwsim: ros2: rclpy is there, and cannot be imported: librcl.so: cannot open shared object "
         "file",
-        "uwsim: ros2: a node on Cyclone DDS, without rclpy",
+        "uwsim: ros2: a node on Cyclone DDS, without rclpy; for nodes on this computer",
     ]
 
 

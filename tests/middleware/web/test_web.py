@@ -415,7 +415,7 @@ def test_a_token_is_asked_for() -> None:
 
 
 def test_other_computers_need_a_token_and_a_used_port_is_one_line(setting: Setting) -> None:
-    with pytest.raises(BadSetting, match="--web-token"):
+    with pytest.raises(BadSetting, match="UWSIM_WEB_TOKEN"):
         WebOptions(host="0.0.0.0")
     with pytest.raises(BadSetting, match="--web 70000"):
         WebOptions(port=70000)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ...results.chosen_code import names_text
 from ...results.command import bench_words
+from ...results.refused_lines import refused_lines
 from ...results.result import FLOOR, Result
 from ..plots import algorithm_of, repeats_of, written_unit
 
@@ -77,6 +78,7 @@ def remarks(result: Result, unchecked: str | None = None) -> list[str]:
     if settings := run.pairs_of_settings:
         message.append(f"Changed for this run: {', '.join(settings)}.")
     message += [f"{who} takes part: {_participation(how)}." for who, how in run.clients or ()]
+    message += [f"{text}." for text in refused_lines(result)]
     if names := run.compatibility:
         message.append(f"Compatibility quirks: {', '.join(names)}.")
     return message + [f"{note}." for note in run.notes or ()]

@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Annotated
 from ...errors import AllErrors, BadSetting
 from .connections import ConnectionOptions, DomainOption, Ros1HostOption, Ros1Option, Ros2Option
 from .help_texts import CONNECTED, in_group
+from .secrets import client_secret
 from .web_options import (
     CLIENT_LIMIT,
     ClientLimitOption,
+    ClientSecretFileOption,
     WebHostOption,
     WebOption,
     WebOriginOption,
+    WebTokenFileOption,
     WebTokenOption,
 )
 
@@ -37,6 +40,7 @@ class ClientOptions:
         ),
     ] = None
     client_limit: ClientLimitOption = CLIENT_LIMIT
+    client_secret_file: ClientSecretFileOption = None
     sync: Annotated[
         str | None,
         in_group(
@@ -82,6 +86,7 @@ class ClientOptions:
     web: WebOption = None
     web_host: WebHostOption = None
     web_token: WebTokenOption = None
+    web_token_file: WebTokenFileOption = None
     web_origin: WebOriginOption = None
     ros1: Ros1Option = False
     ros1_host: Ros1HostOption = None
@@ -117,6 +122,7 @@ class ClientOptions:
             "--output": (self.output, ("output",)),
             "--settle": (self.settle, ("output", "step")),
             "--speed": (self.speed, ("none",)),
+            "--client-secret-file": (self.client_secret_file, ("ack",)),
         }
         for option, (value, kinds) in of.items():
             with wrong.kept():
@@ -153,6 +159,7 @@ class ClientOptions:
             outputs=_outputs(self.output or ()),
             settle=SETTLE if self.settle is None else self.settle,
             speed=1.0 if self.speed is None else self.speed,
+            secret=client_secret(self.client_secret_file) if self.sync in (None, "ack") else None,
         )
 
     @property
@@ -165,9 +172,11 @@ class ClientOptions:
             web=self.web,
             web_host=self.web_host,
             web_token=self.web_token,
+            web_token_file=self.web_token_file,
             web_origin=self.web_origin,
             client=None if self.client is None else [self.client],
             client_limit=self.client_limit,
+            client_secret_file=self.client_secret_file,
         )
 
 

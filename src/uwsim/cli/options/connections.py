@@ -10,16 +10,19 @@ from typing import TYPE_CHECKING, Annotated
 
 from ...errors import AllErrors, BadSetting, RunFailed
 from .help_texts import CONNECTED, in_group
+from .secrets import client_secret
 from .web_options import (
     CLIENT_LIMIT,
     ClientLimitOption,
     ClientOption,
+    ClientSecretFileOption,
+    WebGiven,
     WebHostOption,
     WebOption,
     WebOriginOption,
+    WebTokenFileOption,
     WebTokenOption,
     check_clients,
-    web_options,
 )
 
 if TYPE_CHECKING:
@@ -104,9 +107,11 @@ class ConnectionOptions:
     web: WebOption = None
     web_host: WebHostOption = None
     web_token: WebTokenOption = None
+    web_token_file: WebTokenFileOption = None
     web_origin: WebOriginOption = None
     client: ClientOption = None
     client_limit: ClientLimitOption = CLIENT_LIMIT
+    client_secret_file: ClientSecretFileOption = None
 
     @property
     def is_connected(self) -> bool:
@@ -151,6 +156,10 @@ class ConnectionOptions:
                 web.check_free()
         with wrong.kept():
             check_clients(self.client or (), self.client_limit, self.transports)
+        with wrong.kept():
+            if self.client_secret_file is not None and not self.client:
+                raise BadSetting("--client-secret-file is of --client.")
+            client_secret(self.client_secret_file)
 
     def spec(self) -> ConnectionSpec:
         """Return what is opened; raises BadSetting."""
@@ -166,7 +175,13 @@ class ConnectionOptions:
 
     def web_options(self) -> WebOptions | None:
         """Return where web clients are served; raises BadSetting."""
-        return web_options(self.web, self.web_host, self.web_token, self.web_origin)
+        return WebGiven(
+            port=self.web,
+            host=self.web_host,
+            token=self.web_token,
+            token_file=self.web_token_file,
+            origins=self.web_origin,
+        ).options()
 
 
 @contextmanager
@@ -200,6 +215,7 @@ def _attach(simulation: Simulation, bridges: Sequence[Bridge], options: Connecti
         options.client or (),
         timestep=simulation.timestep,
         limit=options.client_limit,
+        secret=client_secret(options.client_secret_file),
     ):
         node = simulation.attach(client, name=client.name, raises=False)
         if node.error is not None:

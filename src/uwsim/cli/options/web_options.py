@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting
 from .help_texts import CONNECTED, in_group
+from .secrets import web_token
 
 if TYPE_CHECKING:
     from ...middleware.web.options import WebOptions
@@ -31,17 +34,34 @@ WebHostOption = Annotated[
         CONNECTED,
         "--web-host",
         metavar="ADDRESS",
-        help="Address at which --web listens, for other computers with --web-token [127.0.0.1].",
+        help="Address at which --web listens, for other computers with a token [127.0.0.1].",
     ),
 ]
 
 WebTokenOption = Annotated[
     str | None,
+    in_group(CONNECTED, "--web-token", metavar="TOKEN", help="Not taken any more.", hidden=True),
+]
+
+WebTokenFileOption = Annotated[
+    Path | None,
     in_group(
         CONNECTED,
-        "--web-token",
-        metavar="TOKEN",
-        help="What web clients have to give, as ws://HOST:PORT/?token=TOKEN.",
+        "--web-token-file",
+        metavar="FILE",
+        help="Holds what web clients have to give, as ws://HOST:PORT/?token=TOKEN "
+        "[UWSIM_WEB_TOKEN].",
+    ),
+]
+
+ClientSecretFileOption = Annotated[
+    Path | None,
+    in_group(
+        CONNECTED,
+        "--client-secret-file",
+        metavar="FILE",
+        help="Holds a secret that the join of the --client has to have, so that no other program "
+        "joins under its name [UWSIM_CLIENT_SECRET].",
     ),
 ]
 
@@ -79,24 +99,46 @@ ClientLimitOption = Annotated[
 ]
 
 
-def web_options(
-    port: int | None, host: str | None, token: str | None, origins: Sequence[str] | None
-) -> WebOptions | None:
-    """Return where web clients are served; None without ``--web``.
+@dataclass(frozen=True, kw_only=True)
+class WebGiven:
+    """What was given of the options of ``--web``."""
 
-    Raises:
-        BadSetting: an option is wrong, or is of ``--web`` and there is none.
-    """
-    from ...middleware.web.options import WebOptions
+    port: int | None = None
+    """Of ``--web``."""
+    host: str | None = None
+    """Of ``--web-host``."""
+    token: str | None = None
+    """Of ``--web-token``, which is refused."""
+    token_file: Path | None = None
+    """Of ``--web-token-file``."""
+    origins: Sequence[str] | None = None
+    """Of ``--web-origin``."""
 
-    if port is None:
-        for name, value in {"host": host, "token": token, "origin": origins}.items():
-            if value:
-                raise BadSetting(f"--web-{name} is of --web.")
-        return None
-    return WebOptions(
-        port=port, host=host or "127.0.0.1", token=token, origins=tuple(origins or ())
-    )
+    def options(self) -> WebOptions | None:
+        """Return where web clients are served; None without ``--web``.
+
+        Raises:
+            BadSetting: an option is wrong, or is of ``--web`` and there is none.
+        """
+        from ...middleware.web.options import WebOptions
+
+        if self.port is None:
+            given = {
+                "host": self.host,
+                "token": self.token,
+                "token-file": self.token_file,
+                "origin": self.origins,
+            }
+            for name, value in given.items():
+                if value:
+                    raise BadSetting(f"--web-{name} is of --web.")
+            return None
+        return WebOptions(
+            port=self.port,
+            host=self.host or "127.0.0.1",
+            token=web_token(self.token, self.token_file),
+            origins=tuple(self.origins or ()),
+        )
 
 
 def check_clients(names: Sequence[str], limit: float, transports: Sequence[str]) -> None:

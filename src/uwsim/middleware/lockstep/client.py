@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hmac
 import json
 import math
 import secrets
@@ -16,6 +17,7 @@ from ...bus import Node
 from ...errors import BadMessage, BadSetting, ClientLost, NeverStarted
 from ...messages import Empty, String
 from ...messages.services import Service
+from ..admission import Refused
 from ..bridge import Bridge
 from ..json_encoding import from_json, to_json
 from ..stamps import inward, outward
@@ -27,6 +29,7 @@ MAX_WAITING = 100
 """Joins and answers that wait; of more, the newest."""
 MAX_TEXT = 2**20
 """Letters of one."""
+WRONG_SECRET = "secret is missing or another; expected that of UWSIM_CLIENT_SECRET"
 MAX_ROUNDS = 1000
 """Ticks of one step: a client that answers its own messages without end goes no further."""
 
@@ -39,14 +42,24 @@ class LockStepClient:
         name: under which it joins.
         timestep: of the simulation [s].
         limit: how long it may take to join, and to answer a tick [s of wall time].
+        secret: that its join has to have; None: none.
     """
 
-    def __init__(self, bridge: Bridge, name: str, *, timestep: float, limit: float) -> None:
+    def __init__(
+        self,
+        bridge: Bridge,
+        name: str,
+        *,
+        timestep: float,
+        limit: float,
+        secret: str | None = None,
+    ) -> None:
         self._bridge, self._name, self._timestep, self._limit = bridge, name, timestep, limit
+        self._secret = secret
         self._joins: deque[tuple[dict[str, Any], str]] = deque(maxlen=MAX_WAITING)
         self._by = ""  # who has joined, where the transport can tell
         self._id: object = None  # what it calls itself, if it does
-        self._takes_part = False
+        self._has_joined = self._takes_part = False
         self._acks: deque[dict[str, Any]] = deque(maxlen=MAX_WAITING)
         self._replies: dict[int, dict[str, Any]] = {}
         self._sent: Counter[str] = Counter()
@@ -91,10 +104,12 @@ class LockStepClient:
                 continue  # who left before it could take part
             wrong = wrong_in_join(said, self._bridge.bus)
             if wrong is None:
-                self._id, self._by = said.get("id"), by
+                self._id, self._by, self._has_joined = said.get("id"), by, True
+                if self._bridge.admission is not None:
+                    self._bridge.admission.admit(by)
                 for other, its in tuple(self._joins):
                     if self._is_other(other, its):
-                        self._turn_away(other, its)
+                        self._turn_away(JOIN, other, its)
                 return said
             self._refuse("join", wrong, by)
         raise NeverStarted(
@@ -144,19 +159,28 @@ class LockStepClient:
         """Those of the client are its own."""
         return {}
 
+    def take_refused(self) -> tuple[Refused, ...]:
+        """Return what was refused since the last call of programs that do not take part."""
+        admission = self._bridge.admission
+        return () if admission is None else admission.take_refused()
+
     def hear(self, topic: str, content: dict[str, Any], by: str) -> None:
         """Take in what the client says on one of the topics of lock-step. Any thread.
 
         ``by`` is who says it, where the transport can tell: another program of the same name is
-        not heard.
+        not heard, nor an answer before the join.
         """
         if content.get("run", self._run) != self._run:
             return  # to a simulation before this one
         if self._is_other(content, by):
-            self._turn_away(content, by)
+            self._turn_away(topic, content, by)
         elif topic == JOIN:
-            if not self._takes_part or content.get("left"):
+            if not content.get("left") and not self._has_secret(content):
+                self._refuse("join", WRONG_SECRET, by)
+            elif not self._takes_part or content.get("left"):
                 self._joins.append((content, by))
+        elif not self._has_joined:
+            self._bridge.log.say(f"client {self._name!r}: an answer before its join is not heard")
         elif "call" in content:
             if content["call"] == self._n_calls or wrong_in_reply(content):
                 self._replies[self._n_calls] = content
@@ -165,13 +189,24 @@ class LockStepClient:
 
     def _is_other(self, content: dict[str, Any], by: str) -> bool:
         """Whether another program than the one that has joined says something."""
-        its = content.get("id")
-        has_other_id = self._id is not None and its is not None and its != self._id
-        return has_other_id or bool(by and self._by and by != self._by)
+        if by and self._by and by != self._by:
+            return True
+        its, is_from_connection = content.get("id"), bool(by) and content.get("left")
+        return self._id is not None and its != self._id and not is_from_connection
 
-    def _turn_away(self, content: dict[str, Any], by: str) -> None:
+    def _has_secret(self, content: dict[str, Any]) -> bool:
+        """Whether a join has the secret, if one is needed."""
+        if self._secret is None:
+            return True
+        given = content.get("secret")
+        is_text = isinstance(given, str)
+        return is_text and hmac.compare_digest(str(given).encode(), self._secret.encode())
+
+    def _turn_away(self, topic: str, content: dict[str, Any], by: str) -> None:
         """Tell another program of the same name, and the log, that it is not heard."""
         if not content.get("left"):
+            if self._bridge.admission is not None:
+                self._bridge.admission.refuse(by, f"/{topic}")
             first, second = self._by or "another program", by or "a second one"
             text = f"client {self._name!r} is {first} already; {second} is not heard"
             self._bridge.log.say(text)
@@ -319,7 +354,12 @@ class LockStepClient:
 
 
 def lockstep_clients(
-    bridges: Sequence[Bridge], names: Sequence[str], *, timestep: float, limit: float
+    bridges: Sequence[Bridge],
+    names: Sequence[str],
+    *,
+    timestep: float,
+    limit: float,
+    secret: str | None = None,
 ) -> tuple[LockStepClient, ...]:
     """Return the clients of these names, in the order of the names; attach them in it.
 
@@ -328,6 +368,7 @@ def lockstep_clients(
         names: of the clients.
         timestep: of the simulation [s].
         limit: how long one may take to join, and to answer a tick [s of wall time].
+        secret: that the join of each has to have; None: none.
 
     Raises:
         BadSetting: there is no transport, or more than one.
@@ -335,9 +376,9 @@ def lockstep_clients(
     if len(bridges) != 1:
         raise BadSetting("--client: expected one of --web, --ros1 and --ros2, by which it comes.")
     (bridge,) = bridges
-    ordered = sorted(dict.fromkeys(names))
     clients = {
-        name: LockStepClient(bridge, name, timestep=timestep, limit=limit) for name in ordered
+        name: LockStepClient(bridge, name, timestep=timestep, limit=limit, secret=secret)
+        for name in sorted(dict.fromkeys(names))
     }
 
     def hear(topic: str, message: object, by: str) -> None:

@@ -123,6 +123,7 @@ COUNTS: Field = (
 ID: Field = (_is_name, "a text")
 JOIN_FIELDS = {
     "id": ID,
+    "secret": ID,
     "topics": NAMES,
     "next": TIME,
     "own": NAMES,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from ..admission import Refused
 from ..bridge import Bridge
 from .spec import ClientSpec
 
@@ -26,3 +27,8 @@ class OutsideProgram:
     def parameters(self) -> dict[str, float | str]:
         """Those of the program are its own."""
         return {}
+
+    def take_refused(self) -> tuple[Refused, ...]:
+        """Return what was refused since the last call of programs that do not take part."""
+        admission = self._bridge.admission
+        return () if admission is None else admission.take_refused()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, get_args
 
 from ...errors import BadSetting, did_you_mean
@@ -55,6 +55,8 @@ class ClientSpec:
     time]."""
     speed: float = 1.0
     """Of ``none``: simulation time per real time."""
+    secret: str | None = field(default=None, repr=False)
+    """Of ``ack``: what the join has to have, so that no other program joins under the name."""
 
     @property
     def transport(self) -> str:

@@ -32,7 +32,7 @@ from .publication import Publication
 from .registrar import POLL, Registrar, Wanted
 from .rosout import rosout
 from .subscription import Subscription
-from .tcpros import PeerError
+from .tcpros import PeerError, node_of
 from .xmlrpc import Answer, Refused, XmlRpcServer
 
 NODE = "/uwsim"
@@ -242,8 +242,9 @@ class Ros1Bridge(Bridge):
             return f"service {name[:100]!r} is not offered here"
         if (refusal := tcp_services.check(offered, header)) is not None:
             return refusal
+        request = partial(self.request, name, by=node_of(header))
         return lambda connection, header: tcp_services.serve(
-            connection, header, offered, self._node, lambda asked: self.request(name, asked)
+            connection, header, offered, self._node, request
         )
 
     def _is_offered_outside(self, name: str) -> bool:
@@ -266,8 +267,8 @@ class Ros1Bridge(Bridge):
 
         def run() -> None:
             try:
-                wanted = wire_service(kind)
-                found = tcp_services.call(uri, f"/{name}", wanted, self._node, request)
+                wanted = tcp_services.Wanted(f"/{name}", wire_service(kind), self._may_answer)
+                found = tcp_services.call(uri, wanted, self._node, request)
             except UwsimError as error:
                 future.set_exception(error)
             else:
@@ -275,6 +276,10 @@ class Ros1Bridge(Bridge):
 
         threading.Thread(target=run, name="ros1-call", daemon=True).start()
         return future
+
+    def _may_answer(self, name: str, by: str) -> bool:
+        """Whether a node may answer a call of a service; any thread."""
+        return self.admission is None or self.admission.may_answer(name.lstrip("/"), by)
 
     def _publisherUpdate(self, caller: str, topic: str, uris: list[str]) -> Answer:  # noqa: N802
         self._registrar.update(topic, [each for each in uris if isinstance(each, str)])

@@ -15,7 +15,7 @@ MAX_CONNECTIONS = 256
 NUMBER = re.compile(r"[0-9a-f]{32}|[0-9]+")
 """What does not tell two kinds of events apart: MD5 sums, lengths."""
 HEADER_TIMEOUT = 10.0
-"""How long a client may take to send its header [s]."""
+"""How long a client may take to send its whole header [s]."""
 Serve = Callable[[socket.socket, dict[str, str]], None]
 """Serves a connection with its header; may raise PeerError."""
 
@@ -72,7 +72,8 @@ class Listener:
         try:
             connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
             connection.settimeout(self._header_timeout)
-            header = read_header(connection)
+            header = read_header(connection, self._header_timeout)
+            connection.settimeout(self._header_timeout)
             caller = header.get("callerid", caller)[:100]
             serve = self._choose(header)
             if isinstance(serve, str):

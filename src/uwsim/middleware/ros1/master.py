@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import threading
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import Any
@@ -19,6 +20,9 @@ from .parameters import Parameters, resolve
 from .tcpros import PeerError
 from .xmlrpc import Answer, XmlRpcServer, call
 
+MAX_ENTRIES = 10_000
+"""Publishers, subscribers, services and nodes that are registered, of each kind."""
+FULL = f"at most {MAX_ENTRIES} entries of a kind are kept"
 Registrations = dict[str, dict[str, str]]
 """Topic or service -> node -> its URI."""
 
@@ -45,7 +49,7 @@ class Master:
         self._parameters = Parameters()
         self._updates = ThreadPoolExecutor(4, thread_name_prefix="ros1-master")
         methods = {
-            name: checked(method, getattr(self, f"_{_snake(name)}"))
+            name: checked(method, self._limited(name, getattr(self, f"_{_snake(name)}")))
             for name, method in MASTER_METHODS.items()
         }
         methods |= {
@@ -71,6 +75,24 @@ class Master:
             return list(result)
 
         return answer
+
+    def _limited(self, name: str, method: Callable[..., Answer]) -> Callable[..., Answer]:
+        """Return a method that refuses to register more than is kept."""
+        if not name.startswith("register"):
+            return method
+
+        def answer(*arguments: Any) -> Answer:
+            return [-1, FULL, 0] if self._is_full() else method(*arguments)
+
+        return answer
+
+    def _is_full(self) -> bool:
+        with self._lock:
+            publishers, subscribers = (
+                sum(map(len, each.values())) for each in (self._publishers, self._subscribers)
+            )
+            n = max(publishers, subscribers, len(self._services), len(self._nodes))
+            return n >= MAX_ENTRIES
 
     def _register_publisher(self, caller: str, topic: str, kind: str, uri: str) -> Answer:
         with self._lock:
@@ -114,7 +136,8 @@ class Master:
             name = resolve(service, caller)
             is_its = self._services.get(name, ("", "", ""))[1] == api
             if is_its:
-                del self._services[name]
+                node = self._services.pop(name)[0]
+                self._forget_if_gone(node)
         return [1, "Unregistered" if is_its else "Was not registered", int(is_its)]
 
     def _lookup_service(self, caller: str, service: str) -> Answer:
@@ -173,7 +196,22 @@ class Master:
             if which.get(name, {}).get(caller) != uri:
                 return 0
             del which[name][caller]
+            if not which[name]:
+                del which[name]
+            if name not in self._publishers and name not in self._subscribers:
+                self._types.pop(name, None)
+            self._forget_if_gone(caller)
             return 1
+
+    def _forget_if_gone(self, node: str) -> None:
+        """Forget a node that has nothing registered any more."""
+        has_topics = any(
+            node in nodes
+            for each in (self._publishers, self._subscribers)
+            for nodes in each.values()
+        )
+        if not has_topics and all(entry[0] != node for entry in self._services.values()):
+            self._nodes.pop(node, None)
 
     def _tell(self, topic: str) -> None:
         """Tell the subscribers of a topic its publishers; the list is read when it is sent."""

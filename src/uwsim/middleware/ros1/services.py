@@ -10,6 +10,7 @@ import socket
 from collections.abc import Callable
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeout
+from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlsplit
 
@@ -22,6 +23,7 @@ from .tcpros import (
     close,
     encode_header,
     framed,
+    node_of,
     open_connection,
     read_frame,
     read_header,
@@ -88,27 +90,40 @@ def _answer(data: bytes, offered: WireService, request: Callable[[Any], Future[o
         return b"\x00" + framed(str(error).encode())
 
 
-def call(uri: str, name: str, wanted: WireService, caller: str, request: object) -> object:
+@dataclass(frozen=True)
+class Wanted:
+    """A service outside."""
+
+    name: str
+    """With a leading slash."""
+    type: WireService
+    """Its type."""
+    may_answer: Callable[[str, str], bool] = lambda name, node: True
+    """Whether a node, as `node_of` names it, may answer for the service of that name."""
+
+
+def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
     """Call a service outside and return its response.
 
     Args:
         uri: ``rosrpc://host:port``.
-        name: of the service.
-        wanted: its type.
+        wanted: name and type of the service, and who may answer.
         caller: name of this node.
         request: of the type's class.
 
     Raises:
-        PeerError: nobody answers, or with an error.
+        PeerError: nobody answers, or with an error; or a node that may not.
     """
-    place = urlsplit(uri)
+    place, name = urlsplit(uri), wanted.name
     if not place.hostname or not place.port:
         raise PeerError(f"service {name} is at {uri}, which is no address")
     connection = open_connection(place.hostname, place.port, CALL_TIMEOUT)
     try:
-        fields = {"callerid": caller, "md5sum": wanted.md5, "service": name}
+        fields = {"callerid": caller, "md5sum": wanted.type.md5, "service": name}
         write(connection, encode_header(fields))
-        read_header(connection)  # rospy loses what comes together with the header
+        header = read_header(connection)  # rospy loses what comes together with the header
+        if "callerid" in header and not wanted.may_answer(name, node_of(header)):
+            raise PeerError(f"service {name}: {node_of(header)} does not take part in this run")
         write(connection, framed(to_ros1(outward(request))))
         success = connection.recv(1)
         data = read_frame(connection)
@@ -120,7 +135,7 @@ def call(uri: str, name: str, wanted: WireService, caller: str, request: object)
         what = "closed the connection" if data is None else data[:300].decode("utf-8", "replace")
         raise PeerError(f"service {name}: {what}")
     try:
-        response: object = inward(from_ros1(wanted.service.response, data))
+        response: object = inward(from_ros1(wanted.type.service.response, data))
         return response
     except BadMessage as error:
         raise PeerError(f"service {name}: {error}") from error

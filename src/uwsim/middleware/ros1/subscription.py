@@ -15,6 +15,7 @@ from .tcpros import (
     PeerError,
     close,
     encode_header,
+    node_of,
     open_connection,
     read_frame,
     read_header,
@@ -120,7 +121,7 @@ class Subscription:
         if header.get("md5sum") not in ("*", self.kind.md5):
             raise PeerError(f"it publishes {header.get('type')}, not {self.kind.ros1_name}")
         connection.settimeout(None)  # a publisher may have nothing to say for long
-        return f"node {header.get('callerid', 'without a name')[:100]}"
+        return node_of(header)
 
     def take(self, data: bytes, by: str) -> None:
         """Decode a message and hand it on; one that is none is reported."""

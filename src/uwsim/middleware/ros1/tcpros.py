@@ -10,10 +10,12 @@ from __future__ import annotations
 import select
 import socket
 import struct
+import time
 from collections.abc import Mapping
 from contextlib import suppress
 
 from ...errors import UwsimError
+from .deadline import time_left
 
 MAX_HEADER = 256 * 1024
 """Longest connection header read; that of a point cloud with its definition has 4 kB [bytes]."""
@@ -52,13 +54,19 @@ def decode_header(body: bytes) -> dict[str, str]:
     return fields
 
 
-def read_header(connection: socket.socket) -> dict[str, str]:
-    """Read a connection header.
+def node_of(header: Mapping[str, str]) -> str:
+    """Return how messages and calls name the node at the other end, from its header."""
+    return f"node {header.get('callerid', 'without a name')[:100]}"
+
+
+def read_header(connection: socket.socket, limit_s: float | None = None) -> dict[str, str]:
+    """Read a connection header, within ``limit_s`` if that is given.
 
     Raises:
         PeerError: there was none, or it is no header, or it says ``error``.
     """
-    body = read_frame(connection, MAX_HEADER)
+    end = None if limit_s is None else time.monotonic() + limit_s
+    body = read_frame(connection, MAX_HEADER, end)
     if body is None:
         raise PeerError("it closed the connection without a header")
     fields = decode_header(body)
@@ -67,13 +75,21 @@ def read_header(connection: socket.socket) -> dict[str, str]:
     return fields
 
 
-def read_frame(connection: socket.socket, limit: int = MAX_MESSAGE) -> bytes | None:
+def read_frame(
+    connection: socket.socket, limit: int = MAX_MESSAGE, end: float | None = None
+) -> bytes | None:
     """Read one frame without its length; None if the peer has closed the connection before it.
+
+    Args:
+        connection: read from.
+        limit: longest frame [bytes].
+        end: when all of it has to be there, on the monotonic clock [s]; None: the socket's timeout
+            holds for each part.
 
     Raises:
         PeerError: the frame is cut off, too long, or does not come within the socket's timeout.
     """
-    head = _read(connection, LENGTH.size)
+    head = _read(connection, LENGTH.size, end)
     if not head:
         return None
     if len(head) < LENGTH.size:
@@ -81,17 +97,19 @@ def read_frame(connection: socket.socket, limit: int = MAX_MESSAGE) -> bytes | N
     (length,) = LENGTH.unpack(head)
     if length > limit:
         raise PeerError(f"it announces {length} bytes; at most {limit} are read")
-    body = _read(connection, length)
+    body = _read(connection, length, end)
     if len(body) < length:
         raise PeerError(f"it closed the connection after {len(body)} of {length} bytes")
     return body
 
 
-def _read(connection: socket.socket, n: int) -> bytes:
+def _read(connection: socket.socket, n: int, end: float | None) -> bytes:
     """Read ``n`` bytes, or fewer if the connection ends; memory grows with what has come."""
     found = bytearray()
     while len(found) < n:
         try:
+            if end is not None:
+                connection.settimeout(time_left(end))
             part = connection.recv(min(CHUNK, n - len(found)))
         except TimeoutError:
             raise PeerError("it sends nothing") from None

@@ -7,16 +7,19 @@ the caller.
 from __future__ import annotations
 
 import http.client
+import io
 import socket
 import threading
 import xmlrpc.client
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from socketserver import ThreadingMixIn
 from typing import Any
 from xml.parsers.expat import ExpatError
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 from ..log import Log
+from .deadline import DeadlineReader
+from .origins import own_names, wrong_in_headers
 from .tcpros import PeerError
 
 MAX_REQUEST = 2**20
@@ -24,7 +27,7 @@ MAX_REQUEST = 2**20
 MAX_AT_ONCE = 64
 """Requests that a server works on at the same time; others are closed."""
 READ_TIMEOUT = 15.0
-"""How long a client may take to send its request [s]."""
+"""How long a client may take to send its whole request [s]."""
 CALL_TIMEOUT = 5.0
 """How long a call waits for its answer [s]."""
 Answer = list[Any]
@@ -32,14 +35,26 @@ Methods = Mapping[str, Callable[..., Answer]]
 
 
 class RequestHandler(SimpleXMLRPCRequestHandler):
-    """Reads requests of limited length."""
+    """Reads requests of limited length and in limited time; not those of pages in browsers."""
 
     rpc_paths = ()  # any path, as ROS's own servers
     timeout = READ_TIMEOUT
     disable_nagle_algorithm = True
 
+    def setup(self) -> None:
+        """Read from the connection until a deadline, however slowly it comes."""
+        super().setup()
+        self.rfile.close()
+        self.rfile = io.BufferedReader(DeadlineReader(self.connection, READ_TIMEOUT))
+
     def do_POST(self) -> None:  # noqa: N802 - the name is http.server's
-        """Answer a request, unless it is too long."""
+        """Answer a request, unless it is too long, or of a page in a browser."""
+        server = self.server
+        assert isinstance(server, XmlRpcServer)
+        if (refused := server.refused(_lower(self.headers.items()))) is not None:
+            self.send_error(403, refused)
+            self.close_connection = True
+            return
         length = self.headers.get("content-length", "")
         if not length.isdecimal() or int(length) > MAX_REQUEST:
             self.send_error(413)
@@ -72,6 +87,7 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
     def __init__(self, host: str, port: int, methods: Methods, log: Log, name: str) -> None:
         super().__init__((host, port), RequestHandler, logRequests=False, allow_none=True)
         self._log, self._name = log, name
+        self._hosts = own_names(host)
         self._free = threading.BoundedSemaphore(MAX_AT_ONCE)
         for each, method in methods.items():
             self.register_function(method, each)
@@ -84,6 +100,12 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         if method not in self.funcs:
             raise xmlrpc.client.Fault(1, f"method {method[:100]!r} is not supported")
         return super()._dispatch(method, params)
+
+    def refused(self, headers: Mapping[str, str]) -> str | None:
+        """Say why a request is refused by its headers; None if it is not."""
+        if (why := wrong_in_headers(headers, self._hosts)) is not None:
+            self._log.say(f"{self._name}: a request is refused: {why}", kind=f"{self._name} page")
+        return None if why is None else "not for pages in browsers"
 
     @property
     def port(self) -> int:
@@ -116,8 +138,15 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         self._thread.join(timeout=10.0)
 
 
+def _lower(headers: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Headers by their names in small letters."""
+    return {name.lower(): value for name, value in headers}
+
+
 class _Transport(xmlrpc.client.Transport):
-    """Calls with a time limit and responses of limited length."""
+    """Calls with a time limit and responses of limited length, which are not compressed."""
+
+    accept_gzip_encoding = False
 
     def __init__(self, timeout: float) -> None:
         super().__init__()

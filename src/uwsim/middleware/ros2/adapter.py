@@ -168,9 +168,9 @@ class Ros2(Bridge):
             name, type, quality, partial(self._receive, name, type), partial(self._refuse, name)
         )
 
-    def _receive(self, name: str, type: type, data: bytes) -> None:
+    def _receive(self, name: str, type: type, data: bytes, by: str = "") -> None:
         try:
-            self.put(name, inward(from_cdr(type, data)))
+            self.put(name, inward(from_cdr(type, data)), by)
         except BadMessage as error:
             self.log.say(f"/{name}: a message was refused: {error}", kind=f"refused {name}")
 

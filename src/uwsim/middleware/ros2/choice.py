@@ -13,6 +13,8 @@ from .settings import settings_from
 NODES = ("rclpy", "dds")
 VARIABLE = "UWSIM_ROS2"
 """By which a user chooses one of `NODES`; unset or empty: what there is."""
+REACH = {True: "for nodes on this computer", False: "its ports are open on all addresses"}
+"""Whether other computers cannot reach a node -> what is said of it."""
 MISSING = "--ros2: neither rclpy nor Cyclone DDS is installed: source a ROS 2, or pip install "
 MISSING += "uwsim[ros2]"
 
@@ -73,7 +75,10 @@ def _dds(environment: Mapping[str, str], domain: int | None, log: Log) -> Ros2No
 
     settings = settings_from(environment, domain)
     node = DdsNode(settings, log, more=environment.get("CYCLONEDDS_URI", ""))
-    log.say("a node on Cyclone DDS, without rclpy")
+    reach = (
+        "for nodes on this computer" if node.is_closed else "its ports are open on all addresses"
+    )
+    log.say(f"a node on Cyclone DDS, without rclpy; {reach}")
     return node
 
 

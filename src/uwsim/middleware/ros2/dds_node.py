@@ -12,12 +12,14 @@ from typing import Any, ClassVar
 from ...errors import UwsimError
 from ..log import Log
 from ..types import WireService, ros2_store, wire_type
+from .loopback import bind_to_loopback, open_sockets
 from .names import topic_name, type_hash_data
-from .node import Call
+from .node import Call, Receive
 from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
 from .presence import Presence
 from .quality import Quality
 from .raw_types import RawSample, raw_type
+from .senders import Senders
 from .service_server import ServiceServer
 from .settings import NODE, Ros2Settings
 
@@ -39,7 +41,11 @@ class DdsNode:
 
     def __init__(self, settings: Ros2Settings, log: Log, *, more: str = "") -> None:
         self._log = log
+        before = open_sockets()
         self._participant = Participant(settings.domain, settings.configuration(more))
+        keeps_here = settings.is_local and not settings.static_peers and not more
+        self.is_closed = keeps_here and bind_to_loopback(before)
+        """Whether other computers cannot reach it."""
         self._presence = Presence(self._participant, NODE)
         self._types: dict[type, type[RawSample]] = {}
 
@@ -68,16 +74,17 @@ class DdsNode:
         topic: str,
         type: type,
         quality: Quality,
-        receive: Callable[[bytes], None],
+        receive: Receive,
         on_refused: Callable[[], None],
     ) -> DdsReader:
         """Make a reader."""
         raw, user_data = self._raw(type)
+        senders = Senders()
         entity = self._participant.reader(
             topic_name(topic),
             raw,
             quality,
-            lambda sample: receive(sample.data),
+            lambda sample: receive(sample.data, senders.sender_of(entity, sample)),
             user_data=user_data,
             events={WRITER_REFUSED: lambda _: on_refused()},
         )

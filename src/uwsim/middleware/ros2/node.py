@@ -13,8 +13,19 @@ from typing import ClassVar, Protocol
 from ..types import WireService
 from .quality import Quality
 
-Call = Callable[[object], "Future[object]"]
-"""Hands a request to the simulation; returns the response to come."""
+
+class Receive(Protocol):
+    """Takes in an encoded message, its CDR header included."""
+
+    def __call__(self, data: bytes, by: str = "") -> None:
+        """``by``: who sent it; empty where the node cannot tell."""
+
+
+class Call(Protocol):
+    """Hands a request to the simulation; returns the response to come."""
+
+    def __call__(self, request: object, by: str = "") -> Future[object]:
+        """``by``: who calls; empty where the node cannot tell."""
 
 
 class Endpoint(Protocol):
@@ -63,7 +74,7 @@ class Ros2Node(Protocol):
         topic: str,
         type: type,
         quality: Quality,
-        receive: Callable[[bytes], None],
+        receive: Receive,
         on_refused: Callable[[], None],
     ) -> BytesReader:
         """Make a reader of messages from outside.

@@ -25,7 +25,7 @@ from ...environment import environment
 from ...errors import UwsimError
 from ..log import Log
 from ..types import WireService
-from .node import BytesReader, BytesWriter, Call, Endpoint
+from .node import BytesReader, BytesWriter, Call, Endpoint, Receive
 from .quality import Quality
 from .rclpy_endpoints import Echoes, Nowhere, RclpyReader, RclpyWriter, profile
 from .rclpy_services import RclpyServices, Unanswered
@@ -108,7 +108,7 @@ class RclpyNode:
         topic: str,
         type: type,
         quality: Quality,
-        receive: Callable[[bytes], None],
+        receive: Receive,
         on_refused: Callable[[], None],
     ) -> BytesReader:
         """Make a reader."""

@@ -24,6 +24,7 @@ from .node import Call
 from .participant import WRITERS_CHANGED, Participant
 from .quality import Quality
 from .raw_types import CDR_HEADER, RawSample, raw_type
+from .senders import Senders
 
 CALL = struct.Struct("<Qq")
 """Number of the client, number of its request."""
@@ -48,7 +49,7 @@ class ServiceServer:
         self, participant: Participant, name: str, kind: WireService, call: Call, log: Log
     ) -> None:
         self._participant, self._name, self._kind = participant, name, kind
-        self._call, self._log = call, log
+        self._call, self._log, self._senders = call, log, Senders()
         hash_data = type_hash_data(kind.type_hash)
         store, reliable = ros2_store(), Quality()
         self.writer = participant.writer(
@@ -93,7 +94,8 @@ class ServiceServer:
         except (BadMessage, struct.error) as error:
             self._log.say(f"service /{self._name}: a call was refused: {error}", kind=self._name)
             return
-        self._call(request).add_done_callback(partial(self._reply, call))
+        by = self._senders.sender_of(self.reader, sample)
+        self._call(request, by).add_done_callback(partial(self._reply, call))
 
     def _is_of_cyclone(self, sample: RawSample) -> bool:
         handle = sample.sample_info.publication_handle

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import socket
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from ...errors import BadSetting
 
@@ -20,7 +20,7 @@ class WebOptions:
     """Port; 0: one that the system chooses."""
     host: str = "127.0.0.1"
     """Address; another than this computer's own needs a token."""
-    token: str | None = None
+    token: str | None = field(default=None, repr=False)
     """What a client has to give: ``ws://HOST:PORT/?token=...`` or ``Authorization: Bearer``."""
     origins: tuple[str, ...] = ()
     """Pages that may connect, as ``https://example.org``, next to those of this computer."""
@@ -29,7 +29,7 @@ class WebOptions:
         if not 0 <= self.port < 2**16:
             raise BadSetting(f"--web {self.port}: expected a port, from 0 to 65535.")
         if self.token is not None and not self.token.strip():
-            raise BadSetting("--web-token: it is blank.")
+            raise BadSetting("The token of --web: it is blank.")
         for origin in self.origins:
             if not ORIGIN.fullmatch(origin):
                 raise BadSetting(
@@ -37,7 +37,8 @@ class WebOptions:
                 )
         if self.host not in LOOPBACK and not self.token:
             raise BadSetting(
-                f"--web-host {self.host}: other computers could connect; give a --web-token too."
+                f"--web-host {self.host}: other computers could connect; set "
+                "UWSIM_WEB_TOKEN, or give --web-token-file FILE."
             )
 
     def check_free(self) -> None:

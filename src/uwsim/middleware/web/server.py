@@ -11,6 +11,7 @@ import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
+from functools import partial
 from typing import ClassVar
 from urllib.parse import parse_qs, urlsplit
 
@@ -78,7 +79,7 @@ class WebBridge(Bridge):
         self._ends: Mapping[str, TopicEnds] = {}
         self.services: Mapping[str, Service] = {}
         """Services of the bus."""
-        self._offerers: dict[str, Session] = {}
+        self._offerers: dict[str, tuple[Session, ...]] = {}
         self._sessions: set[Session] = set()
         self._republisher = FrameRepublisher()
         self._republications: dict[Session, list[str]] = {}
@@ -162,10 +163,10 @@ class WebBridge(Bridge):
 
     def call_outside(self, name: str, request: object) -> Future[object]:
         """Call a service of a client."""
-        session = self._offerers.get(name)
-        if session is None:
+        offerers = self._offerers.get(name)
+        if not offerers:
             raise UwsimError(f"Service /{name}: who offered it has left.")
-        return session.call(name, request)
+        return offerers[0].call(name, request)
 
     def close(self) -> None:
         """Close all connections and the port."""
@@ -283,14 +284,20 @@ class WebBridge(Bridge):
             self.unwant(subscription.source)
 
     def offer_of(self, name: str, service: Service, session: Session) -> None:
-        """A client offers a service. In the thread of the server."""
-        self._offerers[name] = session
+        """A client offers a service; of several, the first is called. Any thread."""
+        later = partial(self.offer_of, name, service, session)
+        if self.admission and not self.admission.may_offer(name, session.name, later):
+            return
+        self._offerers[name] = (*self._offerers.get(name, ()), session)
         self.offer(name, service)
 
     def withdraw_of(self, name: str, session: Session) -> None:
         """A client offers it no more. In the thread of the server."""
-        if self._offerers.get(name) is session:
-            del self._offerers[name]
+        offerers = self._offerers.pop(name, ())
+        left = tuple(each for each in offerers if each is not session)
+        if left:
+            self._offerers[name] = left
+        elif offerers:
             self.withdraw(name)
 
     def _serve_all(self) -> None:
@@ -365,6 +372,8 @@ class WebBridge(Bridge):
         finally:
             writer.cancel()
             session.close()
+            if self.admission is not None:
+                self.admission.leave(name)
             self._sessions.discard(session)
             why = connection.close_reason or connection.close_code or "its connection broke"
             self.log.say(f"{name} has left ({why})", kind="has left")

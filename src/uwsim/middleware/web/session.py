@@ -286,7 +286,8 @@ class Session:
             else:
                 self.reply({**answer, "values": str(error), "result": False})
 
-        self._bridge.request(name, inward(request)).add_done_callback(respond)
+        answer_to_come = self._bridge.request(name, inward(request), self._name)
+        answer_to_come.add_done_callback(respond)
 
     def _advertise_service(self, asked: dict[str, Any]) -> None:
         name, of = name_in(asked, "service"), service(text_in(asked, "type"))

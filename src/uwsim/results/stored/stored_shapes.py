@@ -50,6 +50,7 @@ RESULT = fields(
             fields({}, {"seed": whole, "topic": text, "level": maybe(each(number))})
         ),
         "pictures": each(fields({}, {"camera": text, "truth": _QUAD, "estimate": _QUAD})),
+        "refused": each(fields({}, {"row": whole, "by": text, "what": text, "n": whole})),
     },
 )
 """Of ``result.json``, as far as `Result` does not see to it."""
@@ -69,7 +70,7 @@ ROW = fields(
         "log_headers": table(each(text)),
         "pictures": each(fields({"camera": text, "file": text, "truth": _QUAD, "estimate": _QUAD})),
     },
-    {"ended_at": number, "fingerprint": text},
+    {"ended_at": number, "fingerprint": text, "refused": each(items(text, text, whole))},
 )
 """The shape of ``row`` in each further line."""
 END = fields(

@@ -19,10 +19,12 @@ from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimErro
 from ...interrupts import is_of_user, raise_if_interrupted
 from ...results.journal import path_of
 from ...results.result import Result
+from ...results.seal import deny_access_to_memory
 from ...simulation import Calls, Cut, RendererPool
 from ..own_process.process import PROCESS_ENDED
 from ..planning.plan import Plan, Trial
 from ..run import Run
+from ..sealed import sealed
 from ..trial.onlooker import Onlooker
 from .worker import Event, JournalWriter, picklable, run_trial
 
@@ -211,6 +213,8 @@ def run_and_record(
     job: Job, pool: RendererPool, calls: Calls, onlooker: Onlooker | None = None
 ) -> Iterator[Event]:
     """Run a trial and write its journal; yields the levels that were not on disk before."""
+    if job.run.seal is not None:
+        deny_access_to_memory()  # of this process, which may be a worker
     writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
@@ -247,11 +251,12 @@ def run_each(
     """
     jobs = [Job(run, trial) for run in runs for trial in run.begin()]
     queue = JobQueue(jobs, on_level)
-    try:
-        (executor or SerialExecutor()).execute(queue)
-        _miss_what_is_gone(runs, queue)
-    finally:
-        results = tuple(run.write() for run in runs)
+    with sealed(runs):
+        try:
+            (executor or SerialExecutor()).execute(queue)
+            _miss_what_is_gone(runs, queue)
+        finally:
+            results = tuple(run.write() for run in runs)
     return Outcome(results=results, failures=tuple(queue.failures))
 
 

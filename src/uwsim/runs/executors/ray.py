@@ -19,7 +19,7 @@ import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -201,7 +201,8 @@ class AssignedJob:
         run, trial = self.job.run, self.job.trial
         self.writer = JournalWriter(run, trial)
         execute = self.worker.execute.options(num_returns="streaming")
-        return execute.remote(run, trial, run.head(trial))
+        without_key = replace(run, seal=None)  # rows are written here
+        return execute.remote(without_key, trial, run.head(trial))
 
 
 class RayWorker:

@@ -114,17 +114,18 @@ class JournalWriter:
         self._out = run.out
         self._watch = Watch(run.files)
         self._track = journal.track_path(run.out, trial.index)
-        self._file = journal.Journal(run.out, trial.index, run.head(trial))
+        self._seal = run.seal
+        self._file = journal.Journal(run.out, trial.index, run.head(trial), run.seal)
 
     def keep(self, event: Event) -> bool:
         """Write it; returns whether it is a level that was not on disk before."""
         self._watch.check()
         if isinstance(event, TrialEnded):
             with atomic_write(self._track) as draft:
-                draft.write_bytes(event.motion)
+                draft.write_bytes(self._sealed(event.motion))
             if event.inputs:
                 with atomic_write(self._track.with_suffix(journal.INPUTS)) as draft:
-                    draft.write_bytes(event.inputs)
+                    draft.write_bytes(self._sealed(event.inputs))
             self._file.finish(event.record)
             return False
         for name, png in event.images:
@@ -136,6 +137,9 @@ class JournalWriter:
     def close(self) -> None:
         """Close the trial's file; what was kept is on disk."""
         self._file.close()
+
+    def _sealed(self, data: bytes) -> bytes:
+        return data if self._seal is None else self._seal.file(data)
 
 
 def picklable(error: BaseException) -> Exception:
@@ -180,6 +184,7 @@ def _record(row: LevelRow, images: dict[str, str]) -> journal.Record:
             for snapshot in row.snapshots
         ],
         "fingerprint": row.fingerprint,
+        **({"refused": [list(each) for each in row.refused]} if row.refused else {}),
     }
 
 

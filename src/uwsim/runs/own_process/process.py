@@ -22,6 +22,7 @@ from typing import Any, Self
 
 from ...benchmark.plugin import Plugin
 from ...bus import Node
+from ...environment import without_secrets
 from ...errors import BadSetting, RunFailed, UwsimError
 from ...interrupts import ignoring_interrupts
 from ...raised import RaisedElsewhere
@@ -53,7 +54,10 @@ class OwnProcess:
                 [sys.executable, "-m", MODULE, str(theirs.fileno()), str(os.getpid())],
                 pass_fds=(theirs.fileno(),),
                 stdin=subprocess.DEVNULL,
-                env={**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+                env={
+                    **without_secrets(os.environ),
+                    "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
+                },
             )
         self._pipe = Connection(ours.detach())
         self._limit = limit

@@ -7,7 +7,9 @@ from contextlib import ExitStack, contextmanager
 from functools import partial
 
 from ...bus import Algorithm
+from ...middleware.lockstep.client import LockStepClient
 from ...middleware.lockstep.outside import outside_client
+from ...middleware.lockstep.outside_program import OutsideProgram
 from ...middleware.lockstep.spec import FREE, LOCK_STEP, ClientSpec
 from ...middleware.pacing import Pace
 from ...simulation import Simulation
@@ -59,6 +61,16 @@ def _client(
     if spec.sync == "none":
         simulation.watch(Pace(lambda: simulation.time, spec.speed).step)
     return client
+
+
+def refused_of(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
+    """Return what was refused, since the last call, of programs that do not take part.
+
+    Sender, topic or service, and how often; nothing where the algorithm is no program outside.
+    """
+    if isinstance(algorithm, LockStepClient | OutsideProgram):
+        return algorithm.take_refused()
+    return ()
 
 
 def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:

@@ -40,6 +40,8 @@ class LevelRow:
     """Of every body's motion and of every image, since the trial began (`fingerprint`)."""
     snapshots: tuple[Snapshot, ...]
     """The cameras' last images."""
+    refused: tuple[tuple[str, str, int], ...] = ()
+    """What came from programs that do not take part: sender, topic or service, how often."""
 
 
 @dataclass(frozen=True, kw_only=True)

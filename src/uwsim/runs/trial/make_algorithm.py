@@ -1,11 +1,12 @@
-"""Making the algorithm of a trial."""
+"""Making the algorithm of a trial, and asking it for its parameters."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from ...benchmark.plugin_checks import parameters_of
 from ...bus import Algorithm
-from ...errors import NeverStarted, UwsimError
+from ...errors import NeverStarted, RunFailed, UwsimError
 from ...interrupts import is_of_user
 from ...simulation import Calls, what_broke
 from ..planning.plan import Plan
@@ -29,4 +30,26 @@ def make_algorithm(
         raise NeverStarted(
             f"Algorithm {plan.algorithm.name!r} cannot be made: "
             f"{legible(what_broke(error, plan.algorithm.cls))}"
+        ) from error
+
+
+def parameters_said(
+    plan: Plan, algorithm: Algorithm, given: Mapping[str, float | str], calls: Calls
+) -> dict[str, float | int | str]:
+    """Return the parameters that the algorithm reports.
+
+    Raises:
+        RunFailed: they cannot be stored in a result, or reading them fails.
+    """
+    try:
+        with calls:
+            return parameters_of(algorithm, given, name=plan.algorithm.cls.__name__)
+    except UwsimError:
+        raise
+    except BaseException as error:
+        if is_of_user(error):
+            raise
+        message = legible(what_broke(error, plan.algorithm.cls))
+        raise RunFailed(
+            f"Algorithm {plan.algorithm.name!r} cannot report its parameters: {message}"
         ) from error

@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import closing, nullcontext
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from ...benchmark.plugin import attribute_errors_to
-from ...benchmark.plugin_checks import check_values, parameters_of
+from ...benchmark.plugin_checks import check_values
 from ...benchmark.spec import MAX_TASK_DURATION
 from ...benchmark.updater_settings import benchmark_of_seed
 from ...benchmark.updaters import (
@@ -28,13 +29,12 @@ from ...benchmark.updaters import (
     ramp_level,
     settling_time,
 )
-from ...errors import NeverStarted, RunFailed, SimulationFailed, UwsimError
+from ...errors import NeverStarted, SimulationFailed
 from ...expression import parse
-from ...interrupts import is_of_user
 from ...messages import String
-from ...simulation import Calls, RendererPool, Simulation, what_broke
+from ...simulation import Calls, RendererPool, Simulation
 from ...simulation.markers import SERVICE as SPAWN_MARKER
-from ..own_process.program import Program, program_of
+from ..own_process.program import Program, program_of, refused_of
 from ..planning.plan import Plan, Trial
 from .fingerprint import Fingerprinter
 from .floor import Floor
@@ -43,7 +43,7 @@ from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
-from .make_algorithm import make_algorithm
+from .make_algorithm import make_algorithm, parameters_said
 from .moments import Moments, all_snapshots
 from .motion_recorder import MotionRecorder
 from .onlooker import Onlooker
@@ -168,7 +168,7 @@ class _Execution:
         if self._onlooker is not None:
             pilot = None if self._inputs is None else self._parameters
             self._onlooker.open(simulation, self._title(), pilot)
-        parameters = self._parameters_said()
+        parameters = parameters_said(plan, self._algorithm, self._parameters, self._calls)
         if not plan.is_blind:
             self._facts = visibility_facts(simulation, plan, parameters)
         n_rows = 0
@@ -219,6 +219,7 @@ class _Execution:
 
     def _ended(self, row: LevelRow) -> LevelRow:
         """Have it noted that a level is over."""
+        row = replace(row, refused=refused_of(self._algorithm))
         self._motion.end_level(row)
         if self._onlooker is not None:
             self._onlooker.end_level(row)
@@ -243,28 +244,6 @@ class _Execution:
         """``currents, pi, seed 7``."""
         name = Path(self._plan.benchmark.path).stem
         return f"{name}, {self._plan.algorithm.name}, seed {self._trial.seed}"
-
-    def _parameters_said(self) -> dict[str, float | int | str]:
-        """Return the parameters that the algorithm reports.
-
-        Raises:
-            RunFailed: they cannot be stored in a result, or reading them fails.
-        """
-        try:
-            with self._calls:
-                return parameters_of(
-                    self._algorithm, self._parameters, name=self._plan.algorithm.cls.__name__
-                )
-        except UwsimError:
-            raise
-        except BaseException as error:
-            if is_of_user(error):
-                raise
-            plan = self._plan
-            message = legible(what_broke(error, plan.algorithm.cls))
-            raise RunFailed(
-                f"Algorithm {plan.algorithm.name!r} cannot report its parameters: {message}"
-            ) from error
 
     def close(self) -> None:
         """Close what updaters hold open, and let nobody look any more."""

@@ -1,0 +1,36 @@
+"""Runs whose algorithm is not of uwsim: their rows and tracks are sealed until all have ended."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from ..results.seal import Keeper, Seal, deny_access_to_memory
+from .planning.plan import Plan
+from .run import Run
+
+
+def is_foreign(plan: Plan) -> bool:
+    """Whether code runs that is not of uwsim: a class, a plugin or a program outside."""
+    return plan.algorithm.client is not None or not plan.is_bundled
+
+
+@contextmanager
+def sealed(runs: Sequence[Run]) -> Iterator[None]:
+    """Seal what these runs write, if one of them is foreign, until the block is left."""
+    if not any(is_foreign(run.plan) for run in runs):
+        yield
+        return
+    deny_access_to_memory()
+    seal = Seal()
+    for run in runs:
+        run.out.mkdir(parents=True, exist_ok=True)
+        run.seal = seal
+    keeper = Keeper(seal, [run.out for run in runs])
+    try:
+        yield
+    finally:
+        for run in runs:
+            seal.open_all(run.out)
+            run.seal = None
+        keeper.close()

@@ -1,0 +1,250 @@
+"""A scored run is changed by the program that takes part alone; what others send is counted."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+import pytest
+
+from uwsim.bus import Bus, TopicEnds
+from uwsim.errors import NeverStarted, UwsimError
+from uwsim.messages import Empty, EmptyResponse, Float64, String
+from uwsim.messages.services import Service
+from uwsim.messages.simulation_control import StepSimulation
+from uwsim.middleware.admission import MAX_KINDS, Joined
+from uwsim.middleware.bridge import Bridge
+from uwsim.middleware.connection import ConnectionSpec
+from uwsim.middleware.lockstep.outside import outside_client
+from uwsim.middleware.lockstep.spec import ClientSpec, OutputSpec, Sync
+from uwsim.middleware.lockstep.topics import ACK, JOIN, TICK
+from uwsim.middleware.log import Log
+from uwsim.middleware.web.options import WebOptions
+from uwsim.simulation import InProcessNode
+
+TIMESTEP = 0.1
+ITS, OTHER = "client 127.0.0.1:4001", "client 127.0.0.1:4002"
+
+
+class Outside(Bridge):
+    """A transport that tells senders apart; what it sends is kept."""
+
+    def __init__(self, bus: Bus) -> None:
+        super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
+        self.ticks: list[dict[str, Any]] = []
+        self.told: list[tuple[str, str]] = []
+
+    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+        pass
+
+    def on_services(self, services: Mapping[str, Service]) -> None:
+        pass
+
+    def send(self, topic: str, message: object) -> None:
+        if topic == TICK and isinstance(message, String):
+            self.ticks.append(said := json.loads(message.data))
+            if "tick" in said:
+                self.answer(said)
+
+    def answer(self, said: dict[str, Any]) -> None:
+        """The program acknowledges; before that, it and the other publish."""
+        for by, value in ((OTHER, 99.0), (ITS, 1.0), (OTHER, 99.0)):
+            self.put("estimate", Float64(data=value), by)
+        self.says(ACK, by=OTHER, tick=said["tick"], published={"/estimate": 3})
+        self.says(ACK, by=ITS, tick=said["tick"], published={"/estimate": 1})
+
+    def says(self, topic: str, *, by: str, **content: Any) -> None:
+        self.put(topic, String(data=json.dumps({"client": "a", **content})), by)
+
+    def tell(self, by: str, text: str) -> None:
+        self.told.append((by, text))
+
+
+class Run:
+    """A run of one program outside."""
+
+    def __init__(self, sync: Sync = "ack", **more: Any) -> None:
+        self.bus = Bus()
+        self.bus.publisher("depth", Float64)
+        self.estimates = self.bus.inbox("estimate", Float64)
+        self.status = self.bus.inbox("status", String)
+        self.n_started = 0
+        self.bus.services.serve("startBench", Empty, self._start)
+        self.outside = Outside(self.bus)
+        spec = ClientSpec(
+            name="a",
+            connection=ConnectionSpec(web=WebOptions(port=0)),
+            limit=5.0,
+            sync=sync,
+            **more,
+        )
+        self.client: Any = outside_client(spec, [self.outside], timestep=TIMESTEP)
+        self.node = InProcessNode(
+            self.bus, name="a", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+        )
+
+    def _start(self, request: Empty) -> EmptyResponse:
+        self.n_started += 1
+        return EmptyResponse()
+
+    def start(self) -> None:
+        self.node.run(self.client)
+        assert self.node.error is None
+
+    def step(self) -> None:
+        self.bus.step += 1
+        self.outside.step()
+        self.bus.deliver()
+        self.node.tick()
+        self.bus.deliver()
+
+    def called(self, by: str) -> str | None:
+        """Call startBench; returns the error."""
+        future = self.outside.request("startBench", Empty(), by)
+        self.outside.step()
+        error = future.exception(timeout=5.0)
+        assert error is None or isinstance(error, UwsimError)
+        return None if error is None else str(error)
+
+
+def test_after_the_join_only_the_joined_connection_publishes_and_calls() -> None:
+    run = Run()
+    run.outside.says(JOIN, by=ITS, topics=["/depth"], next=0.0)
+    run.start()
+    run.step()
+    run.outside.put("status", String(data="failed: falsified"), OTHER)
+    assert "takes part" in str(run.called(OTHER))
+    assert run.called(ITS) is None
+    assert (run.n_started, [m.data for m in run.estimates.take()]) == (1, [1.0])
+    assert run.status.take() == []
+    assert run.client.take_refused() == (
+        (OTHER, "/estimate", 2),
+        (OTHER, "/startBench", 1),
+        (OTHER, "/status", 1),
+        (OTHER, f"/{ACK}", 1),
+    )
+    assert run.client.take_refused() == ()
+    assert {by for by, _ in run.outside.told} == {OTHER}
+
+
+def test_what_the_program_publishes_before_its_join_is_kept_and_that_of_others_is_not() -> None:
+    run = Run()
+    for by, text in ((OTHER, "failed: falsified"), (ITS, "tracking"), (OTHER, "lost: no")):
+        run.outside.put("status", String(data=text), by)
+    assert "takes part" in str(run.called(OTHER))
+    run.outside.says(JOIN, by=ITS, topics=["/depth"])
+    run.start()
+    assert [message.data for message in run.status.take()] == ["tracking"]
+
+
+@pytest.mark.parametrize("by", [ITS, OTHER, ""])
+def test_answers_from_before_the_join_are_dropped(by: str) -> None:
+    run = Run()
+    run.outside.says(ACK, by=by, tick=1)
+    run.outside.says(ACK, by=by, call=1, values={})
+    run.outside.says(JOIN, by=ITS, topics=["/depth"], next=0.0)
+    run.outside.answer = lambda said: None  # type: ignore[method-assign]
+    run.start()
+    run.outside.wait_for(lambda: False, 0.01)
+    run.client._limit = 0.05
+    with pytest.raises(UwsimError, match="did not answer the tick"):
+        run.step()
+
+
+@pytest.mark.parametrize("given", [None, "", "guess", "opensesame ", 7, ["opensesame"]])
+def test_a_join_without_the_secret_is_refused_and_the_right_one_still_counts(given: object) -> None:
+    run = Run(secret="opensesame")
+    more = {} if given is None else {"secret": given}
+    for _ in range(150):  # more than the joins that wait
+        run.outside.says(JOIN, by=OTHER, topics=["/depth"], **more)
+    run.outside.says(JOIN, by=ITS, topics=["/depth"], secret="opensesame", next=0.0)
+    for _ in range(150):
+        run.outside.says(JOIN, by=OTHER, topics=["/depth"], **more)
+    run.start()
+    run.step()
+    assert [message.data for message in run.estimates.take()] == [1.0]
+    assert any(by == OTHER and "secret" in text for by, text in run.outside.told)
+
+
+def test_with_a_secret_nobody_else_can_join() -> None:
+    run = Run(secret="opensesame")
+    run.client._limit = 0.05
+    run.outside.says(JOIN, by=OTHER, topics=["/depth"], secret="sesame")
+    with pytest.raises(NeverStarted, match="No client 'a' has joined"):
+        run.client.start(run.node)
+
+
+def test_a_program_that_is_known_by_an_id_alone_is_not_answered_for_without_it() -> None:
+    run = Run()
+    run.outside.answer = lambda said: None  # type: ignore[method-assign]
+    run.outside.says(JOIN, by="", topics=["/depth"], next=0.0, id="7f")
+    run.start()
+    run.client._limit = 0.05
+    run.outside.says(ACK, by="", tick=1)
+    run.outside.says(ACK, by="", tick=1, id="8a")
+    with pytest.raises(UwsimError, match="did not answer the tick"):
+        run.step()
+
+
+def test_of_a_program_that_takes_the_steps_the_first_caller_takes_part() -> None:
+    run = Run("step")
+    run.outside.put("estimate", Float64(data=99.0), OTHER)
+    run.outside.put("estimate", Float64(data=1.0), ITS)
+    assert "takes part" in str(run.called(OTHER))
+    first = run.outside.request("step_simulation", StepSimulation(steps=2), ITS)
+    second = run.outside.request("step_simulation", StepSimulation(steps=1), OTHER)
+    run.start()
+    assert "takes part" in str(second.exception(timeout=5.0))
+    assert [message.data for message in run.estimates.take()] == [1.0]
+    assert not first.done()
+
+
+OUTPUTS = (OutputSpec(topic="estimate", follows="depth"), OutputSpec(topic="speed", rate=10.0))
+
+
+def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish() -> None:
+    run = Run("output", outputs=OUTPUTS)
+    put, admission = run.outside.put, run.outside.admission
+    assert run.called(OTHER) is None  # a tracker starts the benchmark before its first output
+    put("status", String(data="failed: falsified"), OTHER)
+    put("status", String(data="tracking"), ITS)
+    for value, by in ((1.0, ITS), (99.0, OTHER)):
+        put("estimate", Float64(data=value), by)
+    put("speed", Float64(data=0.5), "node /another_part")
+    assert "takes part" in str(run.called(OTHER))
+    assert run.outside.n_arrived == {"estimate": 1, "status": 1, "speed": 1}
+    run.outside.step()
+    assert [message.data for message in run.estimates.take()] == [1.0]
+    assert [message.data for message in run.status.take()] == ["tracking"]
+    put("status", String(data="failed: falsified"), OTHER)
+    assert admission is not None
+    assert (OTHER, "/status", 1) in admission.take_refused()
+
+
+def test_in_real_time_each_topic_belongs_to_who_published_it_first_until_it_leaves() -> None:
+    run = Run("none")
+    put, admission = run.outside.put, run.outside.admission
+    for value, by in ((1.0, ITS), (99.0, OTHER), (2.0, ITS)):
+        put("estimate", Float64(data=value), by)
+    put("status", String(data="tracking"), OTHER)  # a system of several programs
+    run.outside.step()
+    assert [message.data for message in run.estimates.take()] == [1.0, 2.0]
+    assert [message.data for message in run.status.take()] == ["tracking"]
+    assert admission is not None
+    admission.leave(ITS)
+    put("estimate", Float64(data=3.0), OTHER)
+    run.outside.step()
+    assert [message.data for message in run.estimates.take()] == [3.0]
+
+
+def test_a_flood_of_senders_and_topics_is_counted_without_growing() -> None:
+    lines: list[str] = []
+    admission = Joined(lambda by, text: lines.append(text))
+    admission.admit(ITS)
+    for n in range(10 * MAX_KINDS):
+        assert not admission.takes(f"t{n % 333}", f"client {n}", lambda: None, 8)
+    refused = admission.take_refused()
+    assert sum(n for _, _, n in refused) == 10 * MAX_KINDS
+    assert len(refused) == len(lines) == MAX_KINDS + 1

@@ -1,0 +1,115 @@
+"""Over ROS 1 senders are told apart by the names of their nodes."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from tests.middleware.ros1.nodes import Graph
+from tests.waiting import until
+from uwsim.errors import UwsimError
+from uwsim.messages import (
+    Empty,
+    EmptyResponse,
+    Float32MultiArray,
+    GTpublish,
+    GTpublishResponse,
+    floats,
+)
+from uwsim.middleware.admission import Joined
+from uwsim.middleware.ros1 import Ros1Bridge
+
+ITS, OTHER = "node /tracker", "node /stranger"
+
+
+@pytest.fixture
+def graph() -> Iterator[Graph]:
+    found = Graph()
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def sim(graph: Graph) -> Ros1Bridge:
+    found = graph.node()
+    found.admission = Joined(lambda by, text: None)
+    found.admission.admit(ITS)
+    return found
+
+
+def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -> None:
+    estimates = sim.bus.inbox("corners", Float32MultiArray)
+    say = [
+        graph.node(name).bus.publisher("corners", Float32MultiArray)
+        for name in ("/stranger", "/tracker")
+    ]
+    graph.ready()
+    until(lambda: sim.n_connected("/corners") == 2, graph.step)
+    assert sim.admission is not None
+    heard: list[float] = []
+    refused: list[object] = []
+
+    def publish() -> None:
+        for publisher, value in zip(say, (99.0, 1.0), strict=True):
+            publisher(floats([value]))
+        graph.step()
+        heard.extend(float(message.data[0]) for message in estimates.take())
+        refused.extend(sim.admission.take_refused() if sim.admission is not None else ())
+
+    until(lambda: heard and refused, publish)
+    assert set(heard) == {1.0}
+    assert {entry[:2] for entry in refused if isinstance(entry, tuple)} == {(OTHER, "/corners")}
+
+
+@pytest.mark.parametrize(("caller", "is_answered"), [("/tracker", True), ("/stranger", False)])
+def test_another_node_calls_no_service(
+    graph: Graph, sim: Ros1Bridge, caller: str, is_answered: bool
+) -> None:
+    sim.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
+    other = graph.node(caller)
+    graph.ready()
+    answers: list[object] = []
+
+    def call() -> None:
+        try:
+            answers.append(other.bus.services.call("reset", Empty()))
+        except UwsimError as error:
+            answers.append(str(error))
+
+    thread = threading.Thread(target=call, daemon=True)
+    thread.start()
+    until(lambda: answers, sim.step)
+    assert (answers == [EmptyResponse()]) == is_answered
+    assert is_answered or "takes part" in str(answers[0])
+
+
+@pytest.mark.parametrize(("offerer", "is_taken"), [("/tracker", True), ("/stranger", False)])
+def test_another_node_is_not_given_the_ground_truth(
+    graph: Graph, sim: Ros1Bridge, offerer: str, is_taken: bool
+) -> None:
+    asked: list[GTpublish] = []
+
+    def answer(request: GTpublish) -> GTpublishResponse:
+        asked.append(request)
+        return GTpublishResponse()
+
+    other = graph.node(offerer)
+    other.bus.services.serve("autoInit", GTpublish, answer)
+    graph.ready()
+    answers: list[object] = []
+
+    def call() -> None:
+        try:
+            request = GTpublish(np.arange(8, dtype=np.float32))
+            answers.append(sim.bus.services.call("autoInit", request))
+        except UwsimError as error:
+            answers.append(str(error))
+
+    thread = threading.Thread(target=call, daemon=True)
+    thread.start()
+    until(lambda: answers, other.step)
+    assert (answers == [GTpublishResponse()], len(asked)) == (is_taken, int(is_taken))
+    assert is_taken or "/stranger does not take part" in str(answers[0])

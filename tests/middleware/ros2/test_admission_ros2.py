@@ -1,0 +1,97 @@
+"""Over DDS senders are told apart by their participants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
+
+from tests.middleware.ros2.simulator import Simulator, running
+from tests.waiting import until
+from uwsim.messages import Empty, EmptyResponse, String
+from uwsim.middleware.admission import Joined
+from uwsim.middleware.encodings import to_cdr
+from uwsim.middleware.ros2.participant import Participant
+from uwsim.middleware.ros2.quality import Quality
+from uwsim.middleware.ros2.raw_types import CDR_HEADER, raw_type
+from uwsim.middleware.ros2.service_server import CALL, CALL_FIELDS
+from uwsim.middleware.ros2.settings import Ros2Settings
+from uwsim.middleware.types import ros2_store
+
+
+@pytest.fixture
+def simulator(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulator]:
+    monkeypatch.setenv("UWSIM_ROS2", "dds")
+    with running() as found:
+        found.bridge.admission = Joined(lambda by, text: None)
+        yield found
+
+
+@pytest.fixture
+def two(simulator: Simulator) -> Iterator[tuple[Participant, Participant]]:
+    settings = Ros2Settings(domain=simulator.domain)
+    found = [Participant(settings.domain, settings.configuration()) for _ in range(2)]
+    yield found[0], found[1]
+    for each in found:
+        each.close()
+
+
+def named(participant: Participant) -> str:
+    return f"participant {participant.guid[:12].hex()}"
+
+
+def test_another_participant_publishes_nothing(
+    simulator: Simulator, two: tuple[Participant, Participant]
+) -> None:
+    inbox = simulator.bus.inbox("status", String)
+    kind = raw_type(ros2_store(), "std_msgs/msg/String")
+    writers = [each.writer("rt/status", kind, Quality()) for each in two]
+    simulator.step()
+    until(lambda: all(writer.n_readers for writer in writers), simulator.step)
+    admission = simulator.bridge.admission
+    assert admission is not None
+    admission.admit(named(two[1]))
+    heard: list[str] = []
+
+    def publish() -> None:
+        for writer, text in zip(writers, ("falsified", "tracking"), strict=True):
+            writer.write(bytes(to_cdr(String(data=text))))
+        simulator.step()
+        heard.extend(message.data for message in inbox.take())
+
+    refused: list[tuple[str, str, int]] = []
+    until(lambda: heard and refused, publish, lambda: refused.extend(admission.take_refused()))
+    assert set(heard) == {"tracking"}
+    assert {entry[:2] for entry in refused} == {(named(two[0]), "/status")}
+
+
+def test_another_participant_calls_no_service(
+    simulator: Simulator, two: tuple[Participant, Participant]
+) -> None:
+    n = [0]
+
+    def answer(request: Empty) -> EmptyResponse:
+        n[0] += 1
+        return EmptyResponse()
+
+    simulator.bus.services.serve("reset", Empty, answer)
+    simulator.step()
+    kind = raw_type(ros2_store(), "std_srvs/srv/Empty_Request", before=CALL_FIELDS)
+    writers = [each.writer("rq/resetRequest", kind, Quality()) for each in two]
+    until(lambda: all(writer.n_readers for writer in writers), simulator.step)
+    admission = simulator.bridge.admission
+    assert admission is not None
+    admission.admit(named(two[1]))
+    data = bytes(to_cdr(Empty()))
+    call = data[:CDR_HEADER] + CALL.pack(1, 1) + data[CDR_HEADER:]
+    refused: list[tuple[str, str, int]] = []
+    until(
+        lambda: refused,
+        lambda: writers[0].write(call),  # again: a reader may not know the writer yet
+        simulator.step,
+        lambda: refused.extend(admission.take_refused()),
+    )
+    assert (n, {entry[:2] for entry in refused}) == ([0], {(named(two[0]), "/reset")})
+    until(lambda: n[0], lambda: writers[1].write(call), simulator.step)
