@@ -37,6 +37,7 @@ TYPES = {
     "AcousticCommsDeviceROS": ("geometry_msgs/msg/Pose",),
     "batteryToROS": ("sensor_msgs/msg/BatteryState",),
     "motorCurrentsToROS": ("sensor_msgs/msg/JointState",),
+    "segmentationToROS": ("sensor_msgs/msg/Image", "std_msgs/msg/String"),
     "sonarToROS": ("marine_acoustic_msgs/msg/ProjectedSonarImage", "sensor_msgs/msg/Image"),
 }
 """Element -> the message types that it may publish."""
@@ -168,7 +169,7 @@ def dvl_faults(message: Any) -> Iterator[str]:
 
 def image_faults(message: Any) -> Iterator[str]:
     """Sizes that do not fit, an unknown encoding, and images that show nothing."""
-    n_bytes = {"rgb8": 3, "mono8": 1, "32FC1": 4}.get(message.encoding)
+    n_bytes = {"rgb8": 3, "mono8": 1, "16UC1": 2, "32FC1": 4}.get(message.encoding)
     if n_bytes is None:
         yield f"encoding {message.encoding}"
         return

@@ -19,6 +19,7 @@ COMPATIBILITY: dict[str, str] = {
     "current-target": "a benchmark's current moves its target alone, not all that floats",
     "dvl-differences": "a DVL gives the mean velocity since its last sample, bottom or not",
     "fog-distance": "fog uses the clip-space z of the camera, not the distance along the ray",
+    "fog-light": "water and fog keep their colours in any light: a night is bright in fog",
     "gps-metres": "a GPS is silent under water and gives metres of L, also with a nedOrigin",
     "imu-orientation": "an imu measures the attitude alone: rates and accelerations are 0",
     "last-norm": "an estimate of any age is scored; without a new one the last norm is kept",

@@ -19,7 +19,7 @@ from .bus import Bus
 from .geodesy import Geodetic
 from .geometry import Intrinsics, Pose
 from .network import Network
-from .rays import Hits
+from .rays import Balls, Hits
 
 TIMESTEP = 0.002
 """Default length of a physics step [s]."""
@@ -310,6 +310,9 @@ class Rays(Protocol):
             reach: how far the rays go [m].
             begins: from where on each ray hits, (n,) [m]; without it from the origin.
         """
+
+    def balls(self) -> Balls:
+        """Balls that cover each surface, where they are now; heaps of sand have none."""
 
 
 class SensorWorld(World, Protocol):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -47,7 +48,7 @@ def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
 ) -> None:
     text, found = said(capsys, name), json.loads(said(capsys, name, "--json"))
     assert list(found) == [
-        "file", "frame", "water", "vehicles", "cameras", "objects", "topics", "services",
+        "file", "frame", "water", "vehicles", "cameras", "sensors", "objects", "topics", "services",
         "varies", "not_simulated", "warnings",
     ]  # fmt: skip
     for kind in ("vehicles", "cameras", "objects"):
@@ -170,3 +171,38 @@ ALL_KINDS_OF_TOPICS = """<UWSimScene>
   </rosInterfaces>
 </UWSimScene>
 """
+
+
+def test_an_object_on_the_floor_is_shown_where_it_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Not at the z of the file, which the floor replaces; so is a vehicle."""
+    text = bundled("scenes")["currents-scene"].read_text()
+    (place,) = re.findall(r"<object>\s*<name>blackbox</name>.*?(<z>.*?</z>)", text, re.S)
+    found = {}
+    for z, floor in (("<z>-7</z>", "<u:onFloor/>"), (place, "")):
+        file = tmp_path / "a.xml"
+        moved = re.sub(
+            r"(<object>\s*<name>blackbox</name>.*?)<z>.*?</z>(\s*</position>)",
+            rf"\1{z}\2 {floor}",
+            text,
+            count=1,
+            flags=re.S,
+        )
+        file.write_text(moved.replace(place, place))
+        objects = json.loads(said(capsys, str(file), "--json"))["objects"]
+        found[floor] = next(each["position"] for each in objects if each["name"] == "blackbox")
+    assert found["<u:onFloor/>"] == pytest.approx(found[""], abs=0.03)
+
+
+def test_where_sensors_and_lamps_point_is_shown(capsys: pytest.CaptureFixture[str]) -> None:
+    text, found = (
+        said(capsys, "shipwreck-scene"),
+        json.loads(said(capsys, "shipwreck-scene", "--json")),
+    )
+    points = {each["name"]: (each["kind"], each["points"]) for each in found["sensors"]}
+    assert points["altimeter"] == ("rangeSensor", "looks down")
+    assert points["scanner"] == ("u:scanningSonar", "looks forward; its top is up")
+    assert points["headlight"][1].startswith("shines forward")
+    assert all(words in text for _, words in points.values())
+    assert not any("'altimeter'" in each for each in found["warnings"])

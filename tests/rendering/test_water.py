@@ -21,6 +21,7 @@ from uwsim.rendering.water import (
     sun_direction,
     wet_share,
 )
+from uwsim.scene.ocean_state import OceanStateSpec
 
 CLEAR = Water(fog=0.0, attenuation=(0.0, 0.0, 0.0))
 CAMERA = Intrinsics.from_fovy(64, 48, np.radians(50.0), near=0.05)
@@ -99,7 +100,7 @@ def test_a_grey_plate_matches_the_formula_in_every_channel(
     dry = sunlit(np.array(0.5), normal, -rays / np.linalg.norm(rays, axis=2, keepdims=True), light)
     planar = np.full(reach.shape, distance)
     fog_range = clip_distance(planar, CAMERA) if fog_distance == "clip" else None
-    wet = apply_water(dry, reach, points[..., 2], water, fog_range=fog_range)
+    wet = apply_water(dry, reach, points[..., 2], water.under(light), fog_range=fog_range)
     assert image.colour is not None
     assert np.abs(image.colour - 255.0 * wet).max() <= 1.0
 
@@ -164,3 +165,27 @@ def test_thick_fog_meets_the_background_without_a_seam(renderer: Renderer) -> No
     assert image.colour is not None
     assert set(np.unique(image.ids)) == {0, 1}
     assert len(np.unique(image.colour.reshape(-1, 3), axis=0)) == 1
+
+
+@pytest.mark.parametrize("fog", [0.0, 0.3])
+@pytest.mark.parametrize("rate", [0.0, 0.25, 2.0])
+def test_water_and_fog_follow_the_light(renderer: Renderer, rate: float, fog: float) -> None:
+    """Where there is a surface and where there is none: all is as bright as the light."""
+    water = Water(fog=fog, fog_colour=(0.1, 0.3, 0.3), colour=(0.05, 0.2, 0.1), surface_height=9.0)
+    renderer.place(renderer.add(plate(2.0, 2.0, (0.2, 0.3, 0.2)), 1), placed(z=-3.0))
+    usual, found = (
+        renderer.draw(DOWN, CAMERA, water, Light(rate=q), colour="linear16") for q in (1.0, rate)
+    )
+    assert usual.colour is not None
+    assert found.colour is not None
+    assert set(np.unique(np.isinf(usual.range))) == {False, True}  # type: ignore[arg-type]
+    expected = rate * usual.colour[..., :3].astype(float)
+    np.testing.assert_allclose(found.colour[..., :3], expected, atol=4.0)
+
+
+def test_the_original_has_bright_fog_at_night() -> None:
+    ocean, night = OceanStateSpec(), Light(rate=0.0)
+    assert Water.of(ocean).under(night).fog_colour == (0.0, 0.0, 0.0)
+    assert Water.of(ocean).under(Light()) == Water.of(ocean)
+    original = Water.of(ocean, frozenset({"fog-light"}))
+    assert original.under(night) == original

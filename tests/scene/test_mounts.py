@@ -18,6 +18,11 @@ from uwsim.scene.reader import check_scene, read_scene
 from uwsim.scene.settings import apply_setting
 from uwsim.scene.urdf.robot import JointSpec, LinkSpec, RobotSpec, VisualSpec
 from uwsim.scene.vehicle import VehicleSpec
+from uwsim.sensors import SENSORS
+from uwsim.sensors.dvl_sensor import DvlSensorSpec
+from uwsim.sensors.gps_sensor import GpsSensorSpec
+from uwsim.sensors.imu import ImuSpec
+from uwsim.sensors.pressure_sensor import PressureSensorSpec
 from uwsim.sensors.range_sensor import RangeSensorSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 
@@ -232,3 +237,60 @@ def test_the_recipes_of_the_conventions_page_look_where_they_say() -> None:
                 expected = math.cos(math.pi / 6) * words["forward"] + 0.5 * words["down"]
                 assert ahead == pytest.approx(expected, abs=1e-4), row
     assert len(table) == 7
+
+
+@pytest.mark.parametrize("stand", STANDS.values(), ids=STANDS)
+@pytest.mark.parametrize(
+    ("word", "top"),
+    [("forward", "up"), ("starboard", "up"), ("down", "forward"), ("up", "aft")],
+)
+def test_the_z_axis_of_a_dvl_points_where_the_word_says(
+    word: str, top: str, stand: MountFrames
+) -> None:
+    """Its x axis is where the top of a camera's image would be."""
+    spec = DvlSensorSpec(name="d", relative_to="arm", position=(0.1, 0.2, 0.3), look_at=word)  # type: ignore[arg-type]
+    axes = stand.world_from_mounted(spec).rotation
+    assert axes[:, 2] == pytest.approx(stand.directions[word], abs=1e-12)
+    assert axes[:, 0] == pytest.approx(stand.directions[top], abs=1e-12)
+    assert np.linalg.det(axes) == pytest.approx(1.0)
+
+
+def test_every_sensor_with_a_direction_can_be_turned_by_a_word() -> None:
+    """All but those that measure at a point, whatever is added to the table."""
+    undirected = {ImuSpec, GpsSensorSpec, PressureSensorSpec}
+    for spec in SENSORS.values():
+        assert hasattr(spec, "look_at") == (spec not in undirected), spec
+
+
+PARTS = {
+    "<dvlSensor> <u:lookAt>down</u:lookAt>": "looks down; its x axis points forward",
+    "<dvlSensor> <orientation> <r>0</r> <p>M_PI_2</p> <y>0</y> </orientation>": (
+        "looks aft; its x axis points up"
+    ),
+    "<multibeamSensor> <initAngle>-60</initAngle> <finalAngle>60</finalAngle> "
+    "<angleIncr>1</angleIncr> <range>9</range> <u:lookAt>down</u:lookAt>": (
+        "looks down; its positive angles are towards forward"
+    ),
+    "<u:imagingSonar> <u:lookAt>starboard</u:lookAt>": "looks starboard; its top is up",
+    "<u:sideScanSonar> <tilt>20</tilt> <u:lookAt>forward</u:lookAt>": (
+        "looks port, 20 deg off and starboard, 20 deg off; its track is forward"
+    ),
+    "<rangeSensor> <range>9</range> <u:lookAt>up</u:lookAt>": "looks up",
+    "<u:lamp> <u:lookAt>aft</u:lookAt>": "shines aft",
+}
+
+
+@pytest.mark.parametrize("part", PARTS)
+def test_check_says_where_sensors_and_lamps_point(tmp_path: Path, part: str) -> None:
+    tag = part[1:].partition(">")[0]
+    begin, _, rest = part.partition("> ")
+    u = "u:" if tag == "u:lamp" else ""
+    text = f"{begin}> <{u}name>it</{u}name> <{u}relativeTo>part0</{u}relativeTo> {rest}</{tag}>"
+    file = tmp_path / "scene.xml"
+    file.write_text(
+        '<UWSimScene xmlns:u="urn:uwsim:1"> <simParams> <offsetr> <x>M_PI</x> <y>0</y> <z>0</z> '
+        "</offsetr> </simParams> <vehicle> <name>g</name> <file>data/scenes/g500ARM5.urdf</file> "
+        f"{text} </vehicle></UWSimScene>"
+    )
+    found = [each.message for each in diagnostics_of(file) if each.message.startswith("'it' ")]
+    assert found == [f"'it' {PARTS[part]}"]

@@ -47,7 +47,7 @@ def info(
     as_json: JsonOption = False,
     data_path: DataPathOption = None,
 ) -> None:
-    """Show what is in a scene: vehicles, cameras, topics, services, joints, water, floor.
+    """Show what is in a scene: vehicles, cameras, sensors, topics, services, water, floor.
 
     Positions are in the file's frame, as in the file and on topics, in metres and radians. The
     floor is searched straight below each vehicle's origin. Elements that are read and not simulated
@@ -90,6 +90,7 @@ def drawn(found: Fields) -> Iterator[RenderableType]:
     for vehicle in found["vehicles"]:
         yield from _section(f"vehicle {vehicle['name']}", _vehicle(vehicle))
     yield from _table("cameras", map(_camera, found["cameras"]))
+    yield from _table("sensors and lamps that point somewhere", map(_sensor, found["sensors"]))
     yield from _table("objects", map(_object, found["objects"]))
     yield from _table("topics", map(_topic, found["topics"]))
     services = ", ".join(found["services"]) or "none of the scene's own"
@@ -194,6 +195,11 @@ def _camera(camera: Fields) -> tuple[str, ...]:
         f"{camera['width']}x{camera['height']} px, {field}, noise {camera['std']:g}",
         ", ".join(camera["topics"]) or "on no topic",
     )
+
+
+def _sensor(sensor: Fields) -> tuple[str, ...]:
+    place = f"{sensor['vehicle']}/{sensor['link']}"
+    return sensor["name"], f"<{sensor['kind']}>", place, sensor["points"]
 
 
 def _object(thing: Fields) -> tuple[str, ...]:

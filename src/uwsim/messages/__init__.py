@@ -10,7 +10,16 @@ Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
 
 from __future__ import annotations
 
-from .build import depth_image, floats, header, image, pixels_of, seconds, time_from_seconds
+from .build import (
+    depth_image,
+    floats,
+    header,
+    image,
+    label_image,
+    pixels_of,
+    seconds,
+    time_from_seconds,
+)
 from .geometry_msgs import (
     Point,
     Pose,
@@ -134,6 +143,7 @@ __all__ = [
     "floats",
     "header",
     "image",
+    "label_image",
     "pixels_of",
     "point_cloud",
     "points",

@@ -58,6 +58,20 @@ def depth_image(depth: npt.NDArray[np.float64], *, time: float, frame_id: str = 
     )
 
 
+def label_image(labels: npt.NDArray[np.uint16], *, time: float, frame_id: str = "") -> Image:
+    """Build a ``16UC1`` image from whole numbers (h, w); row 0 is the top."""
+    height, width = labels.shape
+    return Image(
+        header=header(time, frame_id),
+        height=height,
+        width=width,
+        encoding="16UC1",
+        is_bigendian=0,
+        step=2 * width,
+        data=np.ascontiguousarray(labels, dtype="<u2").reshape(-1).view(np.uint8),
+    )
+
+
 def pixels_of(message: Image) -> npt.NDArray[np.uint8]:
     """Return the pixels of an ``rgb8`` (h, w, 3) or ``mono8`` (h, w) image, without a copy."""
     if message.encoding == "mono8":

@@ -1,6 +1,7 @@
 """Exact ray casting against the triangles of a scene."""
 
+from .cover import Balls
 from .kernel import Hits
 from .ray_scene import RayScene, Surface
 
-__all__ = ["Hits", "RayScene", "Surface"]
+__all__ = ["Balls", "Hits", "RayScene", "Surface"]

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..geometry import Array, Pose
 from ..numerics.linear import inverse, product
+from .cover import Balls, covering_balls
 from .kernel import Hits, cast_rays
 from .tree import build_tree
 from .triangle import Trees
@@ -54,11 +55,25 @@ class RayScene:
         self._world_from_body = np.tile(np.eye(4), (len(built), 1, 1))
         self._body_from_world = self._world_from_body.copy()
         self._moved = False
+        covers = [
+            cover for body, surfaces in enumerate(bodies) for cover in _covers(body, surfaces)
+        ]
+        self._cover = np.concatenate([np.zeros((0, 4)), *(balls for balls, _, _ in covers)])
+        sizes = [len(balls) for balls, _, _ in covers]
+        self._cover_bodies = np.repeat([body for _, body, _ in covers], sizes).astype(np.int32)
+        self._cover_surfaces = np.repeat([n for _, _, n in covers], sizes).astype(np.int32)
 
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
         """Set the pose of a body; the matrix (4, 4) may scale [m]."""
         self._world_from_body[body] = world_from_body
         self._moved = True
+
+    def balls(self) -> Balls:
+        """Balls that cover each surface, where they are now."""
+        frames = self._world_from_body[self._cover_bodies]
+        centre = (frames[:, :3, :3] * self._cover[:, None, :3]).sum(axis=2) + frames[:, :3, 3]
+        scale = np.sqrt((frames[:, :3, :3] ** 2).sum(axis=1).max(axis=1))  # of the longest column
+        return Balls(centre, self._cover[:, 3] * scale, self._cover_surfaces)
 
     def cast(
         self,
@@ -85,6 +100,15 @@ class RayScene:
         limits = np.zeros(n) if begins is None else begins, float(reach)
         cast_rays(self._trees, frames, world_from_sensor.position, along, limits, hits)
         return hits
+
+
+def _covers(body: int, surfaces: Sequence[Surface]) -> list[tuple[Array, int, int]]:
+    """Balls around each numbered surface of a body, with the numbers of body and surface."""
+    found = []
+    for number in sorted({each.number for each in surfaces}):
+        parts = [each.triangles.reshape(-1, 3) for each in surfaces if each.number == number]
+        found.append((covering_balls(np.concatenate(parts)), body, number))
+    return found
 
 
 def _tree(surfaces: Sequence[Surface]) -> Trees:

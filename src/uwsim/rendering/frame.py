@@ -47,7 +47,7 @@ class Frame:
         shadow: SunShadow,
     ) -> None:
         """Write everything and bind it."""
-        values, rotation = self._values, world_from_camera.rotation
+        values, rotation, water = self._values, world_from_camera.rotation, water.under(light)
         near, far = intrinsics.near, intrinsics.far
         height = world_from_camera.position[2] - water.surface_height
         values["clip_from_camera"] = clip_from_camera.T  # OpenGL counts columns first

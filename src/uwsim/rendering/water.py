@@ -10,13 +10,15 @@ surface of the water, in each channel and on stored values (no gamma):
     F_c = t C_c + (1 - t) g_c
 
 with attenuation :math:`a`, water colour :math:`w`, fog density :math:`f` and fog colour :math:`g`
-(UWSim's image model). The fog's distance :math:`s` is the range, as in the paper. Not modelled:
-the way of the light from the surface down, absorption apart from scattering, caustics.
+(UWSim's image model). Water and fog scatter the light of the scene: :math:`w` and :math:`g` are the
+colours of the file times the light rate (`Water.under`). The fog's distance :math:`s` is the range,
+as in the paper. Not modelled: the way of the light from the surface down, absorption apart from
+scattering, light of lamps that is scattered into the camera, caustics.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -67,6 +69,8 @@ class Water:
     """z of the water's surface in W [m]."""
     fog_distance: Literal["ray", "clip"] = "ray"
     """Distance the fog law uses: along the ray, or the original's clip-space z."""
+    follows_light: bool = True
+    """Whether the colours of water and fog are scaled by the light rate; the original's are not."""
     has_air: bool = False
     """Whether only the way below the surface counts; the original's cameras are always in water."""
 
@@ -80,7 +84,18 @@ class Water:
             attenuation=ocean.attenuation,
             surface_height=ocean.ocean_surface_height,
             fog_distance="clip" if "fog-distance" in compatibility else "ray",
+            follows_light="fog-light" not in compatibility,
         )
+
+    def under(self, light: Light) -> Water:
+        """Return the water with the colours that it has in some light."""
+        if not self.follows_light or light.rate == 1.0:
+            return self
+        fog_colour, colour = (
+            (light.rate * red, light.rate * green, light.rate * blue)
+            for red, green, blue in (self.fog_colour, self.colour)
+        )
+        return replace(self, fog_colour=fog_colour, colour=colour)
 
     @property
     def switches(self) -> tuple[tuple[str, int], ...]:

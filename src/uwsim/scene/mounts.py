@@ -14,6 +14,7 @@ import numpy as np
 from ..devices.object_picker import ObjectPickerSpec
 from ..geometry import Array, Pose
 from ..numerics.linear import dot, length, product, turned, turned_back
+from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import LookAt, Mounted
 from ..sensors.sonar.spec import SonarSpec
@@ -22,7 +23,7 @@ from .urdf.robot import RobotSpec
 from .vehicle import VehicleSpec
 
 ALONG_X = (RangeSensorSpec, ObjectPickerSpec, SonarSpec)
-"""These look along +x, the others along -z."""
+"""These look along +x, a DVL along +z, the others along -z."""
 STRAIGHT = 1e-3
 """Sine of the angle to the vertical below which a camera looks straight up or down."""
 
@@ -82,18 +83,40 @@ class MountFrames:
             return Pose.from_rpy(spec.position, spec.orientation)
         world_from_frame = self.world_from_link(spec.relative_to, visual=visual)
         eye = world_from_frame.transform(np.array([spec.position]))[0]  # W, without scale
-        base = self.world_from_base
-        scale = np.array(self.vehicle.scale_factor)
-        own = turned_back(base.rotation, eye - base.position)
-        placed = base.position + turned(base.rotation, scale * own)
-        ahead, top = self._view(placed, look_at)
-        looks = axes_along_x(ahead, top) if isinstance(spec, ALONG_X) else camera_axes(ahead, top)
-        return Pose(np.array(spec.position), product(world_from_frame.rotation.T, looks))
+        ahead, top = self._view(self._scaled(eye), look_at)
+        axes = camera_axes(ahead, top)
+        if isinstance(spec, ALONG_X):
+            axes = axes_along_x(ahead, top)
+        elif isinstance(spec, DvlSensorSpec):
+            axes = axes_along_z(ahead, top)
+        return Pose(np.array(spec.position), product(world_from_frame.rotation.T, axes))
+
+    def _scaled(self, point: Array) -> Array:
+        """A point of the vehicle without its scale, where its scale puts it, in W, (3,) [m]."""
+        base, scale = self.world_from_base, np.array(self.vehicle.scale_factor)
+        own = turned_back(base.rotation, point - base.position)
+        placed: Array = base.position + turned(base.rotation, scale * own)
+        return placed
+
+    def world_axes(self, spec: Mounted, *, visual: bool = False) -> Array:
+        """Axes of its frame in W, as columns, (3, 3)."""
+        frame = self.world_from_link(spec.relative_to, visual=visual).rotation
+        return product(frame, self.frame_from_mounted(spec, visual=visual).rotation)
+
+    def world_from_mounted(self, spec: Mounted) -> Pose:
+        """Where it is, with the scale of its vehicle."""
+        link = self.world_from_link(spec.relative_to)
+        place = link.transform(np.array([spec.position]))[0]
+        return Pose(self._scaled(place), self.world_axes(spec))
 
     def looks(self, spec: Mounted, *, visual: bool = False) -> tuple[Array, Array]:
-        """Unit vectors in W: where it looks, and the top of its image, (3,) each."""
-        frame = self.world_from_link(spec.relative_to, visual=visual).rotation
-        axes = product(frame, self.frame_from_mounted(spec, visual=visual).rotation)
+        """Unit vectors in W: where it looks, and the top of its image, (3,) each.
+
+        Of a DVL the second is its x axis.
+        """
+        axes = self.world_axes(spec, visual=visual)
+        if isinstance(spec, DvlSensorSpec):
+            return axes[:, 2], axes[:, 0]
         return (axes[:, 0], axes[:, 2]) if isinstance(spec, ALONG_X) else (-axes[:, 2], axes[:, 1])
 
     def _view(self, eye: Array, look_at: LookAt) -> tuple[Array, Array]:
@@ -134,6 +157,12 @@ def axes_along_x(ahead: Array, top: Array) -> Array:
     """Axes of what looks along +x, as columns, (3, 3); ``top`` is on the side of +z."""
     right, up, _ = camera_axes(ahead, top).T
     return np.column_stack([ahead, -right, up])
+
+
+def axes_along_z(ahead: Array, top: Array) -> Array:
+    """Axes of what looks along +z, as columns, (3, 3); ``top`` is on the side of +x."""
+    right, up, _ = camera_axes(ahead, top).T
+    return np.column_stack([up, right, ahead])
 
 
 def _top(word: str, words: dict[str, Array]) -> Array:

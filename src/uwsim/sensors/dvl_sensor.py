@@ -27,7 +27,7 @@ from ..schema import MAX_DISTANCE, element
 from ..world import MovingBody, SensorWorld
 from .dvl_message import Track, dvl_message
 from .janus import Flags, Janus
-from .sensor import Carrier, SensorSpec
+from .sensor import Carrier, LookAt, SensorSpec
 
 THROUGH = 1e-6
 """How far behind a surface of its own vehicle a beam goes on [m]."""
@@ -47,6 +47,10 @@ class DvlSensorSpec(SensorSpec):
     """Of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    look_at: LookAt = element(namespaced=True, default=None)
+    """Where its z axis points at the start, instead of ``orientation``: a point in L [m], or a
+    direction of the vehicle. Its x axis then is the top of what a camera would see: forward for
+    ``down``. It stays fixed to its link."""
     std: float = element(default=0.0, minimum=0, maximum=10)
     """Noise of each component, standard deviation [m/s]."""
     beam_angle: float = element(namespaced=True, default=30.0, above=0, maximum=60)
@@ -67,6 +71,11 @@ class DvlSensorSpec(SensorSpec):
     """Probability that a beam hears nothing of a ping [1]."""
     water_layer: float = element(namespaced=True, default=2.0, above=0, maximum=MAX_DISTANCE)
     """Where the water is tracked, along the z axis of the sensor [m]."""
+
+    def is_bottom(self, axial: Array) -> Flags:
+        """Whether beams have the bottom in their reach, by the distance along the z axis [m]."""
+        found: Flags = (axial >= self.min_altitude) & (axial <= self.max_altitude)
+        return found
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> Dvl:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
@@ -104,8 +113,7 @@ class Dvl:
         spec, janus, world = self._spec, self._janus, self._world
         ranges = self.ranges(pose)
         is_heard = uniform >= spec.dropout
-        axial = ranges * janus.cosine
-        is_good = is_heard & (axial >= spec.min_altitude) & (axial <= spec.max_altitude)
+        is_good = is_heard & spec.is_bottom(ranges * janus.cosine)
         velocity = turned_back(pose.rotation, self._mount.motion().velocity)
         on_bottom = product(janus.directions, velocity)
         along = self._scale * on_bottom + spec.beam_std * normal[0]

@@ -1,8 +1,9 @@
-"""What colour cameras and depth cameras have in common: CameraInfo, and depth by ray casting."""
+"""What colour cameras and depth cameras have in common: CameraInfo, and ray casting."""
 
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 from ..geometry import Array, Intrinsics, Pose
 from ..messages import CameraInfo, RegionOfInterest, header
@@ -51,10 +52,27 @@ def cast_depth(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> Array:
     As in an image, what is nearer than the near plane is not met; +inf where nothing is met before
     the far plane.
     """
+    return _cast(rays, world_from_camera, lens)[0]
+
+
+def cast_surfaces(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> npt.NDArray[np.uint16]:
+    """Cast a ray through the centre of each pixel; returns the surface's number, (h, w); 0: none.
+
+    What is met is as for `cast_depth`.
+    """
+    depth, surface = _cast(rays, world_from_camera, lens)
+    return np.where(np.isfinite(depth), surface, 0).astype(np.uint16)
+
+
+def _cast(
+    rays: Rays, world_from_camera: Pose, lens: Intrinsics
+) -> tuple[Array, npt.NDArray[np.int32]]:
+    """Depths [m] and surfaces of what each pixel sees, (h, w) each."""
     through = lens.rays().reshape(-1, 3)
     stretch = np.sqrt((through * through).sum(axis=1))
     reach = lens.far * float(stretch.max(initial=1.0))
     hits = rays.cast(world_from_camera, through / stretch[:, None], reach, lens.near * stretch)
     depth = hits.distance / stretch
-    planar: Array = np.where(depth < lens.far, depth, np.inf).reshape(lens.height, lens.width)
-    return planar
+    size = lens.height, lens.width
+    planar: Array = np.where(depth < lens.far, depth, np.inf).reshape(size)
+    return planar, hits.surface.reshape(size)

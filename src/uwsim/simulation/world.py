@@ -21,7 +21,7 @@ from ..rng import stream
 from ..scene.reader import scene_warnings
 from ..scene.spec import SceneSpec
 from ..scene.variation import varied
-from ..sensors.pinhole import cast_depth
+from ..sensors.pinhole import cast_depth, cast_surfaces
 from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
@@ -263,3 +263,19 @@ class SceneWorld:
         if self.is_blind:
             return cast_depth(self.rays, world_from_camera, intrinsics)
         return self.scenery.depth(world_from_camera, intrinsics)
+
+    @property
+    def part_names(self) -> Mapping[int, str]:
+        """Number in segmentation images -> ``vehicle/link`` or object."""
+        return self.scenery.part_names
+
+    def segmentation(
+        self, world_from_camera: Pose, intrinsics: Intrinsics
+    ) -> npt.NDArray[np.uint16]:
+        """Return the number of the body that each pixel sees, (h, w); 0: none.
+
+        In a blind world by rays, which meet no ghosts either.
+        """
+        if self.is_blind:
+            return cast_surfaces(self.rays, world_from_camera, intrinsics)
+        return self.scenery.segmentation(world_from_camera, intrinsics)

@@ -49,6 +49,7 @@ from .ros_joint_state_to_arm import ROSJointStateToArmSpec
 from .ros_odom_to_pat import ROSOdomToPATSpec
 from .ros_pose_to_pat import ROSPoseToPATSpec
 from .ros_twist_to_pat import ROSTwistToPATSpec
+from .segmentation_to_ros import SegmentationToROSSpec
 from .sensor_topic import (
     BatteryToROSSpec,
     DVLSensorToROSSpec,
@@ -101,6 +102,7 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     f"{{{NAMESPACE}}}ROSWrenchToPAT": ROSWrenchToPATSpec,
     f"{{{NAMESPACE}}}sonarToROS": SonarToROSSpec,
     f"{{{NAMESPACE}}}multibeamToPointCloud2": MultibeamToPointCloud2Spec,
+    f"{{{NAMESPACE}}}segmentationToROS": SegmentationToROSSpec,
     f"{{{NAMESPACE}}}batteryToROS": BatteryToROSSpec,
     f"{{{NAMESPACE}}}motorCurrentsToROS": MotorCurrentsToROSSpec,
 }

@@ -7,7 +7,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
+import numpy as np
+import numpy.typing as npt
+
 from ..bus import Bus
+from ..geometry import Intrinsics, Pose
 from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
@@ -51,6 +55,15 @@ class TopicWorld(World, Protocol):
     @property
     def touch(self) -> Touch:
         """Contacts between bodies."""
+
+    @property
+    def part_names(self) -> Mapping[int, str]:
+        """Number in segmentation images -> ``vehicle/link`` or object."""
+
+    def segmentation(
+        self, world_from_camera: Pose, intrinsics: Intrinsics
+    ) -> npt.NDArray[np.uint16]:
+        """Return the number of the body that each pixel sees, (h, w); 0: none."""
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""

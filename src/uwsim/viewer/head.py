@@ -42,7 +42,8 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
                   as of a tool (below)
     view        {pose, fovy, at: 3}   from where one looks at first, and at what
     water       {fog, fog_colour, colour, attenuation, surface_height, clip, light_rate,
-                 sun, shadows}    clip: the fog of the original, by clip-space z
+                 follows_light, sun, shadows}    clip: the fog of the original, by clip-space z;
+                 follows_light: whether water and fog are scaled by the light rate
     suns        {name: {direction, colour}}; ambient, specular: constants of the law
     localized   pose of the frame L in W
     estimates   [{camera, truth: signals, estimate: signals}] quadrangles in images [px]
@@ -195,6 +196,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
             "attenuation": list(water.attenuation),
             "surface_height": water.surface_height,
             "clip": water.fog_distance == "clip",
+            "follows_light": water.follows_light,
             "light_rate": light.rate,
             "sun": light.sun,
             "shadows": light.shadows,

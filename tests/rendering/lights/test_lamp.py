@@ -69,11 +69,12 @@ def test_every_pixel_follows_the_law_through_the_water(
 ) -> None:
     water = Water(fog=0.1, attenuation=(0.5, 0.2, 0.1))
     renderer.place(renderer.add(plate(60.0, 60.0, GREY), 1), placed(z=-2.0))
-    bright = lamp(intensity=2.0, **given)  # type: ignore[arg-type]
+    bright = lamp(intensity=3.0, **given)  # type: ignore[arg-type]
     points = points_on(2.0)
     facing = np.tile([0.0, 0.0, 1.0], (len(points), 1))
     lit = np.array(GREY) * bright.light(points, facing, water.attenuation)
-    law = apply_water(lit, np.linalg.norm(points, axis=1), points[:, 2], water)
+    dark = water.under(DARK)
+    law = apply_water(lit, np.linalg.norm(points, axis=1), points[:, 2], dark)
     seen = rendered(renderer, bright, water=water).reshape(-1, 3)
     assert np.abs(seen - np.clip(law, 0.0, 1.0)).max() <= 1.01 / 255.0
     assert np.ptp(law) > 0.1

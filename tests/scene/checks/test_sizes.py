@@ -97,7 +97,12 @@ def test_the_first_bin_of_a_sonar_begins_before_the_last_ends(tmp_path: Path) ->
         ("imagingSonar", {"bins": 9000, "beams": 4096}, "9000 bins of 4096 beams or pings"),
         ("scanningSonar", {"bins": 9000, "angleIncr": 0.05}, "9000 bins of 7200 beams or pings"),
         ("sideScanSonar", {"bins": 9000, "lines": 9000}, "9000 bins of 18000 beams or pings"),
-        ("imagingSonar", {"bins": 9, "beams": 4096, "rows": 999}, "4096 beams of 999 rows"),
+        ("imagingSonar", {"bins": 9, "beams": 4096, "rows": 999}, "4096 columns of 999 rays"),
+        (
+            "imagingSonar",
+            {"bins": 9, "beams": 999, "horizontalAperture": 300, "beamWidth": 0.01, "rows": 999},
+            "8991 columns of 999 rays",
+        ),
     ],
 )
 def test_sonars_have_a_largest_size(

@@ -359,3 +359,30 @@ def test_what_is_asked_costs_a_simulation_nothing_until_somebody_reads_it(tmp_pa
     simulation = Simulation(read_scene(written(tmp_path)), is_blind=True)
     assert "warnings" not in vars(simulation)
     assert simulation.world.warnings == ()
+
+
+DVL = "<dvlSensor> <name>log</name> <relativeTo>base_link</relativeTo> {} </dvlSensor>"
+ASIDE = "<orientation> <r>M_PI_2</r> <p>0</p> <y>0</y> </orientation>"
+BLIND = {
+    "up": ("<u:lookAt>up</u:lookAt>", "it looks up; its x axis points aft, and its beams"),
+    "too high": ("<u:maxAltitude>1</u:maxAltitude>", "at 2 to 2 m; expected 3 beams or more"),
+    "too low": ("<u:minAltitude>2.5</u:minAltitude>", "that meet it at 2.5 to 81 m"),
+    "sideways": (ASIDE, "it looks port"),
+}
+
+
+@pytest.mark.parametrize("name", BLIND)
+def test_a_dvl_that_finds_no_bottom_at_the_start_is_reported(tmp_path: Path, name: str) -> None:
+    part, text = BLIND[name]
+    scene = SCENE.replace("    <u:dynamics>", f"    {DVL.format(part)} <u:dynamics>", 1)
+    (found,) = asked(written(tmp_path, scene=scene))
+    assert found.message.startswith("'log': it has no bottom track at the start: ")
+    assert text in found.message
+    accepted = scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>bottom</u:accept>")
+    assert asked(written(tmp_path, scene=accepted)) == []
+
+
+@pytest.mark.parametrize("part", ["", "<u:lookAt>down</u:lookAt>"])
+def test_a_dvl_above_the_bottom_is_not_reported(tmp_path: Path, part: str) -> None:
+    scene = SCENE.replace("    <u:dynamics>", f"    {DVL.format(part)} <u:dynamics>", 1)
+    assert asked(written(tmp_path, scene=scene)) == []

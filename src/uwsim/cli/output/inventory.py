@@ -12,16 +12,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...devices import DEVICES
 from ...devices.lamp import LampSpec
 from ...devices.sway import SwaySpec
 from ...errors import Diagnostic
 from ...physics.hydrodynamics import FinSpec, VehicleHydrodynamics
+from ...scene.mounts import MountFrames
 from ...scene.object import ObjectSpec
+from ...scene.pointing import describe_direction, looking
 from ...scene.spec import SceneSpec
 from ...scene.unsupported import READ_ONLY
 from ...scene.urdf.robot import JointSpec, RobotSpec
 from ...scene.variation import draw
 from ...scene.vehicle import VehicleSpec
+from ...schema import shown_tag
+from ...sensors import SENSORS
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
 from ...simulation.scenery.below import below_vehicle
@@ -37,13 +42,17 @@ def inventory(
     warnings = [
         diagnostic.message for diagnostic in diagnostics if diagnostic.severity == "warning"
     ]
+    placed = simulation.world.scene
+    sensors = _sensors(placed, simulation.world.robots)
+    directions = {f"{each['name']!r} {each['points']}" for each in sensors}
     return {
         "file": scene.path,
         "frame": _frame(scene),
         "water": _water(scene),
-        "vehicles": [_vehicle(scene, i, simulation) for i in range(len(scene.vehicles))],
+        "vehicles": [_vehicle(placed, i, simulation) for i in range(len(scene.vehicles))],
         "cameras": _cameras(scene, simulation.world.robots),
-        "objects": [_object(scene, thing) for thing in scene.objects],
+        "sensors": sensors,
+        "objects": [_object(placed, thing) for thing in placed.objects],
         "topics": topics(scene, simulation),
         "services": list(simulation.bus.services.names),
         "varies": [
@@ -53,7 +62,11 @@ def inventory(
         "not_simulated": [
             message.partition(": ")[2] for message in warnings if _is_unsimulated(message)
         ],
-        "warnings": [message for message in warnings if not _is_unsimulated(message)],
+        "warnings": [
+            message
+            for message in warnings
+            if not _is_unsimulated(message) and message not in directions
+        ],
     }
 
 
@@ -195,6 +208,26 @@ def _cameras(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
         )
         for each in cameras
     ]
+
+
+def _sensors(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
+    """Every sensor and lamp that points somewhere, on links that are there."""
+    elements: dict[type, str] = {spec: element for element, spec in (SENSORS | DEVICES).items()}
+    found = []
+    for index, vehicle in enumerate(scene.vehicles):
+        frames = MountFrames(vehicle, robots[index], scene.world_from_localized)
+        found += [
+            {
+                "name": str(getattr(spec, "name", "")),
+                "kind": shown_tag(elements[type(spec)]).strip("<>"),
+                "vehicle": vehicle.name,
+                "link": spec.relative_to,
+                "points": describe_direction(spec, frames),
+            }
+            for spec in looking(vehicle)
+            if robots[index].link(spec.relative_to) is not None
+        ]
+    return found
 
 
 def _image_topics(scene: SceneSpec, camera: str) -> list[str]:

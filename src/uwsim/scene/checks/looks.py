@@ -1,19 +1,20 @@
-"""Directions of cameras in words, and sensors that seem to be mounted as before July 2014."""
+"""Directions of sensors and lamps in words; sensors mounted as before July 2014."""
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 
 from ...devices.object_picker import ObjectPickerSpec
+from ...devices.structured_light_projector import StructuredLightProjectorSpec
 from ...schema import Diagnostics, uses_extensions
+from ...sensors.dvl_sensor import DvlSensorSpec
 from ...sensors.sensor import Looking, Mounted
 from ...sensors.virtual_camera import VirtualCameraSpec
-from ...sensors.virtual_range_image import VirtualRangeImageSpec
-from ..mounts import MountFrames, in_words
+from ..mounts import MountFrames
+from ..pointing import describe_direction, looking
 from ..spec import SceneSpec
 from ..urdf.robot import RobotSpec
-from ..vehicle import VehicleSpec
 
 STEEP = 0.5
 """What looks higher looks up: sine of the angle above the horizon."""
@@ -22,7 +23,7 @@ STEEP = 0.5
 def check_looks(
     scene: SceneSpec, robots: Mapping[int, RobotSpec], diagnostics: Diagnostics
 ) -> None:
-    """Report where the cameras of a scene look.
+    """Report where the sensors and lamps of a scene point.
 
     Args:
         scene: the scene.
@@ -36,9 +37,9 @@ def check_looks(
             if spec.look_at is not None and any(spec.orientation):
                 message = "its <orientation> is not used: <u:lookAt> says where it looks"
                 diagnostics.warning(spec, f"{_called(spec)}: {message}")
-            is_camera = isinstance(spec, VirtualCameraSpec | VirtualRangeImageSpec)
-            if is_camera and robot.link(spec.relative_to) is not None:
-                diagnostics.warning(spec, f"{_called(spec)} {_looks(spec, frames)}")
+            is_reported = not isinstance(spec, ObjectPickerSpec | StructuredLightProjectorSpec)
+            if is_reported and robot.link(spec.relative_to) is not None:
+                diagnostics.warning(spec, f"{_called(spec)} {describe_direction(spec, frames)}")
         if not uses_extensions(scene):
             _check_age(frames, diagnostics)
     cameras = [
@@ -56,17 +57,6 @@ def check_looks(
             diagnostics.warning(last[name], message)
 
 
-def looking(vehicle: VehicleSpec) -> Iterator[Looking]:
-    """Every part of a vehicle with a viewing direction."""
-    return (part for part in vehicle.parts if isinstance(part, Looking))
-
-
-def _looks(spec: Mounted, frames: MountFrames) -> str:
-    ahead, top = frames.looks(spec)
-    words = frames.directions
-    return f"looks {in_words(ahead, words)}; the top of its image is {in_words(top, words)}"
-
-
 def _called(spec: Mounted) -> str:
     return repr(str(getattr(spec, "name", "")))
 
@@ -76,7 +66,10 @@ def _check_age(frames: MountFrames, diagnostics: Diagnostics) -> None:
     turned: list[Looking] = []
     n_right = 0
     for spec in looking(frames.vehicle):
-        if isinstance(spec, ObjectPickerSpec) or frames.robot.link(spec.relative_to) is None:
+        if (
+            isinstance(spec, ObjectPickerSpec | DvlSensorSpec)
+            or frames.robot.link(spec.relative_to) is None
+        ):
             continue
         is_up, was_up = (
             float(frames.looks(spec, visual=visual)[0][2]) > STEEP for visual in (False, True)

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from typing import Literal
 
 VehicleWarning = Literal[
-    "balance", "buoyancy", "drag", "inertia", "passable", "places", "size", "start", "strength",
-    "thrust",
+    "balance", "bottom", "buoyancy", "drag", "inertia", "passable", "places", "size", "start",
+    "strength", "thrust",
 ]  # fmt: skip
 """Warnings about a vehicle."""
 ObjectWarning = Literal["buoyancy", "places", "start"]
@@ -20,6 +20,7 @@ ObjectWarning = Literal["buoyancy", "places", "start"]
 
 PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "balance": "Its centre of buoyancy lies below its centre of mass as it begins: it turns over.",
+    "bottom": "A DVL finds no bottom where the vehicle begins.",
     "buoyancy": "What it displaces is far from its mass, or more than its shape has room for; "
     "of an object, more than twice its box.",
     "drag": "A link has more drag than its mass bears in one step, or drag and no mass at all.",

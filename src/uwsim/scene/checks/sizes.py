@@ -74,7 +74,7 @@ def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:
         )
     if sonar.n_rays > MAX_RAYS:
         yield (
-            f"{sonar.n_rays // sonar.rows} beams of {sonar.rows} rows; at most "
+            f"{sonar.n_rays // sonar.rows} columns of {sonar.rows} rays; at most "
             f"{MAX_RAYS / 1e6:.0f} million rays are cast in a ping"
         )
 

@@ -16,6 +16,7 @@ surface: with ``multipath`` such rays send echoes back by the same way.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -24,22 +25,39 @@ from ...acoustics import MATERIALS, Material
 from ...geometry import Array, Pose
 from ...numerics.elementwise import log
 from ...numerics.linear import product, turned_back
+from ...rays import Hits
 from ...world import SensorWorld
-from .kernel import BLOCK, Singles, add_echoes, received
+from .kernel import Singles, add_echoes, received
+from .ray_grid import RayGrid
+from .small_targets import Discs, Fan, add_small_echoes, drop_hits, find_discs, lattice
 from .spec import SonarSpec
 
-MARGIN = 1.25
-"""A beam is summed up so many of its widths to either side."""
-RAYS_A_WIDTH = 2.5
-"""At least so many rays are side by side in the width of a beam."""
-HIGH = 0.6
-"""Rays go so many vertical apertures up and down from the middle, but not past straight up."""
-LINE_WIDTH = 0.4429
-"""Half width of a line array at half power is the arc sine of this, in wave lengths over length."""
 SURFACE_LOSS = 0.631
 """Of power, at the water's surface [1]: 2 dB, of small waves."""
 MICROPASCAL = -120.0
 """Of one micropascal [dB re 1 Pa]."""
+
+
+class Power(NamedTuple):
+    """Mean power of the echoes of a ping."""
+
+    of_columns: Singles
+    """Of each bin and column of rays, for what beams weight by their patterns, (bins, m) [Pa2]."""
+    of_small: Singles
+    """Of each bin and beam, of small targets, (bins, n); (0, 0) without small targets [Pa2]."""
+
+
+class Ping(NamedTuple):
+    """What holds for all rays of a ping."""
+
+    world_from_sonar: Pose
+    """Where the sonar is."""
+    level: float
+    """Power at 1 m on the axis of a beam [Pa2 m2]."""
+    materials: Array
+    """Of each surface, as for `add_echoes`; the last one is the water's surface, (m, 3)."""
+    bins: tuple[float, float, float]
+    """Least range, size of a bin [m], absorption there and back [1/m, neper of power]."""
 
 
 class Echoes:
@@ -49,31 +67,28 @@ class Echoes:
         spec: of the sonar.
         world: what it is in.
         azimuths: of its beams at equal steps, positive to port, (n,) [rad].
-        step: between beams; of a single beam any [rad].
+        step: between beams, positive; of a single beam any [rad].
+        highest: elevation up to which there are rays [rad]; None for the first null of the beam.
     """
 
-    def __init__(self, spec: SonarSpec, world: SensorWorld, azimuths: Array, step: float) -> None:
+    def __init__(
+        self,
+        spec: SonarSpec,
+        world: SensorWorld,
+        azimuths: Array,
+        step: float,
+        highest: float | None = None,
+    ) -> None:
         self._spec, self._world = spec, world
-        width = math.radians(spec.beam_width)
-        self.azimuths = azimuths
-        """Of the beams, (n,) [rad]."""
-        n_phases = max(1, int(width / RAYS_A_WIDTH / abs(step)))
-        apart = n_phases * step
-        n_side = max(1, math.ceil(MARGIN * width / abs(apart)))
-        phases = np.arange(min(n_phases, len(azimuths)))
-        off = np.arange(-n_side, n_side + 2) * apart - phases[:, None] * step
-        powers = [[_gaussian(angle, width) for angle in line] for line in off.tolist()]
-        self._patterns = np.array(powers, dtype=np.float32)
-        n_rays = (len(azimuths) - 1) // n_phases + 2 * n_side + 2
-        self._ray_azimuths = azimuths[0] + apart * np.arange(-n_side, n_rays - n_side)
-        aperture = math.radians(spec.vertical_aperture)
-        highest = min(HIGH * aperture, 0.5 * math.pi)
-        rise = 2.0 * highest / spec.rows
-        elevations: Array = rise * (np.arange(spec.rows, dtype=np.float64) + 0.5) - highest
-        self.directions = _directions(self._ray_azimuths, elevations)
-        """Of the rays in the sonar's frame, (n k, 3)."""
-        patterns = np.array([_line(angle, aperture) ** 4 for angle in elevations.tolist()])
-        self._rows = patterns * np.cos(elevations) * rise * abs(apart)
+        self.grid = RayGrid(spec, azimuths, step, highest)
+        """The rays of its pings."""
+        self._fan = Fan(
+            float(azimuths[0]),
+            step,
+            len(azimuths),
+            math.radians(spec.beam_width),
+            math.radians(spec.vertical_aperture),
+        )
         self.bin_size = (spec.range - spec.min_range) / spec.bins
         """Of range [m]."""
         self._rayleigh = _rayleigh() if spec.speckle else np.ones(65536, dtype=np.float32)
@@ -103,84 +118,85 @@ class Echoes:
         spec = self._spec
         power = self.power(world_from_sonar)
         noise = 10.0 ** (0.1 * (spec.noise_level + MICROPASCAL))
-        draws = _draws(key, (spec.bins, len(self.azimuths)))
-        return received(power, self._patterns, noise, draws, self._rayleigh)
+        draws = _draws(key, (spec.bins, self._fan.n))
+        grid = self.grid
+        return received(*power, grid.patterns, grid.stride, noise, draws, self._rayleigh)
 
-    def power(self, world_from_sonar: Pose) -> Singles:
-        """Mean power of the echoes of each bin and ray azimuth, (bins, m) [Pa2]."""
-        spec, rays = self._spec, self._world.rays
-        power = np.zeros((spec.bins, len(self._ray_azimuths)), dtype=np.float32, order="F")
-        up = turned_back(world_from_sonar.rotation, np.array([0.0, 0.0, 1.0]))
-        above = self._world.surface_height - world_from_sonar.position[2]
-        rise = product(self.directions, up)
-        hits = rays.cast(world_from_sonar, self.directions, spec.range)
-        normal = product(hits.normal, world_from_sonar.rotation)
-        to_surface = np.full(len(rise), np.inf)  # of the rays that reach it
-        if 0.0 < above < spec.range * float(rise.max()):
+    def power(self, world_from_sonar: Pose) -> Power:
+        """Mean power of the echoes of a ping."""
+        spec, grid, rays = self._spec, self.grid, self._world.rays
+        loss = 0.2 * math.log(10.0) * self.losses(world_from_sonar)
+        ping = Ping(
+            world_from_sonar,
+            10.0 ** (0.1 * (spec.source_level + MICROPASCAL)),
+            _numbers([*rays.materials, MATERIALS["waterSurface"]]),
+            (spec.min_range, self.bin_size, loss),
+        )
+        power = np.zeros((spec.bins, len(grid.azimuths)), dtype=np.float32, order="F")
+        hits, to_surface = self._cast(ping, grid.directions)
+        discs = find_discs(rays.balls(), world_from_sonar, spec.range, grid)
+        drop_hits(hits.distance, hits.surface, grid.directions, discs)
+        add_echoes(
+            power, hits, grid.directions, grid.rows * (ping.level, 1.0), ping.materials, ping.bins
+        )
+        of_small = np.zeros((0, 0), dtype=np.float32)
+        if len(discs.radius):
+            of_small = np.zeros((spec.bins, self._fan.n), dtype=np.float32)
+            self._add_small(of_small, ping, discs)
+        if spec.multipath and np.isfinite(to_surface).any():
+            self._add_multipath(power, ping, to_surface)
+        return Power(power, of_small)
+
+    def _cast(self, ping: Ping, directions: Array) -> tuple[Hits, Array]:
+        """The first hits of rays, the water's surface among them, and where they reach that.
+
+        Normals are in the sonar's frame. Of a ray that does not reach the water's surface, that
+        distance is infinite (n,) [m].
+        """
+        pose, reach = ping.world_from_sonar, self._spec.range
+        hits = self._world.rays.cast(pose, directions, reach)
+        normal = product(hits.normal, pose.rotation)
+        up = turned_back(pose.rotation, np.array([0.0, 0.0, 1.0]))
+        above = self._world.surface_height - pose.position[2]
+        rise = product(directions, up)
+        to_surface = np.full(len(rise), np.inf)
+        if len(rise) and 0.0 < above < reach * float(rise.max()):
             to_surface = np.where(rise > 1e-9, above / np.maximum(rise, 1e-9), np.inf)
-            wet = to_surface < np.minimum(hits.distance, spec.range)
+            wet = to_surface < np.minimum(hits.distance, reach)
             to_surface[~wet] = np.inf
             hits.distance[wet], normal[wet] = to_surface[wet], -up
-            hits.surface[wet] = len(rays.materials)
-        level = 10.0 ** (0.1 * (spec.source_level + MICROPASCAL))
-        materials = _numbers([*rays.materials, MATERIALS["waterSurface"]])
-        loss = 0.2 * math.log(10.0) * self.losses(world_from_sonar)
-        bins = spec.min_range, self.bin_size, loss
-        found = hits.distance, normal, hits.surface
-        add_echoes(power, found, self.directions, level * self._rows, materials, bins)
-        if spec.multipath and np.isfinite(to_surface).any():
-            self._add_multipath(power, world_from_sonar, to_surface, level, materials, bins)
-        return power
+            hits.surface[wet] = len(ping.materials) - 1
+        return Hits(hits.distance, normal, hits.surface), to_surface
 
-    def _add_multipath(
-        self,
-        power: Singles,
-        world_from_sonar: Pose,
-        to_surface: Array,
-        level: float,
-        materials: Array,
-        bins: tuple[float, float, float],
-    ) -> None:
+    def _add_small(self, power: Singles, ping: Ping, discs: Discs) -> None:
+        """Add the echoes of small targets to those of the beams."""
+        rays = lattice(discs, self._fan, self.grid.highest)
+        hits, _ = self._cast(ping, rays.directions)
+        add_small_echoes(power, hits, rays, self._fan, ping.level, ping.materials, ping.bins)
+
+    def _add_multipath(self, power: Singles, ping: Ping, to_surface: Array) -> None:
         """Add echoes by way of the water's surface, there and back."""
+        grid, world_from_sonar = self.grid, ping.world_from_sonar
         mirror = np.diag([1.0, 1.0, -1.0])
         position = world_from_sonar.position.copy()
         position[2] = 2.0 * self._world.surface_height - position[2]
         rotation = product(mirror, world_from_sonar.rotation)
-        image = Pose(position, rotation)
         begins = np.where(np.isfinite(to_surface), to_surface, self._spec.range)
-        hits = self._world.rays.cast(image, self.directions, self._spec.range, begins)
+        hits = self._world.rays.cast(
+            Pose(position, rotation), grid.directions, self._spec.range, begins
+        )
         hits.distance[~np.isfinite(to_surface)] = np.inf
         normal = product(hits.normal, rotation)
-        rows = SURFACE_LOSS**2 * level * self._rows
-        found = hits.distance, normal, hits.surface
-        add_echoes(power, found, self.directions, rows, materials, bins)
+        rows = grid.rows * (SURFACE_LOSS**2 * ping.level, 1.0)
+        found = Hits(hits.distance, normal, hits.surface)
+        add_echoes(power, found, grid.directions, rows, ping.materials, ping.bins)
 
     def _depth(self, world_from_sonar: Pose) -> float:
         return max(0.0, self._world.surface_height - float(world_from_sonar.position[2]))
 
 
-def _directions(azimuths: Array, elevations: Array) -> Array:
-    """Unit vectors: x ahead, y to port, z up, in the order of `add_echoes`, (n k, 3)."""
-    azimuth, elevation = np.meshgrid(azimuths, elevations)
-    x, y = np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth)
-    rows = np.stack([x, y, np.sin(elevation)], axis=2)
-    blocks = [rows[:, k : k + BLOCK].reshape(-1, 3) for k in range(0, len(azimuths), BLOCK)]
-    return np.concatenate(blocks)
-
-
-def _gaussian(angle: float, width: float) -> float:
-    """Power of a beam that has half of it at half of ``width`` [rad]; 0 beyond the margin."""
-    return 2.0 ** -((2.0 * angle / width) ** 2) if abs(angle) <= MARGIN * width else 0.0
-
-
-def _line(angle: float, width: float) -> float:
-    """Amplitude of a uniform line array that has half its power at half of ``width`` [rad]."""
-    u = math.pi * LINE_WIDTH * math.sin(angle) / math.sin(0.5 * width)
-    return math.sin(u) / u if u else 1.0
-
-
 def _numbers(materials: list[Material]) -> Array:
-    """What `add_echoes` wants to know of materials, (m, 3)."""
+    """Numbers of materials for `add_echoes`, (m, 3)."""
     return np.array(
         [
             (

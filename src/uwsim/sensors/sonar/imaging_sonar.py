@@ -28,6 +28,7 @@ from ..sensor import Carrier
 from .echoes import Echoes
 from .fan_image import FanImage, Levels
 from .message import level_directions, sonar_image
+from .ray_grid import n_columns
 from .spec import SonarSpec
 
 
@@ -49,8 +50,14 @@ class ImagingSonarSpec(SonarSpec):
 
     @property
     def n_rays(self) -> int:
-        """Rays of a ping, but for those beside the outermost beams."""
-        return self.rows * self.beams
+        """Rays of a ping, but for those beside the outermost beams and to small targets."""
+        n = n_columns(math.radians(self.beam_width), self._step, self.beams)
+        return self.rows * max(n, self.beams)
+
+    @property
+    def _step(self) -> float:
+        """Between beams [rad]."""
+        return math.radians(self.horizontal_aperture) / (self.beams - 1)
 
     @property
     def azimuths(self) -> Array:

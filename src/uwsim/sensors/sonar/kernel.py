@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...numerics.jit import njit
+from ...rays import Hits
 
 Array = npt.NDArray[np.float64]
 Singles = npt.NDArray[np.float32]
@@ -19,11 +20,14 @@ LINES = 16
 GRAZING = 0.02
 """Least cosine of an angle of incidence that counts: 88.9 degrees."""
 
+MAX_TILT = 0.9
+"""Of the density of power over what one ray covers."""
+
 
 @njit
 def add_echoes(
     power: Singles,
-    hits: tuple[Array, Array, Whole],
+    hits: Hits,
     directions: Array,
     rows: Array,
     materials: Array,
@@ -37,7 +41,8 @@ def add_echoes(
     .. math:: w\, \sigma(\theta)\, \frac{10^{-2 \alpha r / 10}}{r^2 \cos\theta} ,
 
     w of its row. It covers the ranges from half way to the ray below it to half way to the one
-    above, where these are on the same surface; elsewhere no more than a bin.
+    above, where these are on the same surface, and likewise from side to side; elsewhere no more
+    than a bin.
 
     Args:
         power: of each bin and azimuth, (bins, n), an azimuth's bins one after the other; added to
@@ -45,13 +50,15 @@ def add_echoes(
         hits: distance (n k,), normal in the sonar's frame (n k, 3), surface (n k,); `BLOCK`
             azimuths side by side, k rows of them one above the other, then the next azimuths.
         directions: in the sonar's frame, (n k, 3).
-        rows: weights of the rows, (k,) [Pa2 m2].
+        rows: weight of each row [Pa2 m2], and the share by which the pattern rises from its middle
+            to its upper end, (k, 2).
         materials: of each surface glint, sharpness of the glint and diffuse part, (m, 3).
         bins: least range, size of a bin [m], absorption there and back [1/m, neper of power].
     """
     distance, normal, surface = hits
     first, size, loss = bins
     n_rows, n_azimuths = len(rows), power.shape[1]
+    reach = first + size * len(power)
     for k in range(len(distance)):
         r = distance[k]
         if r == np.inf:
@@ -59,26 +66,50 @@ def add_echoes(
         block = k // (BLOCK * n_rows) * BLOCK
         width = min(BLOCK, n_azimuths - block)
         row, beside = divmod(k - block * n_rows, width)
-        cosine = max(_facing(normal, directions, k, k), GRAZING)
-        below = above = r
+        cosine = max(facing_cosine(normal, directions, k, k), GRAZING)
+        below = above = left = right = 0.0
+        hit = (k, r, cosine)
         if row > 0:
-            facing = _facing(normal, directions, k, k - width)
-            below += _half_way(r * cosine, facing, r, _gap(distance, surface, k, k - width), size)
+            below = _to_neighbour(hit, k - width, hits, directions, reach, size)
         if row + 1 < n_rows:
-            facing = _facing(normal, directions, k, k + width)
-            above += _half_way(r * cosine, facing, r, _gap(distance, surface, k, k + width), size)
-        square = cosine * cosine
-        material = surface[k]
-        glint = math.exp(-materials[material, 1] * (1.0 / square - 1.0))
-        sigma = materials[material, 0] * glint / (square * square)
-        sigma += materials[material, 2] * square
-        echo = rows[row] * sigma * math.exp(-loss * r) / (r * r * cosine)
-        near, far = (min(below, above) - first) / size, (max(below, above) - first) / size
-        _spread(power[:, block + beside], echo, near, far)
+            above = _to_neighbour(hit, k + width, hits, directions, reach, size)
+        if beside > 0:
+            left = _to_neighbour(hit, k - 1, hits, directions, reach, size)
+        if beside + 1 < width:
+            right = _to_neighbour(hit, k + 1, hits, directions, reach, size)
+        if beside == 0:
+            left = -right
+        elif beside + 1 == width:
+            right = -left
+        sigma, steepness = backscatter(materials[surface[k]], cosine)
+        echo = rows[row, 0] * sigma * math.exp(-loss * r) / (r * r * cosine)
+        near = (r + min(below, above) + min(left, right) - first) / size
+        far = (r + max(below, above) + max(left, right) - first) / size
+        tilt = -0.5 * (far - near) * size * ((3.0 + steepness) / r + loss)
+        tilt += rows[row, 1] if above > below else -rows[row, 1]
+        spread_echo(power[:, block + beside], echo, near, far, tilt)
 
 
 @njit
-def _facing(normal: Array, directions: Array, k: int, ray: int) -> float:
+def backscatter(material: Array, cosine: float) -> tuple[float, float]:
+    """Backscattering cross section of a square metre (`uwsim.acoustics.material`) [1].
+
+    Returns it and its steepness, the derivative of its logarithm by that of the cosine.
+
+    Args:
+        material: glint, sharpness of the glint and diffuse part, (3,).
+        cosine: of the angle of incidence.
+    """
+    square = cosine * cosine
+    glint = material[0] * math.exp(-material[1] * (1.0 / square - 1.0)) / (square * square)
+    diffuse = material[2] * square
+    sigma = glint + diffuse
+    slope = glint * (2.0 * material[1] / square - 4.0) + 2.0 * diffuse
+    return sigma, slope / max(sigma, 1e-300)
+
+
+@njit
+def facing_cosine(normal: Array, directions: Array, k: int, ray: int) -> float:
     """Cosine of the angle between the normal at hit k and a ray."""
     against: float = (
         normal[k, 0] * directions[ray, 0]
@@ -89,34 +120,51 @@ def _facing(normal: Array, directions: Array, k: int, ray: int) -> float:
 
 
 @njit
-def _gap(distance: Array, surface: Whole, k: int, other: int) -> float:
-    """How much farther another hit is than hit k; infinite on another surface [m]."""
-    gap: float = distance[other] - distance[k]
-    return gap if surface[other] == surface[k] else np.inf
-
-
-@njit
-def _half_way(height: float, facing: float, r: float, gap: float, size: float) -> float:
-    """How much farther than the hit of a ray ends what belongs to it, towards another ray [m].
+def _to_neighbour(
+    hit: tuple[int, float, float],
+    other: int,
+    hits: Hits,
+    directions: Array,
+    reach: float,
+    size: float,
+) -> float:
+    """How much farther than a hit ends what belongs to its ray, towards another ray [m].
 
     Args:
-        height: of the sonar over the plane of the hit [m].
-        facing: cosine of the angle between the normal of that plane and the other ray.
-        r: distance of the hit [m].
-        gap: how much farther the other hit is; infinite on another surface [m].
+        hit: its number k, distance [m] and cosine of the angle of incidence.
+        other: number of the other ray.
+        hits: of all rays.
+        directions: of all rays, (n k, 3).
+        reach: end of the last bin; a surface is taken to go on as a plane beyond it [m].
         size: of a bin [m].
     """
+    k, r, cosine = hit
+    distance, normal, surface = hits
+    facing = facing_cosine(normal, directions, k, other)
     if facing <= GRAZING:
         return 0.0
-    expected = height / facing - r  # if the other were on the same plane
-    if abs(gap - expected) <= max(size, 0.5 * abs(expected)):
-        return 0.5 * gap
+    expected = r * cosine / facing - r  # if the other were on the same plane
+    if surface[other] < 0 and r + expected > reach:
+        return 0.5 * expected
+    gap = distance[other] - r
+    if surface[other] == surface[k] and abs(gap - expected) <= max(size, 0.5 * abs(expected)):
+        half: float = 0.5 * gap
+        return half
     return min(max(0.5 * expected, -size), size)
 
 
 @njit
-def _spread(power: Singles, echo: float, near: float, far: float) -> None:
-    """Share the power of an echo between the bins (n,) it covers, by how much of each."""
+def spread_echo(power: Singles, echo: float, near: float, far: float, tilt: float) -> None:
+    """Share the power of an echo between the bins it covers.
+
+    Args:
+        power: of the bins, (n,); added to [Pa2].
+        echo: power of the echo [Pa2].
+        near: begin of what it covers [bins].
+        far: end of what it covers [bins].
+        tilt: how much of its mean the density of power rises from the middle to ``far``; no more
+            than `MAX_TILT` either way.
+    """
     n_bins = len(power)
     if far <= 0.0 or near >= n_bins:
         return
@@ -125,19 +173,24 @@ def _spread(power: Singles, echo: float, near: float, far: float) -> None:
         power[begin] += np.float32(echo)
         return
     density = echo / (far - near)
+    rise = 2.0 * density * min(max(tilt, -MAX_TILT), MAX_TILT) / (far - near)  # by bin
+    density -= rise * 0.5 * (near + far)  # at bin 0
     if begin >= 0:
-        power[begin] += np.float32(density * (begin + 1.0 - near))
-    whole = np.float32(density)
+        part = begin + 1.0 - near
+        power[begin] += np.float32((density + rise * (near + 0.5 * part)) * part)
     for bin in range(max(begin + 1, 0), min(end, n_bins)):
-        power[bin] += whole
+        power[bin] += np.float32(density + rise * (bin + 0.5))
     if end < n_bins:
-        power[end] += np.float32(density * (far - end))
+        part = far - end
+        power[end] += np.float32((density + rise * (end + 0.5 * part)) * part)
 
 
 @njit
 def received(
     power: Singles,
+    of_small: Singles,
     patterns: Singles,
+    stride: int,
     noise: float,
     random: npt.NDArray[np.uint16],
     speckle: Singles,
@@ -145,9 +198,11 @@ def received(
     """Amplitudes of the beams, (bins, beams) [Pa].
 
     Args:
-        power: of each bin and ray azimuth, (bins, m), an azimuth's bins one after the other [Pa2].
-        patterns: of the beams over neighbouring rays, (s, t): there are s beams from ray to ray,
-            and beam ``s q + p`` hears the rays q to q + t - 1 by the pattern p.
+        power: of each bin and column of rays, (bins, m), a column's bins one after the other [Pa2].
+        of_small: what the beams receive from small targets, (bins, beams); or (0, 0) [Pa2].
+        patterns: of the beams over neighbouring columns, (s, t): beam ``s q + p`` receives the
+            columns ``stride q`` to ``stride q + t - 1`` by the pattern p.
+        stride: columns from a beam to the next of the same pattern.
         noise: mean power of what is received without any echo [Pa2].
         random: a number for each bin and beam, (bins, beams).
         speckle: amplitude by random number, (65536,).
@@ -158,6 +213,7 @@ def received(
     heard = np.empty(n_beams, dtype=np.float32)
     some = np.empty((LINES, power.shape[1]), dtype=np.float32)
     floor = np.float32(noise)
+    has_small = of_small.size > 0
     for bin in range(n_bins):
         if bin % LINES == 0:
             for k in range(power.shape[1]):
@@ -168,12 +224,24 @@ def received(
             for k in range(n):
                 heard[k] = floor
             for tap in range(n_taps):
-                weight = patterns[phase, tap]
+                _add_column(heard, n, patterns[phase, tap], some[bin % LINES, tap:], stride)
+            if has_small:
                 for k in range(n):
-                    heard[k] += weight * some[bin % LINES, k + tap]
+                    heard[k] += of_small[bin, phase + k * n_phases]
             for k in range(n):
                 heard[k] = math.sqrt(heard[k])
             for k in range(n):
                 beam = phase + k * n_phases
                 amplitude[bin, beam] = heard[k] * speckle[random[bin, beam]]
     return amplitude
+
+
+@njit
+def _add_column(heard: Singles, n: int, weight: np.float32, columns: Singles, stride: int) -> None:
+    """Add the weighted power of one column to that of each of n beams."""
+    if stride == 1:
+        for k in range(n):
+            heard[k] += weight * columns[k]
+    else:
+        for k in range(n):
+            heard[k] += weight * columns[k * stride]

@@ -47,8 +47,8 @@ class SideScanSonarSpec(SonarSpec):
     beam_width: float = element(default=0.5, above=0, maximum=30)
     """Width of a beam between the points of half power, there and back [deg]."""
     rows: int = element(default=256, minimum=1, maximum=2048)
-    """Rays of a beam one above the other. What is lower than the distance of two rays may be
-    missed."""
+    """Rays of a beam one above the other. Small targets get rays of their own; what is lower than
+    the distance of two rays and part of a large body may be missed."""
     tilt: float = element(default=25.0, minimum=-90, maximum=90)
     """Of the middle of its beams below the horizontal of the sonar [deg]."""
     lines: int = element(default=400, minimum=1, maximum=10000)
@@ -76,7 +76,7 @@ class SideScanSonar:
     ) -> None:
         self._spec, self._mount, self._random = spec, mount, random
         step = math.radians(spec.beam_width) / RAYS_A_WIDTH
-        self._echoes = Echoes(spec, world, np.zeros(1), step)
+        self._echoes = Echoes(spec, world, np.zeros(1), step, highest=0.5 * math.pi)
         self._ranges, self._levels = self._echoes.ranges, Levels(spec, self._echoes.ranges)
         down = rotation_y(math.radians(spec.tilt))
         self._heads = tuple(Pose(np.zeros(3), product(rotation_z(side), down)) for side in SIDES)

@@ -36,8 +36,8 @@ class SonarSpec(SensorSpec):
     beam_width: float = element(default=1.0, above=0, maximum=30)
     """Width of a beam between the points of half power, there and back [deg]."""
     rows: int = element(default=32, minimum=1, maximum=2048)
-    """Rays of a beam one above the other. What is lower than the distance of two rays may be
-    missed."""
+    """Rays of a beam one above the other. Small targets get rays of their own; what is lower than
+    the distance of two rays and part of a large body may be missed."""
     frequency: float = element(default=900e3, minimum=1000, maximum=5e6)
     """Frequency of the sound, for its absorption [Hz]."""
     source_level: float = element(default=210.0, minimum=0, maximum=300)

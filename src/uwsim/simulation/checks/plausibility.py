@@ -19,11 +19,13 @@ from ...scene.reader import scene_warnings
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...schema import diagnostic_at
+from ...sensors.dvl_sensor import DvlSensorSpec
 from ...world import TIMESTEP
 from ..bodies import read_robots
 from ..collision.collision_shapes import simulated_solids
 from ..collision.hull import hull_of
 from ..dynamics import DYNAMICS, read_dynamics
+from .bottom import Bottom
 from .object_plausibility import of_objects
 from .place_warnings import place_warnings
 from .start_plausibility import Starts
@@ -63,6 +65,7 @@ def plausibility_warnings(
                 found.append(
                     diagnostic_at(vehicle, message, child, file=scene.path, severity="warning")
                 )
+    found += _of_velocity_logs(scene, vehicles, robots, data_path)
     for kind, index, text in _of_starts(scene, vehicles, robots, data_path):
         spec = (scene.vehicles if kind == "vehicle" else scene.objects)[index]
         if text:
@@ -121,6 +124,28 @@ def _of_vehicle(
         for warning, say in OF_SIMULATED.items():
             yield warning, DYNAMICS, say(one)
         yield "thrust", DYNAMICS, thrust_said(scene, index, robots[index], dynamics[index])
+
+
+def _of_velocity_logs(
+    scene: SceneSpec,
+    vehicles: Sequence[int],
+    robots: Mapping[int, RobotSpec],
+    data_path: tuple[Path, ...],
+) -> Iterator[Diagnostic]:
+    """Report DVLs that find no bottom at the start."""
+    logs = [
+        (index, spec)
+        for index in vehicles
+        for spec in scene.vehicles[index].parts_of(DvlSensorSpec)
+        if "bottom" not in scene.vehicles[index].accepts
+        and robots[index].link(spec.relative_to) is not None
+    ]
+    with suppress(UwsimError):  # reported where models are checked
+        bottom = Bottom(scene, data_path) if logs else None
+        for index, spec in logs:
+            if text := bottom and bottom.missed_by(spec, index, robots[index]):
+                message = f"{spec.name!r}: {text}. {unless_meant('bottom')}"
+                yield diagnostic_at(spec, message, file=scene.path, severity="warning")
 
 
 def _of_starts(

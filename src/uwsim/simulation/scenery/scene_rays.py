@@ -11,7 +11,7 @@ from ...acoustics import MATERIALS, Material, MaterialName
 from ...geometry import Array, Pose
 from ...numerics.linear import determinant, placed, product
 from ...physics.engine import Engine
-from ...rays import Hits, RayScene, Surface
+from ...rays import Balls, Hits, RayScene, Surface
 from ...scene.spec import SceneSpec
 from ..parts import Part
 from .sand import Heap
@@ -62,8 +62,7 @@ class SceneRays:
         begins: Array | None = None,
     ) -> Hits:
         """Cast rays from the origin of a sensor; see `RayScene.cast`."""
-        for body, frame in enumerate(self._frames):
-            self._scene.place(body + 1, frame())
+        self._place()
         hits = self._scene.cast(world_from_sensor, directions, reach, begins)
         for number, heap in enumerate(self._heaps):
             on_sand = self._sand(number, heap).cast(world_from_sensor, directions, reach, begins)
@@ -72,6 +71,16 @@ class SceneRays:
             hits.normal[nearer] = on_sand.normal[nearer]
             hits.surface[nearer] = on_sand.surface[nearer]
         return hits
+
+    def balls(self) -> Balls:
+        """Balls that cover each surface, but for the sand of heaps; see `RayScene.balls`."""
+        self._place()
+        return self._scene.balls()
+
+    def _place(self) -> None:
+        """Put all bodies where they are now."""
+        for body, frame in enumerate(self._frames):
+            self._scene.place(body + 1, frame())
 
     def _sand(self, number: int, heap: Heap) -> RayScene:
         """The triangles of a heap as it is now."""

@@ -147,6 +147,15 @@ class Scenery:
         rendered = self._draw(world_from_camera, intrinsics, self.water, targets=wanted)
         return rendered.depth.astype(np.float64)
 
+    def segmentation(
+        self, world_from_camera: Pose, intrinsics: Intrinsics
+    ) -> npt.NDArray[np.uint16]:
+        """Render the number of the body that each pixel sees, (h, w); 0: none."""
+        wanted = frozenset({"ids"})
+        rendered = self._draw(world_from_camera, intrinsics, self.water, targets=wanted)
+        assert rendered.ids is not None
+        return rendered.ids
+
     def render_clean(
         self,
         world_from_camera: Pose,

@@ -79,6 +79,7 @@ export interface Water {
   surface_height: number;
   clip: boolean;
   light_rate: number;
+  follows_light?: boolean;
   sun: string;
   shadows: boolean;
 }

@@ -191,7 +191,11 @@ export class Renderer {
     const { near, far } = lens;
     const { ambient, specular, suns } = this.head;
     const rate = water.light_rate;
-    const far_colour = water.fog > 0 ? water.fog_colour : water.colour;
+    const scattered = water.follows_light === false ? 1 : rate;
+    const [water_colour, fog_colour] = [water.colour, water.fog_colour].map((colour) =>
+      colour.map((c) => scattered * c),
+    );
+    const far_colour = water.fog > 0 ? fog_colour : water_colour;
     this.fill("Frame", Float32Array.from([
       ...columns(clip),
       ...columns(product(this.shadows.textureFromWorld, m)),
@@ -199,9 +203,9 @@ export class Renderer {
       ...turnedBack(m, sun), this.shadows.lift,
       ...suns[water.sun].colour.map((c) => rate * c), 0,
       rate * ambient, rate * specular, 0, 0,
-      ...water.colour, 0,
+      ...water_colour, 0,
       ...water.attenuation, 0,
-      ...water.fog_colour, water.fog ** 2,
+      ...fog_colour, water.fog ** 2,
       (far + near) / (far - near), (-2 * far * near) / (far - near), 0, 0,
       ...far_colour, 0,
     ]));

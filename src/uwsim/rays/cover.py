@@ -1,0 +1,59 @@
+"""Balls that cover a set of triangles: one, or a row of them along a long thin set."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from ..geometry import Array
+
+SLENDER = 3.0
+"""A set is long and thin if it is longer than this many of its greatest distances from its axis."""
+MAX_IN_A_ROW = 64
+"""Balls along one set of triangles at most."""
+
+
+class Balls(NamedTuple):
+    """Balls around the surfaces of a scene, where they are now."""
+
+    centre: Array
+    """In W, (n, 3) [m]."""
+    radius: Array
+    """(n,) [m]."""
+    surface: npt.NDArray[np.int32]
+    """Number of the surface that each helps to cover, (n,)."""
+
+
+def covering_balls(corners: Array) -> Array:
+    """Return balls that together cover triangles: centre and radius, (n, 4) [m].
+
+    The axis joins the point that is farthest from the middle to the point farthest from that. A
+    set that is `SLENDER` has a row of balls along its axis, each little wider than the set.
+
+    Args:
+        corners: of the triangles, (m, 3, 3) or (m, 3) [m].
+    """
+    points = corners.reshape(-1, 3)
+    if not len(points):
+        return np.zeros((0, 4))
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    radius = math.sqrt(float(((points - middle) ** 2).sum(axis=1).max()))
+    begin = points[int(((points - middle) ** 2).sum(axis=1).argmax())]
+    end = points[int(((points - begin) ** 2).sum(axis=1).argmax())]
+    length = math.sqrt(float(((end - begin) ** 2).sum()))
+    if length > 0.0:
+        axis = (end - begin) / length
+        along = ((points - begin) * axis).sum(axis=1)
+        off_axis = points - begin - along[:, None] * axis
+        thickness = math.sqrt(float((off_axis**2).sum(axis=1).max()))
+        if length > SLENDER * thickness:
+            n = math.ceil(length / max(2.0 * thickness, length / MAX_IN_A_ROW))
+            places = (np.arange(n) + 0.5) * (length / n)
+            balls = np.empty((n, 4))
+            balls[:, :3] = begin + places[:, None] * axis
+            balls[:, 3] = math.hypot(thickness, 0.5 * length / n) * (1.0 + 1e-9)
+            return balls
+    return np.array([[*middle, radius * (1.0 + 1e-9)]])

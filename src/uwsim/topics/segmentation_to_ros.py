@@ -1,0 +1,92 @@
+"""Segmentation of a camera's view on a topic: the body that each pixel sees, and a legend.
+
+.. code-block:: xml
+
+    <u:segmentationToROS>
+      <cameraName>bowtech1</cameraName>
+      <imageTopic>/uwsim/camera1/segmentation</imageTopic>
+      <legendTopic>/uwsim/camera1/legend</legendTopic>
+      <rate>10</rate>
+    </u:segmentationToROS>
+
+The image is ``16UC1``: a number for each pixel, 0 where it sees no body. Water and noise have no
+influence on it. The legend is a JSON object in a std_msgs/String, which names every number of the
+scene, seen or not: ``{"0": "", "1": "girona500/base_link", "7": "blackbox"}``. A vehicle's link is
+``vehicle/link``; sand over a buried object is ``sand/object``.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar, Protocol, runtime_checkable
+
+from ..errors import UnknownName
+from ..geometry import Intrinsics, Pose
+from ..messages import Image, String, label_image
+from .depth_images import CAMERAS
+from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
+
+
+@dataclass(frozen=True, kw_only=True)
+class SegmentationToROSSpec(InterfaceSpec):
+    """Publishes the body that each pixel of a camera sees as sensor_msgs/Image, and a legend."""
+
+    sources: ClassVar[tuple[str, ...]] = CAMERAS
+    messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "legend_topic": String}
+
+    camera_name: str
+    """Name of the camera."""
+    image_topic: str
+    """Topic of the images: 16UC1, the number of the body in each pixel, 0 for none."""
+    legend_topic: str
+    """Topic of the legend: a JSON object with the name of the body of each number."""
+    rate: float = rate_element()
+    """How often [Hz]."""
+
+    def bind(self, world: TopicWorld) -> SegmentationPublisher:
+        """Publish from now on; raises UnknownName if there is no such camera."""
+        publisher = SegmentationPublisher(self, world)
+        world.every(sample_rate(self.rate, world), publisher.publish)
+        return publisher
+
+
+@runtime_checkable
+class Pinhole(Protocol):
+    """A camera with a pose and a pinhole."""
+
+    @property
+    def frame_id(self) -> str:
+        """The frame in the headers of its messages."""
+
+    @property
+    def intrinsics(self) -> Intrinsics:
+        """Its pinhole."""
+
+    @property
+    def world_from_camera(self) -> Pose:
+        """Where it is now; OpenGL axes."""
+
+
+class SegmentationPublisher(Interface):
+    """Publishes the segmentation of a camera; without a reader nothing is drawn."""
+
+    def __init__(self, spec: SegmentationToROSSpec, world: TopicWorld) -> None:
+        camera = world.sensor(spec.camera_name, CAMERAS)
+        if not isinstance(camera, Pinhole):
+            raise UnknownName("camera", spec.camera_name, ())
+        self._camera, self._world = camera, world
+        self._image_topic, self._legend_topic = spec.image_topic, spec.legend_topic
+        self._publish_image = world.sensor_publisher(spec.camera_name, spec.image_topic, Image)
+        self._publish_legend = world.bus.publisher(spec.legend_topic, String)
+
+    def publish(self) -> None:
+        """Publish the legend and the image that is due."""
+        world, camera = self._world, self._camera
+        if world.bus.has_readers(self._legend_topic):
+            names = {0: ""} | dict(sorted(world.part_names.items()))
+            self._publish_legend(String(data=json.dumps(names)))
+        if world.bus.has_readers(self._image_topic):
+            numbers = world.segmentation(camera.world_from_camera, camera.intrinsics)
+            self._publish_image(label_image(numbers, time=world.time, frame_id=camera.frame_id))
