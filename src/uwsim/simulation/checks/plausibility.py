@@ -24,6 +24,7 @@ from ..bodies import read_robots
 from ..collision.collision_shapes import simulated_solids
 from ..collision.hull import hull_of
 from ..dynamics import DYNAMICS, read_dynamics
+from .mesh_warnings import mesh_warnings
 from .object_plausibility import of_objects
 from .start_plausibility import Starts
 from .step_plausibility import step_warnings
@@ -80,6 +81,7 @@ def plausibility_warnings(
     if dynamics:
         density = next(iter(dynamics.values())).density
         found += step_warnings(scene, loose, density, timestep, data_path)
+    found += mesh_warnings(scene, dynamics, data_path)
     return found
 
 
