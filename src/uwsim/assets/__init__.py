@@ -60,7 +60,6 @@ def load_model(
     *,
     named_by: Path | None = None,
     data_path: tuple[Path, ...] = (),
-    max_triangles: int | None = None,
 ) -> Model:
     """The model called ``name``, as a scene or robot file calls it.
 
@@ -68,7 +67,6 @@ def load_model(
         name: Path, absolute or relative, of a mesh file.
         named_by: The file that names it, or that file's folder.
         data_path: Further folders to search.
-        max_triangles: Meshes of files with more triangles than this are simplified.
 
     Raises:
         AssetNotFound: Neither a file nor a stand-in; names the folders searched.
@@ -82,7 +80,7 @@ def load_model(
         places = [*roots(named_by=named_by or path, data_path=data_path), *environment_folders()]
         own = max(places, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
         within = (own.absolute(), *data_path)
-        return read_model(path, name=name, max_triangles=max_triangles, within=within)
+        return read_model(path, name=name, within=within)
     stand_in = _stand_in_of(given, named_by, data_path)
     if stand_in is not None:
         return made(stand_in)

@@ -2,6 +2,7 @@
 
 One that does not match is taken away, so that what it held is made anew. A cache is a convenience,
 never a need: what cannot be read is as if it were not there, what cannot be written is not kept.
+The files of a kind take `MAX_BYTES` at most: those that nobody has read for longest are removed.
 """
 
 from __future__ import annotations
@@ -17,6 +18,9 @@ DIGEST = 32
 """Length of a hash, SHA-256 [bytes]."""
 DRAFT = ".part"
 """How the name of a file ends that is still being written, and begins with its process."""
+
+MAX_BYTES = 512 * 2**20
+"""Size of all files of a kind [bytes]."""
 
 
 def folder(kind: str) -> Path:
@@ -35,6 +39,8 @@ def read(file: Path) -> bytes | None:
     except OSError:
         return None
     if data[:DIGEST] == _digest(file, data[DIGEST:]):
+        with suppress(OSError):
+            os.utime(file)  # read now: it is removed last
         return data[DIGEST:]
     logging.getLogger(__name__).warning(
         "uwsim: warning: %s in the cache is damaged; what it held is made anew.", file
@@ -61,6 +67,7 @@ def write(file: Path, data: bytes) -> None:
             except BaseException:
                 os.unlink(draft.name)
                 raise
+        _keep_within(MAX_BYTES, file)
 
 
 def _discard_drafts(folder: Path) -> None:
@@ -73,6 +80,21 @@ def _discard_drafts(folder: Path) -> None:
             draft.unlink(missing_ok=True)
         except (OSError, ValueError):
             pass  # it lives, and is another user's; or no draft of ours
+
+
+def _keep_within(limit: int, newest: Path) -> None:
+    """Remove the files of a kind that were not read for longest until all are within a limit."""
+    root = folder("")
+    if not newest.is_relative_to(root):
+        return
+    kind = root / newest.relative_to(root).parts[0]
+    facts = {file: file.stat() for file in kind.rglob("*") if file.is_file()}
+    size = sum(fact.st_size for fact in facts.values())
+    for file in sorted(facts, key=lambda file: facts[file].st_mtime_ns):
+        if size <= limit:
+            break
+        size -= facts[file].st_size
+        file.unlink(missing_ok=True)
 
 
 def _digest(file: Path, data: bytes) -> bytes:

@@ -23,6 +23,8 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import LinkSpec, RobotSpec
 from ..world import GRAVITY
 from .collision.shapes import CollisionShape
+from .collision.world_tree import rebuild_world_tree
+from .compiled_models import cached_model
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link, object_errors
 from .hydrodynamics import (
@@ -34,7 +36,6 @@ from .hydrodynamics import (
 )
 from .joints import add_gear, add_joint, add_servo, is_geared
 from .restitution import contact_spring
-from .world_tree import rebuild_world_tree
 
 MAX_STEP = 0.02
 """Of what is simulated: held in soaks up to 0.01 s, seen to diverge from 0.03 s on; the autopilot
@@ -59,8 +60,8 @@ SHAPES = {
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
     "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
     "hull": mujoco.mjtGeom.mjGEOM_MESH,
+    "height field": mujoco.mjtGeom.mjGEOM_HFIELD,
 }
-
 
 INTEGRATORS = {
     "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
@@ -131,6 +132,21 @@ def compile_scene(
     """
     _check_step(timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
     hush()
+    return cached_model(
+        (scene, robots, dynamics, timestep, shapes),
+        sum(map(len, shapes.values())),
+        lambda: _compiled(scene, robots, dynamics, timestep, shapes),
+    )
+
+
+def _compiled(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+    timestep: float,
+    shapes: Mapping[str, Sequence[CollisionShape]],
+) -> mujoco.MjModel:
+    """Build the model; the arguments are those of `compile_scene`."""
     spec = _with_options(scene, timestep, is_simulated=bool(dynamics))
     world_from_localized = scene.world_from_localized
     _add_vehicles(spec, scene, robots, dynamics)
@@ -247,12 +263,26 @@ def _add_shapes(
             friction=list(FRICTION),
             solimp=list(SOFTNESS),
         )
-        if shape.corners is None:
-            geom.size[: len(shape.size)] = shape.size
-        else:
-            mesh = f"{name}/{i}"
-            spec.add_mesh(name=mesh, uservert=shape.corners.ravel().tolist())
-            geom.meshname = mesh
+        give_form(spec, geom, f"{name}/{i}", shape)
+
+
+def give_form(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, name: str, shape: CollisionShape) -> None:
+    """Set the size of an engine's shape; a hull or a height field is added under ``name``."""
+    if shape.corners is not None:
+        spec.add_mesh(name=name, uservert=shape.corners.ravel().tolist())
+        geom.meshname = name
+    elif shape.heights is not None:
+        rows, columns = shape.heights.shape
+        spec.add_hfield(
+            name=name,
+            size=list(shape.size),
+            nrow=rows,
+            ncol=columns,
+            userdata=shape.heights.ravel().tolist(),
+        )
+        geom.hfieldname = name
+    else:
+        geom.size[: len(shape.size)] = shape.size
 
 
 def _give_surface(

@@ -20,6 +20,7 @@ from ..world import Contact
 from .actuation.vehicle_actuation import actuation_of
 from .collision.contacts import EngineContacts, body_name
 from .collision.shapes import CollisionShape
+from .collision.world_tree import place_fixed_shapes
 from .compile import compile_scene, vehicle_joint
 from .engine_warnings import StepCheck
 from .grips import Grips
@@ -31,7 +32,6 @@ from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
 from .uwsim_physics import UwsimPhysics
-from .world_tree import place_fixed_shapes
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics

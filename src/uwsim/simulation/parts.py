@@ -77,7 +77,7 @@ def parts_of(
         for device in comms_devices(vehicle):
             if device.mesh is not None and robot.link(device.relative_to) is not None:
                 number += 1
-                model = load(device.mesh.path, None)
+                model = load(device.mesh.path)
                 parts.append(_device_part(number, index, vehicle, device, model))
         for array in vehicle.parts_of(LedArraySpec):
             if robot.link(array.relative_to) is not None:
@@ -90,7 +90,7 @@ def parts_of(
             Part(
                 id=number,
                 name=thing.name,
-                model=_worn(load(thing.file, None), thing),
+                model=_worn(load(thing.file), thing),
                 vehicle=None,
                 link="",
                 object=index,
@@ -178,22 +178,17 @@ def visual_model(
     return (model if visual.colour is None else painted(model, visual.colour)), scale
 
 
-def object_models(
-    scene: SceneSpec, data_path: tuple[Path, ...]
-) -> Callable[[str, int | None], Model]:
-    """Return what loads the looks of objects by file and greatest number of triangles, each once.
+def object_models(scene: SceneSpec, data_path: tuple[Path, ...]) -> Callable[[str], Model]:
+    """Return what loads the looks of objects by file, each once.
 
-    A file of more triangles is simplified to about as many; one that is nowhere is a labelled box
-    in a scene of the original.
+    A file that is nowhere is a labelled box in a scene of the original.
     """
     named_by = Path(scene.path).parent if scene.path else None
 
     @functools.cache
-    def load(name: str, max_triangles: int | None) -> Model:
+    def load(name: str) -> Model:
         try:
-            return load_model(
-                name, named_by=named_by, data_path=data_path, max_triangles=max_triangles
-            )
+            return load_model(name, named_by=named_by, data_path=data_path)
         except AssetNotFound:
             if not scene.is_original:
                 raise

@@ -16,7 +16,7 @@ KEPT = 256
 """Number of models kept in memory."""
 
 _Stamp = tuple[int, int]
-_Key = tuple[Path, str, tuple[Path, ...], int | None]
+_Key = tuple[Path, str, tuple[Path, ...]]
 _kept: dict[_Key, tuple[tuple[_Stamp, ...], Model]] = {}
 
 
@@ -37,28 +37,25 @@ def why_not_read(path: Path) -> str:
     return f"{path}: files of type {suffix or 'none'} are not read; expected one of {known}"
 
 
-def read_model(
-    path: Path, *, name: str, within: tuple[Path, ...] = (), max_triangles: int | None = None
-) -> Model:
+def read_model(path: Path, *, name: str, within: tuple[Path, ...] = ()) -> Model:
     """The model in a file, cached until one of its files changes.
 
     Args:
         path: The file.
         name: The name by which it was looked up.
         within: Folders that its materials and images may lie in; its own by default.
-        max_triangles: Simplified to about this many when it has more.
 
     Raises:
         AssetError: It cannot be read.
     """
     within = within or (path.absolute().parent,)
-    key = (path, name, within, max_triangles)
+    key = (path, name, within)
     kept = _kept.get(key)
     if kept is not None and kept[0] == _stamps(kept[1]):
         record(kept[1].files)
         return kept[1]
     try:
-        model = _read(path, name, within, max_triangles)
+        model = _read(path, name, within)
     except OSError as error:
         raise AssetError(f"{path}: cannot be read ({error.strerror}).") from error
     while len(_kept) >= KEPT:
@@ -73,17 +70,15 @@ def _stamps(model: Model) -> tuple[_Stamp, ...]:
     return tuple((0, 0) if each is None else (each.st_mtime_ns, each.st_size) for each in facts)
 
 
-def _read(path: Path, name: str, within: tuple[Path, ...], max_triangles: int | None) -> Model:
+def _read(path: Path, name: str, within: tuple[Path, ...]) -> Model:
     suffix = path.suffix.lower()
     with recorded() as files:
         if suffix in READABLE:
-            meshes = read_meshes(path, name=name, within=within, max_triangles=max_triangles)
+            meshes = read_meshes(path, name=name, within=within)
         elif suffix in BY_OSGCONV:
             read_bytes(path, name=name)
             with converted(path) as obj:
-                meshes = read_meshes(
-                    obj, name=name, within=within, max_triangles=max_triangles, original=path
-                )
+                meshes = read_meshes(obj, name=name, within=within, original=path)
         else:
             raise AssetError(why_not_read(path))
     digest = files[0].sha256.removeprefix("sha256:")

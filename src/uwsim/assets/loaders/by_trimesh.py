@@ -45,7 +45,6 @@ def read_meshes(
     *,
     name: str = "",
     within: tuple[Path, ...] = (),
-    max_triangles: int | None = None,
     original: Path | None = None,
 ) -> tuple[Mesh, ...]:
     """The meshes of a file, in its own frame and units; axes are left as they are.
@@ -56,7 +55,6 @@ def read_meshes(
         path: The file.
         name: The name by which it was looked up.
         within: Folders that its materials and images may lie in; its own by default.
-        max_triangles: Simplified to about this many in all when there are more.
         original: What the file was converted from; images are looked for next to it, too.
 
     Raises:
@@ -64,13 +62,13 @@ def read_meshes(
     """
     with _errors_as_ours(path):
         data = _bytes(path, name or path.name, original)
-        file = mesh_cache.file_of(data, path.suffix.lower(), max_triangles)
+        file = mesh_cache.file_of(data, path.suffix.lower())
         kept = mesh_cache.read(file) if original is None else None
         if kept is not None:
             return kept
         references = _references(path, name or path.name, within, original)
         parts = _parts(path, data, references)
-    meshes = _meshes(path, parts, max_triangles)
+    meshes = _meshes(path, parts)
     if original is None and not references.were_needed:
         mesh_cache.keep(file, meshes)
     return meshes
@@ -97,13 +95,9 @@ def _errors_as_ours(path: Path) -> Iterator[None]:
         ) from error
 
 
-def _meshes(
-    path: Path, parts: list[tuple[Any, Any]], max_triangles: int | None
-) -> tuple[Mesh, ...]:
+def _meshes(path: Path, parts: list[tuple[Any, Any]]) -> tuple[Mesh, ...]:
     looks = Looks(path)
-    total = sum(len(part.faces) for part, _ in parts)
-    keep = 1.0 if max_triangles is None else min(1.0, max_triangles / total)
-    made = [_mesh(part, looks, visual, path, keep) for part, visual in parts if len(part.faces)]
+    made = [_mesh(part, looks, visual, path) for part, visual in parts if len(part.faces)]
     meshes = tuple(found for found in made if found is not None)
     if not meshes:
         raise AssetError(f"{path}: all of its triangles are without area.")
@@ -231,7 +225,7 @@ def _is_binary_stl(data: bytes) -> bool:
     return len(data) == STL_HEADER + 4 + 50 * count
 
 
-def _mesh(part: Any, looks: Looks, visual: Any, path: Path, keep: float) -> Mesh | None:
+def _mesh(part: Any, looks: Looks, visual: Any, path: Path) -> Mesh | None:
     """One trimesh mesh as ours; None when it has no area."""
     vertices = np.asarray(part.vertices, dtype=np.float64)
     faces = np.asarray(part.faces, dtype=np.int64)
@@ -248,31 +242,7 @@ def _mesh(part: Any, looks: Looks, visual: Any, path: Path, keep: float) -> Mesh
     given = getattr(visual, "uv", None)
     if given is not None and np.shape(given) == (len(vertices), 2):
         uvs = np.nan_to_num(np.asarray(given, dtype=np.float64))
-    if keep < 1.0:
-        vertices, faces, uvs = _simplified(vertices, faces, uvs, keep)
     shape = Shape(vertices[faces], uvs[faces])
     if shape.area <= 0.0:
         return None
     return mesh(shape, colour=colour, texture=texture, two_sided=True)
-
-
-def _simplified(
-    vertices: npt.NDArray[np.float64],
-    faces: npt.NDArray[np.int64],
-    uvs: npt.NDArray[np.float64],
-    keep: float,
-) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.int64], npt.NDArray[np.float64]]:
-    """Fewer triangles; texture coordinates are taken from the nearest old vertex."""
-    import fast_simplification
-    from scipy.spatial import cKDTree
-
-    _, first, number = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
-    welded = vertices[first]
-    points, triangles = fast_simplification.simplify(
-        welded.astype(np.float32), number.ravel()[faces].astype(np.int32), 1.0 - keep
-    )
-    if not len(triangles):
-        return vertices, faces, uvs
-    points = np.asarray(points, dtype=np.float64)
-    _, nearest = cKDTree(vertices).query(points)
-    return points, np.asarray(triangles, dtype=np.int64), uvs[nearest]

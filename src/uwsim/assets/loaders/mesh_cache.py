@@ -1,8 +1,7 @@
 """Disk cache of meshes that were read from files: to import trimesh takes a third of a second.
 
 Kept are the meshes of a file that names no other and has no image. They are found by the hash of
-all that they follow from: the bytes of the file, how many triangles were wanted, the sources and
-the versions of what reads them.
+all that they follow from: the bytes of the file, the sources and the versions of what reads them.
 """
 
 from __future__ import annotations
@@ -25,13 +24,13 @@ from ..procedural import shapes
 
 MAX_TRIANGLES = 500_000
 """Meshes with more in all are not kept: some 50 MB."""
-READERS = ("numpy", "trimesh", "scipy", "fast-simplification", "pycollada")
+READERS = ("numpy", "trimesh", "scipy", "pycollada")
 _ARRAYS = ("vertices", "normals", "uvs", "triangles", "colour", "two_sided")
 
 
-def file_of(data: bytes, suffix: str, max_triangles: int | None) -> Path:
+def file_of(data: bytes, suffix: str) -> Path:
     """Where the meshes are kept of a file that holds ``data``."""
-    digest = hashlib.sha256(f"{_key()} {suffix} {max_triangles} ".encode() + data).hexdigest()
+    digest = hashlib.sha256(f"{_key()} {suffix} ".encode() + data).hexdigest()
     return disk_cache.folder("meshes") / f"{digest[:32]}.npz"
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from ...geometry import Array, Pose, quaternion_from_rotation
 from ...numerics.linear import dot, length
 from ...world import Contact
-from ..compile import ALL, OBJECTS, SHAPES
+from ..compile import ALL, OBJECTS, SHAPES, give_form
 from .shapes import CollisionShape
 
 MAX_JUMP = 1.0
@@ -162,11 +162,7 @@ def _model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:
                 contype=bit,
                 conaffinity=ALL & ~bit,
             )
-            if shape.corners is None:
-                geom.size[: len(shape.size)] = shape.size
-            else:
-                spec.add_mesh(name=f"{name}/{i}", uservert=shape.corners.ravel().tolist())
-                geom.meshname = f"{name}/{i}"
+            give_form(spec, geom, f"{name}/{i}", shape)
     return spec.compile()
 
 

@@ -8,14 +8,11 @@ from __future__ import annotations
 
 import hashlib
 import io
-import platform
-from functools import cache
-from importlib.metadata import version
-from pathlib import Path
 
 import numpy as np
 
 from ...files import disk_cache
+from ...files.code_digest import code_digest
 from ...geometry import Array
 from ...numerics import linear
 from . import convex_faces
@@ -23,8 +20,10 @@ from . import convex_faces
 
 def cached_faces(triangles: Array) -> list[Array]:
     """`convex_faces.convex_faces` of the triangles (n, 3, 3) [m], from the cache if possible."""
-    digest = hashlib.sha256(_key() + np.ascontiguousarray(triangles).tobytes()).hexdigest()
-    file = disk_cache.folder("polygons") / f"{digest[:32]}.npz"
+    sources = [str(module.__file__) for module in (convex_faces, linear)]
+    digest = hashlib.sha256(code_digest(sources, ("numpy", "scipy")))
+    digest.update(np.ascontiguousarray(triangles).data)
+    file = disk_cache.folder("polygons") / f"{digest.hexdigest()[:32]}.npz"
     data = disk_cache.read(file)
     if data is None:
         polygons = convex_faces.convex_faces(triangles)
@@ -39,13 +38,3 @@ def _packed(polygons: list[Array]) -> bytes:
     corners = np.concatenate([*polygons, np.zeros((0, 3))])
     np.savez(packed, corners=corners, ends=np.cumsum([len(each) for each in polygons], dtype=int))
     return packed.getvalue()
-
-
-@cache
-def _key() -> bytes:
-    """Hash of everything that polygons depend on besides the triangles."""
-    digest = hashlib.sha256()
-    for module in (convex_faces, linear):
-        digest.update(Path(str(module.__file__)).read_bytes())
-    digest.update(f"{version('numpy')} {version('scipy')} {platform.machine()}".encode())
-    return digest.digest()

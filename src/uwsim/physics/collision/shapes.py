@@ -12,9 +12,10 @@ compound trimesh   as trimesh
 =================  ======================================================================
 
 A fixed trimesh becomes plates behind its flat faces (`convex_faces`): a rectangle a slab, any other
-polygon a prism, `THICKNESS` deep, away from the side the face is seen from. Ground whose faces look
-down as a whole is turned over: its file has its corners the other way round. Not modelled: hollows
-of loose things, faces seen from both sides.
+polygon a prism, `THICKNESS` deep, away from the side the face is seen from. A large one is
+simplified, or becomes tiles of a height field (`fixed_mesh`), which are `DEPTH` thick. Ground whose
+faces look down as a whole is turned over: its file has its corners the other way round. Not
+modelled: hollows of loose things, faces seen from both sides.
 """
 
 from __future__ import annotations
@@ -30,16 +31,23 @@ from ...assets.mesh import Model
 from ...errors import UwsimError
 from ...geometry import Array, Pose
 from ...numerics.linear import placed, product
+from .fixed_mesh import FixedMesh
+from .fixed_mesh_cache import cached_mesh
+from .height_field import HeightField
 from .polygon_cache import cached_faces
 
 TRIMESHES = ("trimesh", "compound trimesh")
 """The collisionShapeTypes that are faces where nothing moves."""
 THICKNESS = 0.1
 """Of the plates of a fixed trimesh; not more than its shortest extent, unless it is `FLAT` [m]."""
+DEPTH = 1.0
+"""Of a height field below its lowest point [m]."""
 FLAT = 0.01
 """A mesh no thicker than this is a plane [m]."""
 MAX_PIECES = 10_000
-"""Plates of one fixed trimesh; with 4000 a scene opens in 3 s and takes 8000 steps/s."""
+"""Plates of one fixed trimesh."""
+LOWEST = 1e-6
+"""Least range of the heights of a height field that the engine takes [m]."""
 THINNEST = 1e-3
 """Least edge of a box [m]."""
 BULGE = 0.01
@@ -56,14 +64,17 @@ OPEN = 0.5
 class CollisionShape:
     """A convex shape on a body."""
 
-    kind: Literal["box", "sphere", "cylinder", "hull"]
+    kind: Literal["box", "sphere", "cylinder", "hull", "height field"]
     """What it is."""
     body_from_shape: Pose
-    """Where its middle is; a cylinder's axis is z."""
+    """Where its middle is; a cylinder's axis is z; of a height field at its lowest height."""
     size: tuple[float, ...] = ()
-    """Half edges of a box; radius of a ball; radius and half length of a cylinder [m]."""
+    """Half edges of a box; radius of a ball; radius and half length of a cylinder; half edges,
+    greatest height and depth of a height field [m]."""
     corners: Array | None = None
     """Corners of a hull, in the shape's frame, (n, 3) [m]."""
+    heights: Array | None = None
+    """Of a height field above its lowest, a row along x for each y, (rows, columns) [m]."""
 
 
 def shapes_of(
@@ -73,6 +84,7 @@ def shapes_of(
     *,
     is_fixed: bool,
     up: Array | None = None,
+    error: float | None = None,
 ) -> tuple[CollisionShape, ...]:
     """Make the shapes of a body.
 
@@ -82,6 +94,7 @@ def shapes_of(
         kind: collisionShapeType; an unknown one is read as box.
         is_fixed: whether the body never moves.
         up: W's z in the body's axes, (3,), if it is the ground, which is seen from above.
+        error: greatest distance of a fixed trimesh from its mesh [m]; None: that of `fixed_mesh`.
 
     Raises:
         UwsimError: a fixed trimesh has too many faces.
@@ -91,9 +104,9 @@ def shapes_of(
     if kind in TRIMESHES:
         if not is_fixed:
             return tuple(_hull(part) for part in parts)
-        faces = [part[mesh.triangles] for part, mesh in zip(parts, model.meshes, strict=True)]
-        triangles = np.concatenate(faces)
-        return _plates(triangles if up is None else seen_from(up, triangles), model.name)
+        mesh = fixed_mesh_of(model, body_from_mesh, up=up, error=error)
+        tiles = [tile for field in mesh.fields for tile in _tiles(field)]
+        return (*_plates(mesh.faces, model.name), *tiles)
     if kind == "compound box":
         return tuple(box_around(part) for part in parts)
     if kind == "compound cylinder":
@@ -106,6 +119,25 @@ def shapes_of(
             ),
         )
     return (box,)
+
+
+def fixed_mesh_of(
+    model: Model,
+    body_from_mesh: npt.NDArray[np.float64],
+    *,
+    up: Array | None,
+    error: float | None,
+) -> FixedMesh:
+    """Find what is touched of a fixed trimesh; the arguments are those of `shapes_of`."""
+    turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
+    parts = [
+        placed(mesh.vertices.astype(np.float64), turn, shift)[mesh.triangles]
+        for mesh in model.meshes
+    ]
+    if up is not None:
+        whole = seen_from(up, np.concatenate(parts))
+        parts = np.split(whole, np.cumsum([len(part) for part in parts])[:-1])
+    return cached_mesh(parts, error)
 
 
 def convex_shapes(
@@ -193,7 +225,8 @@ def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
     if len(faces) > MAX_PIECES:
         raise UwsimError(
             f"{name!r} as a fixed trimesh would be {len(faces)} plates; at most {MAX_PIECES}. "
-            "Name a simpler mesh in <collisionShape>, or another <collisionShapeType>."
+            "Set a greater <u:contactError>, name a simpler mesh in <collisionShape>, or another "
+            "<collisionShapeType>."
         )
     if not faces:
         return ()
@@ -234,6 +267,21 @@ def _plates_of(faces: Array, depth: float) -> Iterator[CollisionShape]:
         else:
             place = Pose.identity()
             yield CollisionShape(kind="hull", body_from_shape=place, corners=prisms[n])
+
+
+def _tiles(field: HeightField) -> Iterator[CollisionShape]:
+    """The tiles of a height field."""
+    half_cell = 0.5 * field.spacing
+    for middle, heights in field.tiles():
+        low, high = float(heights.min()), float(heights.max())
+        rows, columns = heights.shape
+        half = (columns - 1) * half_cell[0], (rows - 1) * half_cell[1]
+        yield CollisionShape(
+            kind="height field",
+            body_from_shape=Pose(middle + low * field.body_from_field[:, 2], field.body_from_field),
+            size=(float(half[0]), float(half[1]), max(high - low, LOWEST), DEPTH),
+            heights=heights - low,
+        )
 
 
 def _sum(vectors: Array) -> Array:

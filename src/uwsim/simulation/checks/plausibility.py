@@ -26,6 +26,7 @@ from ..collision.collision_shapes import simulated_solids
 from ..collision.hull import hull_of
 from ..dynamics import DYNAMICS, read_dynamics
 from .bottom import Bottom
+from .mesh_warnings import mesh_warnings
 from .object_plausibility import of_objects
 from .place_warnings import place_warnings
 from .start_plausibility import Starts
@@ -84,6 +85,7 @@ def plausibility_warnings(
     if dynamics:
         density = next(iter(dynamics.values())).density
         found += step_warnings(scene, loose, density, timestep, data_path)
+    found += mesh_warnings(scene, dynamics, data_path)
     return found
 
 

@@ -4,8 +4,8 @@ Every link of a vehicle, as the box around its collision geometry, else around w
 a finger, a link at the end of a chain that a joint moves, as its mesh where that is convex. And the
 objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
 or the scene asks for the original's physics, an object is loose if it has a mass and is not
-``isKinematic``; elsewhere it is fixed. Solid scenery without ``<physics>`` is its faces; of a
-mesh of more than `MAX_TRIANGLES` those of a simpler one. Not modelled: contacts of a vehicle with
+``isKinematic``; elsewhere it is fixed. Solid scenery without ``<physics>`` is its faces, a large
+mesh those of `uwsim.physics.collision.fixed_mesh`. Not modelled: contacts of a vehicle with
 itself, of objects that stand still with each other; limits of objects; hollows between the hulls of
 a link.
 """
@@ -21,11 +21,13 @@ import numpy as np
 from ...assets.mesh import Model
 from ...geometry import Array, Pose
 from ...numerics.linear import placed, product, turned
+from ...physics.collision.fixed_mesh import FixedMesh
 from ...physics.collision.ground import triangles_of
 from ...physics.collision.shapes import (
     TRIMESHES,
     CollisionShape,
     convex_shapes,
+    fixed_mesh_of,
     seen_from,
     shapes_of,
 )
@@ -36,9 +38,6 @@ from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec, VisualSpec
 from ...scene.vehicle import VehicleSpec
 from ..parts import object_models, visual_model
-
-MAX_TRIANGLES = 8000
-"""Of solid scenery without ``<physics>`` as it is touched: a mesh of more is simplified."""
 
 
 def simulated_shapes(
@@ -96,6 +95,7 @@ def collision_shapes(
             physics.collision_shape_type,
             is_fixed=not physics.is_loose,
             up=_up(thing, scene) if thing.is_ground else None,
+            error=thing.contact_error,
         )
     for index in vehicles:
         robot = robots[index]
@@ -177,24 +177,44 @@ def standing_faces(
     thing = scene.objects[index]
     world_from_object = scene.world_from_localized @ thing.localized_from_object
     model = _touched_model(thing, physics, object_models(scene, data_path))
-    if physics.collision_shape_type not in TRIMESHES:
-        shapes = shapes_of(
-            model, _object_from_mesh(thing), physics.collision_shape_type, is_fixed=True
-        )
+    object_from_mesh = _object_from_mesh(thing)
+    object_from_mesh = _object_from_mesh(thing)
+    touched = touched_mesh(scene, index, physics, data_path)
+    if touched is None:
+        shapes = shapes_of(model, object_from_mesh, physics.collision_shape_type, is_fixed=True)
         return triangles_of(shapes, world_from_object)
-    world_from_mesh = product(world_from_object.matrix, _object_from_mesh(thing))
+    if not touched.is_exact:
+        corners = touched.triangles().reshape(-1, 3)
+        return world_from_object.transform(corners).reshape(-1, 3, 3)
+    world_from_mesh = product(world_from_object.matrix, object_from_mesh)
     faces = np.concatenate([mesh.vertices[mesh.triangles] for mesh in model.meshes])
     corners = faces.astype(np.float64).reshape(-1, 3)
     triangles = placed(corners, world_from_mesh[:3, :3], world_from_mesh[:3, 3]).reshape(-1, 3, 3)
     return seen_from(np.array([0.0, 0.0, 1.0]), triangles) if thing.is_ground else triangles
 
 
-def _touched_model(
-    thing: ObjectSpec, physics: PhysicsSpec, load: Callable[[str, int | None], Model]
-) -> Model:
-    """The mesh that an object is touched as, of `MAX_TRIANGLES` at most without ``<physics>``."""
-    most = MAX_TRIANGLES if thing.physics is None else None
-    return load(physics.collision_shape or thing.file, most)
+def touched_mesh(
+    scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
+) -> FixedMesh | None:
+    """Find what is touched of a fixed mesh, in the object's frame; None of what is another shape.
+
+    Args:
+        scene: spec of the scene.
+        index: number of the object.
+        physics: what it is.
+        data_path: folders in which files are looked for.
+    """
+    if physics.is_loose or physics.collision_shape_type not in TRIMESHES:
+        return None
+    thing = scene.objects[index]
+    model = _touched_model(thing, physics, object_models(scene, data_path))
+    up = _up(thing, scene) if thing.is_ground else None
+    return fixed_mesh_of(model, _object_from_mesh(thing), up=up, error=thing.contact_error)
+
+
+def _touched_model(thing: ObjectSpec, physics: PhysicsSpec, load: Callable[[str], Model]) -> Model:
+    """The model whose mesh is touched of an object."""
+    return load(physics.collision_shape or thing.file)
 
 
 def _object_from_mesh(thing: ObjectSpec) -> Array:

@@ -6,7 +6,12 @@ import mujoco
 import numpy as np
 import pytest
 
-from uwsim.physics.world_tree import MAX_DEPTH, PLACED, place_fixed_shapes, rebuild_world_tree
+from uwsim.physics.collision.world_tree import (
+    MAX_DEPTH,
+    PLACED,
+    place_fixed_shapes,
+    rebuild_world_tree,
+)
 
 
 def plates(n: int, seed: int) -> tuple[mujoco.MjModel, mujoco.MjModel]:

@@ -19,7 +19,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
+from ...geometry import Array
 
 WORLD = 0
 """The engine's number of the body of fixed shapes."""
@@ -100,6 +100,6 @@ def _cut(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints
 def _areas(lows: Array, highs: Array) -> Array:
     """Half the surface of the box around the first 1, 2, ... of some rows of boxes, (3, n) [m2]."""
     edges = np.maximum.accumulate(highs, axis=1) - np.minimum.accumulate(lows, axis=1)
-    x, y, z = np.moveaxis(edges, 2, 0)
+    x, y, z = edges[..., 0], edges[..., 1], edges[..., 2]
     areas: Array = x * y + y * z + z * x
     return areas

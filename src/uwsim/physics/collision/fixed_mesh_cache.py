@@ -1,0 +1,61 @@
+"""Disk cache of what is touched of large fixed meshes: finding it takes up to seconds.
+
+It is found by the hash of the triangles, of the error, and of the code that makes it.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...files import disk_cache
+from ...files.code_digest import code_digest
+from ...geometry import Array
+from ...numerics import linear
+from . import convex_faces, fixed_mesh, height_field, simplification
+from .fixed_mesh import MAX_EXACT, FixedMesh
+from .height_field import HeightField
+
+SOURCES = (convex_faces, fixed_mesh, height_field, simplification, linear)
+PACKAGES = ("numpy", "numba", "fast-simplification")
+_ARRAYS = ("body_from_field", "origin", "spacing", "heights", "error")
+
+
+def cached_mesh(parts: Sequence[Array], error: float | None) -> FixedMesh:
+    """`fixed_mesh.fixed_mesh` of the same arguments, from the cache if possible."""
+    if sum(map(len, parts)) <= MAX_EXACT and not error:
+        return fixed_mesh.fixed_mesh(parts, error)
+    digest = hashlib.sha256(code_digest([str(one.__file__) for one in SOURCES], PACKAGES))
+    digest.update(f"{error!r} {[len(part) for part in parts]}".encode())
+    for part in parts:
+        digest.update(np.ascontiguousarray(part).data)
+    file = disk_cache.folder("fixed-meshes") / f"{digest.hexdigest()[:32]}.npz"
+    data = disk_cache.read(file)
+    if data is not None:
+        return _unpacked(data)
+    found = fixed_mesh.fixed_mesh(parts, error)
+    disk_cache.write(file, _packed(found))
+    return found
+
+
+def _packed(mesh: FixedMesh) -> bytes:
+    arrays: dict[str, Any] = {"faces": mesh.faces, "error": np.array(mesh.error)}
+    for i, field in enumerate(mesh.fields):
+        arrays |= {f"{i}/{name}": np.array(getattr(field, name)) for name in _ARRAYS}
+    packed = io.BytesIO()
+    np.savez(packed, **arrays)
+    return packed.getvalue()
+
+
+def _unpacked(data: bytes) -> FixedMesh:
+    with np.load(io.BytesIO(data), allow_pickle=False) as kept:
+        arrays: dict[str, Any] = dict(kept)
+    fields: list[HeightField] = []
+    while f"{len(fields)}/heights" in arrays:
+        of_one = {name: arrays[f"{len(fields)}/{name}"] for name in _ARRAYS}
+        fields.append(HeightField(**of_one | {"error": float(of_one["error"])}))
+    return FixedMesh(faces=arrays["faces"], fields=tuple(fields), error=float(arrays["error"]))

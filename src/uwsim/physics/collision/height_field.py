@@ -1,0 +1,243 @@
+r"""Conversion of ground to height fields, which the engine compiles and searches fast.
+
+A mesh is a height field if it is a sheet over a rectangle: seen along one axis of its body, all of
+its faces look the same way, and each point of the rectangle lies in exactly one of them. Its
+heights are taken at the nodes of a grid,
+
+.. math:: h_{ij} = z(x_0 + j\,\Delta x,\; y_0 + i\,\Delta y),
+
+and each cell is two triangles. A mesh that is such a grid itself is converted exactly. Any other is
+sampled at a distance that is halved until the greatest difference in height between both surfaces,
+which lies at a node, a corner, or where two edges cross, is no more than a given error.
+
+The engine finds 50 contacts at most between a shape and a height field. So the grid is cut into
+tiles of 5 x 5 cells, 50 triangles each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from ...geometry import Array
+from ...numerics.linear import product
+
+TILE = 5
+"""Cells along each side of a tile."""
+MAX_CELLS = 250_000
+"""Cells of a grid; they are 10 000 tiles."""
+FLAT = 1e-3
+"""A sheet with less difference in height is a plane, for which plates are better [m]."""
+EXACT = 1e-5
+"""Errors up to this are rounding of the file [m]."""
+MAX_REFINEMENTS = 4
+"""How often the distance of nodes is halved."""
+CLOSE = 1e-6
+"""How far a point may lie outside a triangle or a grid line, as a share of its size [1]."""
+
+Ints = npt.NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HeightField:
+    """Heights over a rectangle; the diagonal of each cell runs from its first to its last node."""
+
+    body_from_field: Array
+    """Its axes in the body's frame as columns, the third upwards, (3, 3)."""
+    origin: Array
+    """The first node in the axes of the field, x and y, (2,) [m]."""
+    spacing: Array
+    """Distance of two nodes along x and y, (2,) [m]."""
+    heights: Array
+    """Heights of the nodes, a row along x for each y, (rows, columns) [m]."""
+    error: float
+    """Greatest difference in height from the mesh [m]."""
+
+    def triangles(self) -> Array:
+        """The faces of all cells in the body's frame, (n, 3, 3) [m]."""
+        rows, columns = self.heights.shape
+        x = self.origin[0] + self.spacing[0] * np.arange(columns)
+        y = self.origin[1] + self.spacing[1] * np.arange(rows)
+        points = np.empty((rows, columns, 3))
+        points[..., 0], points[..., 1], points[..., 2] = x[None, :], y[:, None], self.heights
+        a, b = points[:-1, :-1], points[:-1, 1:]
+        c, d = points[1:, :-1], points[1:, 1:]
+        faces = np.stack([np.stack([a, b, d], axis=2), np.stack([a, d, c], axis=2)], axis=2)
+        found: Array = product(faces.reshape(-1, 3), self.body_from_field.T).reshape(-1, 3, 3)
+        return found
+
+    def tiles(self) -> Iterator[tuple[Array, Array]]:
+        """Middles of the tiles at height 0 in the body's frame, (3,) [m], and their heights [m]."""
+        rows, columns = self.heights.shape
+        for i in range(0, rows - 1, TILE):
+            for j in range(0, columns - 1, TILE):
+                heights = self.heights[i : i + TILE + 1, j : j + TILE + 1]
+                half = 0.5 * (np.array(heights.shape[::-1]) - 1.0)  # in cells, along x and y
+                x, y = self.origin + self.spacing * (np.array([j, i]) + half)
+                yield product(self.body_from_field, np.array([x, y, 0.0])), heights
+
+
+def height_field(triangles: Array, error: float) -> HeightField | None:
+    """Convert a sheet to a height field; None if it is none, or is a plane.
+
+    Args:
+        triangles: counter-clockwise from where they are seen, (n, 3, 3) [m].
+        error: greatest difference in height allowed [m].
+    """
+    normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    sizes = np.sqrt((normals * normals).sum(axis=1))
+    has_area = sizes > 0.0
+    if not has_area.any():
+        return None
+    total = normals.sum(axis=0)
+    axis = int(np.argmax(np.abs(total)))
+    sign = 1.0 if total[axis] > 0.0 else -1.0
+    if not (sign * normals[has_area, axis] > 0.0).all():
+        return None
+    best: HeightField | None = None
+    for turn in (0, 1):  # the diagonals of a grid that is turned by 90 degrees run the other way
+        frame = _frame(axis, sign, turn)
+        corners = product(triangles[has_area].reshape(-1, 3), frame).reshape(-1, 3, 3)
+        found = _over_rectangle(corners, frame, error)
+        if found is not None and (best is None or found.error < best.error):
+            best = found
+        if best is None or best.error <= EXACT:
+            break
+    return best if best is not None and best.error <= max(error, EXACT) else None
+
+
+def _frame(axis: int, sign: float, turn: int) -> Array:
+    """Axes of a field in the body's frame: the third is ``sign`` times a body's axis, (3, 3)."""
+    x, y, z = (np.eye(3)[(axis + k) % 3] for k in (1, 2, 3))
+    if sign < 0.0:
+        y, z = -y, -z
+    if turn:
+        x, y = y, -x
+    return np.column_stack([x, y, z])
+
+
+def _over_rectangle(corners: Array, frame: Array, error: float) -> HeightField | None:
+    """Sample a sheet, (n, 3, 3) in the axes of the field; None if it covers no whole rectangle."""
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    extent = (high - low)[:2]
+    if high[2] - low[2] < FLAT or extent.min() <= 0.0:
+        return None
+    along, across = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
+    area = 0.5 * float((along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]).sum())
+    if abs(area - extent[0] * extent[1]) > 1e-5 * area:
+        return None
+    size = _grid_of(corners, low, extent)
+    if size is not None:
+        return _sampled(corners, frame, low, extent, size)
+    if error <= EXACT:
+        return None
+    spacing = float(np.sqrt(2.0 * area / len(corners)))
+    found: HeightField | None = None
+    for k in range(MAX_REFINEMENTS):
+        cells = np.maximum(1, np.ceil(extent / (spacing / 2**k))).astype(int)
+        size = (int(cells[1]) + 1, int(cells[0]) + 1)
+        if cells[0] * cells[1] > MAX_CELLS:
+            break
+        found = _sampled(corners, frame, low, extent, size)
+        if found is None or found.error <= error:
+            break
+    return found
+
+
+def _grid_of(corners: Array, low: Array, extent: Array) -> tuple[int, int] | None:
+    """Rows and columns of a mesh that is a regular grid; None of any other."""
+    counts: list[int] = []
+    for k in range(2):
+        places = np.sort(corners[:, :, k].ravel())
+        step = float(extent[k]) / np.sqrt(2.0 * len(corners))
+        first = np.concatenate([[True], np.diff(places) > 0.01 * step])
+        lines = places[first]
+        even = low[k] + extent[k] * np.linspace(0.0, 1.0, len(lines))
+        if len(lines) < 2 or np.abs(lines - even).max() > 0.01 * extent[k] / (len(lines) - 1):
+            return None
+        counts.append(len(lines))
+    columns, rows = counts
+    n_cells = (rows - 1) * (columns - 1)
+    return (rows, columns) if 2 * n_cells == len(corners) and n_cells <= MAX_CELLS else None
+
+
+def _sampled(
+    corners: Array, frame: Array, low: Array, extent: Array, size: tuple[int, int]
+) -> HeightField | None:
+    """Sample a sheet at the nodes of a grid of some rows and columns; None where it has a hole."""
+    rows, columns = size
+    spacing = extent / np.array([columns - 1, rows - 1])
+    grid = corners.copy()  # x and y in cells
+    grid[..., :2] = (corners[..., :2] - low[:2]) / spacing
+    heights = _heights_at_nodes(grid, rows, columns)
+    if not np.isfinite(heights).all():
+        return None
+    return HeightField(
+        body_from_field=frame,
+        origin=low[:2].copy(),
+        spacing=spacing,
+        heights=heights,
+        error=_greatest_difference(grid, heights),
+    )
+
+
+def _heights_at_nodes(grid: Array, rows: int, columns: int) -> Array:
+    """Heights of triangles (n, 3, 3), x and y in cells, at the nodes; nan where there is none."""
+    first = np.ceil(grid[..., :2].min(axis=1) - CLOSE).astype(np.int64)  # (n, 2)
+    counts = np.floor(grid[..., :2].max(axis=1) + CLOSE).astype(np.int64) - first + 1
+    owner, place = _ranges(counts[:, 0] * counts[:, 1])
+    wide = counts[owner, 0]
+    column, row = first[owner, 0] + place % wide, first[owner, 1] + place // wide
+    a, b, c = (grid[owner, k] for k in range(3))
+    x, y = column - a[:, 0], row - a[:, 1]
+    ab, ac = b - a, c - a
+    doubled = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    s = (x * ac[:, 1] - y * ac[:, 0]) / doubled
+    t = (y * ab[:, 0] - x * ab[:, 1]) / doubled
+    inside = (s >= -CLOSE) & (t >= -CLOSE) & (s + t <= 1.0 + CLOSE)
+    inside &= (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
+    heights = np.full((rows, columns), np.nan)
+    values = a[:, 2] + s * ab[:, 2] + t * ac[:, 2]
+    heights[row[inside], column[inside]] = values[inside]
+    return heights
+
+
+def _greatest_difference(grid: Array, heights: Array) -> float:
+    """Greatest difference in height between triangles (n, 3, 3), x and y in cells, and a field.
+
+    Both surfaces are flat between corners, nodes and the places where an edge of the one crosses an
+    edge of the other; at the nodes there is none.
+    """
+    points = [grid.reshape(-1, 3)]
+    begins, ends = grid.reshape(-1, 3), np.roll(grid, -1, axis=1).reshape(-1, 3)
+    for family in ((1.0, 0.0), (0.0, 1.0), (-1.0, 1.0)):  # columns, rows, diagonals
+        a, b = (family[0] * each[:, 0] + family[1] * each[:, 1] for each in (begins, ends))
+        first = np.ceil(np.minimum(a, b) + CLOSE).astype(np.int64)
+        counts = np.floor(np.maximum(a, b) - CLOSE).astype(np.int64) - first + 1
+        owner, place = _ranges(np.maximum(counts, 0))
+        share = (first[owner] + place - a[owner]) / (b[owner] - a[owner])
+        points.append(begins[owner] + share[:, None] * (ends[owner] - begins[owner]))
+    every = np.concatenate(points)
+    return float(np.abs(_field_at(every, heights) - every[:, 2]).max())
+
+
+def _field_at(points: Array, heights: Array) -> Array:
+    """Heights of a field at points whose x and y are in cells, (n,)."""
+    rows, columns = heights.shape
+    j = np.clip(np.floor(points[:, 0]).astype(np.int64), 0, columns - 2)
+    i = np.clip(np.floor(points[:, 1]).astype(np.int64), 0, rows - 2)
+    u, v = points[:, 0] - j, points[:, 1] - i
+    a, b = heights[i, j], heights[i, j + 1]
+    c, d = heights[i + 1, j], heights[i + 1, j + 1]
+    found: Array = a + np.where(u >= v, u * (b - a) + v * (d - b), v * (c - a) + u * (d - c))
+    return found
+
+
+def _ranges(counts: Ints) -> tuple[Ints, Ints]:
+    """``0 .. count - 1`` for each count: the number of the count, and the number in it."""
+    owner = np.repeat(np.arange(len(counts)), counts)
+    begins = np.cumsum(counts) - counts
+    return owner, np.arange(len(owner)) - begins[owner]
