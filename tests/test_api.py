@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -118,17 +119,59 @@ def test_two_simulations_do_not_see_each_other() -> None:
     assert alone == beside
 
 
+def page_without_machine(report: Path) -> str:
+    """A report without what two runs do not share: host, dates, durations, the command typed."""
+    text = report.read_text()
+    text = re.sub(r"<pre>uwsim bench .*?\n", "", text)
+    return re.sub(r"<h2[^>]*>Provenance.*?(?=<h2|</main|</body)", "", text, flags=re.DOTALL)
+
+
 @pytest.mark.slow
 def test_a_benchmark_in_python_is_that_of_the_command(tmp_path: Path) -> None:
     levels = {"fog": [0.5]}
-    result = uwsim.bench("visibility", algorithm="esm", levels=levels, seeds=(1,))
-    out = tmp_path / "command.result"
+    own = tmp_path / "python" / "one.result"
+    result = uwsim.bench("visibility", algorithm="esm", levels=levels, seeds=(1,), out=own)
+    out = tmp_path / "command" / "one.result"
     command = [sys.executable, "-m", "uwsim", "bench", "visibility", "--seed", "1"]
     command += ["--level", "fog=0.5", "--algorithm", "esm", "--out", str(out)]
     subprocess.run(command, check=True, capture_output=True)
     stored = uwsim.read_result(out)
     assert stored.rows == result.rows
     assert json.loads((out / "result.json").read_text())["rows"] == [list(result.rows[0])]
+    files = sorted(path.relative_to(out) for path in out.rglob("*") if path.is_file())
+    assert files == sorted(path.relative_to(own) for path in own.rglob("*") if path.is_file())
+    same = [path for path in files if path.suffix in (".svg", ".csv", ".dat", ".json")]
+    for path in same:
+        if path.name != "provenance.json":
+            assert (own / path).read_bytes() == (out / path).read_bytes(), path
+    pages = [page_without_machine(folder / "report.html") for folder in (own, out)]
+    assert pages[0] == pages[1]
+
+
+@pytest.mark.parametrize("value", ["0.5", None, True])
+def test_a_level_that_is_no_number_is_refused(value: object) -> None:
+    with pytest.raises(uwsim.UwsimError, match="expected numbers"):
+        uwsim.bench("visibility", levels={"fog": [value]})  # type: ignore[list-item]
+
+
+THIRDS = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="frozen">
+  <measures> <distance> <name>trip</name> <target>girona500</target> </distance> </measures>
+  <startOn> <type>service</type> <target>startBench</target> </startOn>
+  <stopOn> <type>never</type> </stopOn>
+  <function>trip</function>
+  <sceneUpdater> <sceneFogUpdater>
+    <initialFog>0</initialFog> <finalFog>1</finalFog> <step>0.33333333333333331</step>
+    <interval>0.1</interval>
+  </sceneFogUpdater> </sceneUpdater>
+</benchmark>"""
+
+
+@pytest.mark.slow
+def test_a_level_is_named_by_its_number_however_many_digits_it_has(tmp_path: Path) -> None:
+    path = tmp_path / "thirds.xml"
+    path.write_text(THIRDS)
+    result = uwsim.bench(path, levels={"fog": [1 / 3, np.float32(0)]})
+    assert [row[0] for row in result.rows] == pytest.approx([0.0, 1 / 3], abs=1e-12)
 
 
 def test_seeds_that_are_not_consecutive_are_refused() -> None:
@@ -141,3 +184,157 @@ def test_check_gives_the_errors_of_files(tmp_path: Path) -> None:
     bad.write_text("<UWSimScene><oceanState><windx>fast</windx></oceanState></UWSimScene>")
     errors = uwsim.check(str(bad))
     assert any(diagnostic.severity == "error" and diagnostic.line == 1 for diagnostic in errors)
+
+
+@pytest.mark.parametrize("of", ["L", "W", "girona500"])
+@pytest.mark.parametrize("name", ["girona500", "blackbox"])
+def test_a_body_is_where_set_pose_puts_it(name: str, of: str) -> None:
+    pose = uwsim.Pose.from_rpy((0.7, -0.4, 1.3), (0.1, -0.2, 2.0))
+    if name == of:
+        pose = uwsim.Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    with uwsim.load("grasp-scene", seed=4) as simulation:
+        simulation.set_pose(name, pose, of=of)
+        np.testing.assert_allclose(simulation.pose(name, of=of).matrix, pose.matrix, atol=1e-12)
+        np.testing.assert_allclose(simulation.velocity("girona500"), 0.0, atol=1e-12)
+
+
+def test_set_pose_names_what_can_be_placed() -> None:
+    pose = uwsim.Pose.identity()
+    far = uwsim.Pose.from_rpy((1e9, 0.0, 0.0), (0.0, 0.0, 0.0))
+    with uwsim.load("grasp-scene") as simulation:
+        with pytest.raises(uwsim.UwsimError, match="Did you mean 'blackbox'"):
+            simulation.set_pose("blakbox", pose)
+        with pytest.raises(uwsim.UwsimError, match=r"it is fixed.*object\[terrain\]\.position"):
+            simulation.set_pose("terrain", pose)
+        with pytest.raises(uwsim.UwsimError, match="1e\\+06 m at most"):
+            simulation.set_pose("girona500", far)
+
+
+def run_of(simulation: uwsim.Simulation) -> bytes:
+    """What follows from now: poses, a sensor's noise."""
+    simulation.advance(0.2)
+    row = np.zeros(simulation.motion.size)
+    simulation.motion.read(row)
+    return row.tobytes()
+
+
+def test_a_reset_gives_what_a_new_simulation_of_the_seed_gives() -> None:
+    fresh = []
+    for seed in (3, 8):
+        with uwsim.load("grasp-scene", seed=seed) as simulation:
+            fresh.append(run_of(simulation))
+    assert fresh[0] != fresh[1]
+    with uwsim.load("grasp-scene", seed=3) as simulation:
+        simulation.latest("/girona500/imu")
+        simulation.set_fog(0.9)
+        simulation.set_current((0.4, 0.0, 0.0))
+        run_of(simulation)
+        simulation.reset(seed=8)
+        assert (simulation.step, run_of(simulation)) == (0, fresh[1])
+        simulation.reset()
+        assert run_of(simulation) == fresh[1]
+        simulation.reset(seed=3)
+        assert simulation.latest("/girona500/imu") is None
+        assert run_of(simulation) == fresh[0]
+        assert simulation.latest("/girona500/imu") is not None
+
+
+@pytest.mark.parametrize("seed", [-1, 1.5, "7", True])
+def test_a_reset_refuses_what_is_no_seed(seed: object) -> None:
+    with (
+        uwsim.load("visibility-scene") as simulation,
+        pytest.raises(uwsim.UwsimError, match="whole number >= 0"),
+    ):
+        simulation.reset(seed=seed)  # type: ignore[arg-type]
+
+
+def test_an_image_names_its_ids_and_has_boxes_and_its_camera() -> None:
+    with uwsim.load("visibility-scene") as simulation:
+        image = simulation.image("bowtech1")
+        view = simulation.world.camera("bowtech1")
+        assert image.ids is not None
+        seen = {image.names[number] for number in np.unique(image.ids).tolist() if number}
+        assert seen == set(image.boxes)
+        assert image.world_from_camera is not None
+        np.testing.assert_array_equal(image.world_from_camera.matrix, view.world_from_camera.matrix)
+        for name, box in image.boxes.items():
+            mask = np.isin(image.ids, [n for n, each in image.names.items() if each == name])
+            assert mask[box.top : box.bottom, box.left : box.right].sum() == mask.sum()
+            assert mask[box.top].any()
+            assert mask[box.bottom - 1].any()
+            assert mask[:, box.left].any()
+            assert mask[:, box.right - 1].any()
+
+
+def test_a_box_in_space_is_around_what_the_image_shows() -> None:
+    with uwsim.load("visibility-scene") as simulation:
+        image = simulation.image("bowtech1")
+        assert image.world_from_camera is not None
+        assert image.range is not None
+        assert image.ids is not None
+        boxes = simulation.boxes(of="W")
+        assert set(image.boxes) <= set(boxes)
+        points = image.intrinsics.rays() * image.depth[..., None]
+        for number in np.unique(image.ids).tolist():
+            if not number:
+                continue
+            world = image.world_from_camera.transform(points[image.ids == number])
+            box = boxes[image.names[number]]
+            inside = np.abs(box.pose.inverse().transform(world)) <= 0.5 * box.size + 2e-3
+            assert inside.all()
+            assert box.corners.shape == (8, 3)
+        own = simulation.boxes()
+        here = simulation.world.world_from_localized
+        for name, box in boxes.items():
+            np.testing.assert_allclose(here.transform(own[name].corners), box.corners, atol=1e-9)
+
+
+def test_fog_light_and_currents_are_set_from_a_program() -> None:
+    with uwsim.load("currents-scene") as simulation:
+        clear = simulation.image("bowtech1").colour
+        simulation.set_fog(3.0)
+        foggy = simulation.image("bowtech1").colour
+        simulation.set_fog(0.0)
+        simulation.set_light(0.0)
+        dark = simulation.image("bowtech1").colour
+        assert clear is not None
+        assert foggy is not None
+        assert dark is not None
+        assert foggy[..., 1].std() < 0.5 * clear[..., 1].std()
+        assert dark.mean() < 0.5 * clear.mean()
+        point = np.zeros((1, 3))
+        before = simulation.world.water_velocity(point, 0.0, "girona500")
+        simulation.set_current([0.3, -0.1, 0.0])
+        simulation.set_current((0.3, 0.2, 0.0))
+        added = simulation.world.water_velocity(point, 0.0, "girona500") - before
+        turned = simulation.world.world_from_localized.rotation @ [0.3, 0.2, 0.0]
+        np.testing.assert_allclose(added[0], turned, atol=1e-12)
+        simulation.set_current(None)
+        now = simulation.world.water_velocity(point, 0.0, "girona500")
+        np.testing.assert_array_equal(now, before)
+        for wrong in (-0.1, float("nan"), float("inf")):
+            with pytest.raises(uwsim.UwsimError, match="expected a finite number >= 0"):
+                simulation.set_fog(wrong)
+            with pytest.raises(uwsim.UwsimError, match="expected a finite number >= 0"):
+                simulation.set_light(wrong)
+        for velocity in ((1.0, 2.0), (float("nan"), 0.0, 0.0), (1e9, 0.0, 0.0), "up"):
+            with pytest.raises(uwsim.UwsimError, match="expected three numbers"):
+                simulation.set_current(velocity)  # type: ignore[arg-type]
+
+
+def test_a_message_on_an_unknown_topic_is_an_error_with_the_nearest_name() -> None:
+    with (
+        uwsim.load("currents-scene") as simulation,
+        pytest.raises(uwsim.UwsimError, match=r"dataNavigater.*Did you mean 'dataNavigator'"),
+    ):
+        simulation.publish("/dataNavigater", TwistStamped())
+
+
+def test_a_message_that_nobody_reads_gives_one_warning(capsys: pytest.CaptureFixture[str]) -> None:
+    with uwsim.load("currents-scene") as simulation:
+        topic = next(name for name in simulation.topics if not simulation.bus.has_readers(name))
+        kind = simulation.bus.message_type(topic)
+        assert kind is not None
+        for _ in range(2):
+            simulation.publish(topic, kind())
+    assert capsys.readouterr().err.count("the message has no effect") == 1

@@ -21,9 +21,10 @@ if TYPE_CHECKING:
     from .bus import Algorithm, Node
     from .errors import UwsimError
     from .geometry import Pose
-    from .rendering.renderer import RenderedImage
+    from .rendering.rendered_image import PixelBox, RenderedImage
     from .results.result import Result
     from .simulation import Simulation
+    from .simulation.access.boxes import OrientedBox
     from .viewer.replay import Replay
 
 __version__ = "0.2.0.dev0"
@@ -31,6 +32,8 @@ __version__ = "0.2.0.dev0"
 __all__ = [
     "Algorithm",
     "Node",
+    "OrientedBox",
+    "PixelBox",
     "Pose",
     "RenderedImage",
     "Replay",
@@ -49,7 +52,9 @@ __all__ = [
 _HOMES = {
     "Algorithm": "bus",
     "Node": "bus",
-    "RenderedImage": "rendering.renderer",
+    "OrientedBox": "simulation.access.boxes",
+    "PixelBox": "rendering.rendered_image",
+    "RenderedImage": "rendering.rendered_image",
     "Pose": "geometry",
     "Replay": "viewer.replay",
     "Result": "results.result",

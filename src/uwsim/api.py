@@ -10,16 +10,19 @@ from __future__ import annotations
 import tempfile
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import BadSetting, Diagnostic
+from .errors import BadSetting, Diagnostic, RunFailed
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
     from .analysis.comparison.model import Comparison
     from .bus import Algorithm
     from .results.result import Result
+    from .runs.run import Run
+    from .runs.timing import Stopwatch
     from .scene.spec import SceneSpec
     from .simulation import Simulation
 
@@ -86,12 +89,13 @@ def bench(
         scene: the scene; without it the one that the benchmark names.
         algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class.
         seeds: of the repeats; consecutive, such as ``range(6)``.
-        levels: only these levels of the sweep: ``{"fog": [0.0, 0.5]}``.
+        levels: only these levels of the sweep, as numbers: ``{"fog": [0.0, 0.5]}``.
         settings: values to change, as ``--set`` names them; ``algorithm.kp`` is a parameter.
         data_path: more folders in which files are looked for.
         workers: processes to use; 0 runs everything in this process.
-        out: the result directory, which must be empty or not there yet; without it nothing is kept
-            but what is returned.
+        out: the result directory, which must be empty or not there yet: it receives all files that
+            ``uwsim bench`` writes, the report included. Without it nothing is kept but what is
+            returned.
 
     Raises:
         UwsimError: an input is wrong, or a run failed; finished rows are kept in ``out``.
@@ -102,6 +106,7 @@ def bench(
     from .runs.planning.make_plan import make_plan
     from .runs.planning.plan_request import PlanRequest
     from .runs.prepare import prepare_run
+    from .runs.timing import Stopwatch
 
     request = PlanRequest(
         benchmark=str(benchmark),
@@ -109,7 +114,7 @@ def bench(
         algorithm=algorithm if isinstance(algorithm, str) else None,
         seed=_first_of(seeds),
         repeat=len(seeds),
-        levels=[f"{name}={value:g}" for name, each in (levels or {}).items() for value in each],
+        levels=_texts_of(levels or {}),
         settings=[f"{path}={value}" for path, value in (settings or {}).items()],
         data_path=tuple(Path(folder) for folder in data_path),
     )
@@ -121,8 +126,43 @@ def bench(
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)
         check_directory(directory, resume=False, overwrite=False, results=[])
-        (result,) = run_all([prepare_run(plan, directory)], executor)
+        run, watch = prepare_run(plan, directory), Stopwatch()
+        (result,) = run_all([run], executor)
+        if out is not None:
+            _write_report(run, watch, workers)
     return result
+
+
+def _write_report(run: Run, watch: Stopwatch, workers: int) -> None:
+    """Run the control, and write the provenance and the report, as ``uwsim bench`` does."""
+    from .analysis.report import write_report
+    from .results.provenance import save_provenance
+    from .runs.control import CONTROL, control_of, wants_control
+    from .runs.executors.executor import run_all
+    from .runs.timing import Timing
+    from .terminal import warn
+
+    if wants_control(run.plan):
+        try:
+            run_all([control_of(run)])
+        except (RunFailed, OSError) as error:
+            warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
+    timing = Timing(
+        began=watch.began, wall=watch.passed(), workers=str(workers), command=(), runs=[run]
+    )
+    save_provenance(timing.provenance(run), run.out)
+    write_report(run.out)
+
+
+def _texts_of(levels: Mapping[str, Sequence[float]]) -> list[str]:
+    """Return levels as ``NAME=VALUE``, with all digits; BadSetting if one is not a number."""
+    texts: list[str] = []
+    for name, values in levels.items():
+        for value in values:
+            if isinstance(value, bool) or not isinstance(value, Real):
+                raise BadSetting(f"levels={{{name!r}: [{value!r}]}}: expected numbers.")
+            texts.append(f"{name}={float(value)!r}")
+    return texts
 
 
 def _first_of(seeds: Sequence[int]) -> int:

@@ -211,3 +211,9 @@ def test_a_resumed_run_says_what_of_it_is_another(folder: Path) -> None:
     other = replace(bench, plan=replace(bench.plan, seed=4))
     with pytest.raises(ResultError, match="belongs to another run: seed is 4 now, was 0"):
         other.begin()
+
+
+def test_a_shape_without_a_hash_of_an_earlier_version_is_no_input() -> None:
+    inputs = Inputs(assets={"box": "sha256:", "rov.urdf": "sha256:" + 64 * "a"})
+    assert [name for _, name, _ in inputs.files()] == ["rov.urdf"]
+    assert differing(inputs, Inputs(assets={"rov.urdf": "sha256:" + 64 * "a"})) == []

@@ -141,3 +141,11 @@ def test_a_result_older_than_its_units_is_believed(tmp_path: Path) -> None:
     path.write_text(text.replace(f'    {{"row": 3, "column": "total", "why": "{WHY}"}}\n', ""))
     assert len(load(tmp_path).rows) == 3
     assert checked(tmp_path) is None
+
+
+def test_the_end_of_an_independent_level_counts_from_its_start(tmp_path: Path) -> None:
+    directory = altered(written(tmp_path), '"ok", 4.0', '"ok", 2.0')
+    assert checked(directory) is None
+    contradicting = altered(directory, '"lost", 4.0', '"lost", 6.0')
+    with pytest.raises(ResultError, match=r"row 3, column ended_at: 6\.0 there, 2\.0 by units/"):
+        checked(contradicting)

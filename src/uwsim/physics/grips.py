@@ -92,6 +92,14 @@ class Grips:
             self._poses.put(thing, here)
         self._poses.moved()
 
+    def place(self, thing: int, world_from_object: Pose) -> None:
+        """Place an object that nothing holds and that is not fixed, at rest."""
+        if self._is_free(thing):
+            self._place(thing, world_from_object)
+        else:
+            self._poses.put(thing, world_from_object)
+        self._poses.moved()
+
     @property
     def is_carrying(self) -> bool:
         """Whether a body of the engine follows a vehicle that is not simulated."""

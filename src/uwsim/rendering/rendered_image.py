@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Intrinsics
+from ..geometry import Intrinsics, Pose
+
+
+class PixelBox(NamedTuple):
+    """A box in an image: columns ``left <= u < right`` and rows ``top <= v < bottom`` [px]."""
+
+    left: int
+    """The first column."""
+    top: int
+    """The first row."""
+    right: int
+    """The column after the last."""
+    bottom: int
+    """The row after the last."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -22,6 +37,10 @@ class RenderedImage:
     """Distance along the ray of each pixel (h, w) [m]; inf = nothing there."""
     ids: npt.NDArray[np.uint16] | None = None
     """Number of the instance seen (h, w); 0 = nothing there."""
+    names: Mapping[int, str] = field(default_factory=dict)
+    """Number in ``ids`` -> ``vehicle/link`` or object; all of the scene, seen or not."""
+    world_from_camera: Pose | None = None
+    """The pose of the camera in W, with OpenGL axes (x right, y up, looking along -z)."""
 
     @property
     def depth(self) -> npt.NDArray[np.float32]:
@@ -35,3 +54,33 @@ class RenderedImage:
         stretch = np.linalg.norm(self.intrinsics.rays(), axis=2)  # (h, w)
         planar: npt.NDArray[np.float32] = (self.range / stretch).astype(np.float32)
         return planar
+
+    @property
+    def boxes(self) -> dict[str, PixelBox]:
+        """The least box in the image around the visible pixels of each name that is seen.
+
+        Raises:
+            ValueError: the ids were not requested.
+        """
+        if self.ids is None:
+            raise ValueError("the image was drawn without its ids")
+        boxes: dict[str, PixelBox] = {}
+        for number in np.unique(self.ids).tolist():
+            if number not in self.names:
+                continue
+            mask = self.ids == number
+            rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+            box = PixelBox(int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1)
+            name = self.names[number]
+            boxes[name] = _around(boxes[name], box) if name in boxes else box
+        return boxes
+
+
+def _around(one: PixelBox, other: PixelBox) -> PixelBox:
+    """Return the least box around two boxes."""
+    return PixelBox(
+        min(one.left, other.left),
+        min(one.top, other.top),
+        max(one.right, other.right),
+        max(one.bottom, other.bottom),
+    )

@@ -23,7 +23,8 @@ REPLAY = "replay.html"
 """The page in which the trials are seen again; made on request (``uwsim replay``)."""
 OURS = re.compile(
     r"""(?x) ((?!units/|plots/|pictures/)[^/]+/)? (control/)? (
-        result\.json | result\.dat | summary\.csv | provenance\.json | report\.html | replay\.html
+        result\.json | measures\.json | result\.dat | summary\.csv | provenance\.json
+      | report\.html | replay\.html
       | measure-[^/]+\.csv | benchmark-[^/]+\.data
       | units/\d+\.(jsonl|motion|inputs|part)
       | plots/[^/]+\.(png|pdf)

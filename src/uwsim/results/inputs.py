@@ -18,6 +18,8 @@ ASSETS = "assets"
 """The role of what scene and benchmark name."""
 ALGORITHM = "algorithm"
 """The role of an algorithm's sources."""
+NO_HASH = "sha256:"
+"""What earlier versions stored for boxes, cylinders and spheres."""
 SHORT = 12
 """Digits of a hash that are shown to people."""
 NAMED = 6
@@ -47,11 +49,15 @@ class Inputs(StoredRecord):
         return "benchmark" if self.benchmark is None else self.benchmark[0].removesuffix(".xml")
 
     def files(self) -> Iterator[tuple[str, str, str]]:
-        """Yield role, name and hash of every input."""
+        """Yield role, name and hash of every input.
+
+        Shapes without a hash, which results of earlier versions list, are left out.
+        """
         for role in ("benchmark", "scene"):
             if (file := getattr(self, role)) is not None:
                 yield (role, *file)
-        yield from ((ASSETS, *file) for file in (self.assets or {}).items())
+        assets = (self.assets or {}).items()
+        yield from ((ASSETS, name, digest) for name, digest in assets if digest != NO_HASH)
         yield from (("plugins", *file) for file in self.plugins or ())
         yield from ((ALGORITHM, *file) for file in (self.algorithm or {}).items())
 

@@ -27,7 +27,7 @@ class Journals:
     """The journals of all trials of a result."""
 
     rows: dict[Key, Record]
-    """What is stored of each level; ``ended_at`` as the result counts it."""
+    """What is stored of each level; ``elapsed`` is the time since its seed began [s]."""
     ended: tuple[Key, ...]
     """Those of finished trials."""
     n_ended: int
@@ -97,7 +97,7 @@ def read_journals(directory: Path) -> Journals:
         for record in stored.rows:
             elapsed[seed] = elapsed.get(seed, 0.0) + record["duration"]
             key = (seed, *record["values"])
-            rows[key] = {**record, "ended_at": elapsed[seed]}
+            rows[key] = {**record, "elapsed": elapsed[seed]}
             if stored.end is not None:
                 ended.append(key)
     return Journals(rows, tuple(ended), n_ended)
@@ -121,7 +121,9 @@ def _apart(result: Result, row: int, record: Record, counts_time: bool) -> Itera
     for column, cell in zip(result.columns, result.rows[row], strict=True):
         if column.kind in ("run", "level") or (column.kind == "time" and not counts_time):
             continue
-        stored = _stored(record, column)
+        stored = _stored(record, column, is_independent=result.run.mode == "independent")
+        if column.kind == "time" and leaves(cell) == leaves(record["elapsed"]):
+            continue  # of independent levels, too, in results of earlier versions
         if leaves(cell) != leaves(stored):
             yield f"column {column.name}: {cell!r} there, {stored!r} by {FOLDER}/"
         unit = _unit(record, column)
@@ -138,14 +140,14 @@ def _apart(result: Result, row: int, record: Record, counts_time: bool) -> Itera
             yield f"why {name} is missing: {before!r} there, {after!r} by {FOLDER}/"
 
 
-def _stored(record: Record, column: Column) -> object:
+def _stored(record: Record, column: Column, *, is_independent: bool) -> object:
     match column.kind:
         case "measure" | "detail":
             value, _ = record[f"{column.kind}s"].get(column.name, (None, ""))
             return value
         case "score" | "status":
             return record["total" if column.kind == "score" else "status"]
-    return record["ended_at"]
+    return record["duration" if is_independent else "elapsed"]
 
 
 def _unit(record: Record, column: Column) -> str | None:

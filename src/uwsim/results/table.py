@@ -7,7 +7,8 @@
      0.00     1.83   4.24       2.0  ok
      1.20        -      -      50.0  lost    tracker lost at 48.6 s: ZNCC 0.43 on 5 frames
 
-``ended_at`` is the benchmark's running time, summed over the levels so far.
+``ended_at`` is the benchmark's running time, summed over the levels so far; where levels are
+independent, it counts from the start of the level.
 
 With several repeats a measure is its mean with the 95 % interval, ``1.83 [1.71, 1.99]``, and the
 status says how many ended ``ok``, with the interval of that rate: ``8 of 10 ok, 44 to 97 %``.

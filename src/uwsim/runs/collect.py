@@ -41,6 +41,10 @@ def collect(
     records = [(trial, record) for trial, found in stored for record in found.rows]
     columns = _columns(plan, [record for _, record in records])
     began, simulated_s = _times(records)
+    ended = [
+        record["duration"] + (0.0 if trial.is_alone else before)
+        for (trial, record), before in zip(records, began, strict=True)
+    ]
     ends = [(trial, found.end) for trial, found in stored if found.end is not None]
     first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.algorithm.parameters)}
     result = Result(
@@ -53,8 +57,8 @@ def collect(
         ),
         columns=tuple(columns),
         rows=tuple(
-            _row(_lead(plan, trial, record), record, before, columns)
-            for (trial, record), before in zip(records, began, strict=True)
+            _row(_lead(plan, trial, record), record, end, columns)
+            for (trial, record), end in zip(records, ended, strict=True)
         ),
         missing=tuple(
             Missing(row=row, column=name, why=why)
@@ -94,14 +98,14 @@ def _lead(plan: Plan, trial: Trial, record: Record) -> list[float | int]:
 
 
 def _row(
-    lead: Sequence[float | int], record: Record, began: float, columns: Sequence[Column]
+    lead: Sequence[float | int], record: Record, ended_at: float, columns: Sequence[Column]
 ) -> tuple[Cell, ...]:
     cells: dict[str, Cell] = {
         **{name: value for name, (value, _) in record["measures"].items()},
         **{name: value for name, (value, _) in record["details"].items()},
         "total": record["total"],
         "status": record["status"],
-        "ended_at": began + record["duration"],
+        "ended_at": ended_at,
     }
     return (*lead, *(cells.get(column.name) for column in columns[len(lead) :]))
 

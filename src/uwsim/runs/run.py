@@ -17,6 +17,7 @@ from ..files.input_files import InputFile
 from ..results import journal
 from ..results.inputs import Inputs
 from ..results.log import save_log
+from ..results.measures_file import save_measures
 from ..results.result import Result
 from ..results.result_file import save
 from ..results.run_info import RunInfo
@@ -26,6 +27,7 @@ from ..terminal import warn
 from ..tracks import load_track
 from .collect import collect
 from .described import described
+from .measure_notes import notes_of
 from .planning.plan import Plan, Trial
 from .trial.status import ended_its_process, was_stopped
 from .trial.trial_recorder import TrialRecorder
@@ -147,6 +149,7 @@ class Run:
             compatibility=self.plan.compatibility,
             measures=self.plan.benchmark.measures,
         )
+        save_measures(notes_of(self.plan.benchmark.measures), self.out)
         if self.plan.repeats > 1:
             save_summary(result, self.out)
         measures = {spec.name: spec for spec in self.plan.benchmark.measures}

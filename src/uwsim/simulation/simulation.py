@@ -13,23 +13,27 @@ step 0, when the simulation is opened.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
-from .. import __version__
 from ..bus import Algorithm, Bus
-from ..errors import BadSetting, UnknownName, UwsimError
+from ..errors import BadSetting, UwsimError
 from ..geometry import Array, Pose
-from ..inbox import Inbox
 from ..network import nanoseconds
 from ..physics.motion import Motion
 from ..rendering.rendered_image import RenderedImage
 from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
+from ..world import Flow
+from .access.arguments import checked_number, checked_pose, checked_seed, flow_of, shown
+from .access.boxes import OrientedBox, oriented_boxes
+from .access.topics import TopicAccess
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
-from .snapshot import packed, put_state, state_of, unpacked
+from .scenery.renderer_pool import RendererPool
+from .snapshot import opened, put_state, saved, state_of
 from .stage import SceneStage
 
 MAX_RUN = 1000
@@ -41,33 +45,68 @@ class Simulation:
 
     Args:
         scene: spec of the scene; its variations are drawn for the seed.
-        options: those of `uwsim.simulation.stage.SceneStage`: ``seed``, ``stream_prefix``,
-            ``timestep``, ``integrator``, ``data_path``, ``compatibility``, ``pool``,
-            ``is_blind``.
+        seed: the seed of every random stream.
+        pool: lends the renderer; without one the simulation has a renderer of its own.
+        options: those of `uwsim.simulation.stage.SceneStage`: ``stream_prefix``, ``timestep``,
+            ``integrator``, ``data_path``, ``compatibility``, ``is_blind``.
     """
 
-    def __init__(self, scene: SceneSpec, **options: Any) -> None:
+    def __init__(
+        self,
+        scene: SceneSpec,
+        *,
+        seed: int = 0,
+        pool: RendererPool | None = None,
+        **options: Any,
+    ) -> None:
         if not isinstance(scene, SceneSpec):
             raise BadSetting(
-                f"A Simulation is made of what read_scene returns, not of {_shown(scene)}."
+                f"A Simulation is made of what read_scene returns, not of "
+                f"a {type(scene).__name__}: {shown(scene)}."
             )
-        self.world = world = SceneStage(scene, **options)
+        self._own_pool = RendererPool()
+        self._scene, self._seed = scene, seed
+        self._options = {"pool": pool or self._own_pool, **options}
+        self._watchers: list[Callable[[], None]] = []
+        self._nodes: list[InProcessNode] = []
+        self._open()
+
+    def _open(self, read: Iterable[str] = ()) -> None:
+        """Open the scene at step 0 and read some topics."""
+        self.world = world = SceneStage(self._scene, seed=self._seed, **self._options)
         """The world of the scene."""
         scene, state = world.scene, world.state
         placed = [i for i in range(len(scene.vehicles)) if not state.is_simulated(i)]
         self._drifting = [world.numbered_vehicle(i) for i in placed]
-        self._watchers: list[Callable[[], None]] = []
         self._wet_names = tuple(
             "" if i is None else scene.vehicles[i].name for i in state.submerged_vehicles()
         )
-        self._nodes: list[InProcessNode] = []
         self.images = {
             each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
         }
         """What publishes images, by topic."""
-        self._inboxes: dict[str, Inbox[Any]] = {}
+        self._access = TopicAccess(self.bus, read)
         self._is_started = False
         self._animate()
+
+    def reset(self, seed: int | None = None) -> None:
+        """Start again at step 0, with the variations (``<u:vary>``) of a seed.
+
+        What follows has the same bytes as a simulation that is loaded with this seed. `world` is
+        another object afterwards. Topics that `latest` reads are read on, and `watch` continues.
+
+        Args:
+            seed: the new seed of every random stream; None: the same seed again.
+
+        Raises:
+            BadSetting: the seed is negative, or no whole number.
+            UwsimError: an algorithm is attached, whose state cannot be reset.
+        """
+        self._refuse_if_attached("reset")
+        if seed is not None:
+            self._seed = checked_seed(seed)
+        self.world.close()
+        self._open(self._access.read)
 
     @property
     def bus(self) -> Bus:
@@ -166,11 +205,14 @@ class Simulation:
     def publish(self, topic: str, message: object) -> None:
         """Publish a message; it is delivered at the end of the next step.
 
+        A topic that exists and has no subscriber now gives a warning on standard error, once.
+
         Raises:
+            UnknownName: no such topic; names the nearest that has a subscriber.
             BadSetting: the topic carries another type.
             BadMessage: a field of the message has the wrong type or shape.
         """
-        self.bus.publisher(topic, type(message))(message)
+        self._access.publish(topic, message)
 
     def latest(self, topic: str) -> Any:
         """Return the newest message on a topic; None before the first.
@@ -181,17 +223,7 @@ class Simulation:
         Raises:
             UnknownName: no such topic; names the nearest.
         """
-        name = topic.strip().lstrip("/")
-        if name not in self._inboxes:
-            if name not in self.bus.topics:
-                raise UnknownName("topic", topic, self.bus.topics)
-            before = self.bus.unread(name)
-            self._inboxes[name] = self.bus.inbox(name, object)
-            if before is not None:
-                self._inboxes[name].receive(before, self.step)
-        inbox = self._inboxes[name]
-        inbox.take()
-        return inbox.last
+        return self._access.latest(topic)
 
     def call(self, service: str, request: object) -> object:
         """Call a service and return its response.
@@ -213,12 +245,27 @@ class Simulation:
             UnknownName: there is no such body; names the nearest.
         """
         world_from_body = self.world.body(name).world_from_body
-        if of == "W":
-            return world_from_body
-        world_from_frame = self.world.world_from_localized
-        if of != "L":
-            world_from_frame = self.world.body(of).world_from_body
-        return world_from_frame.inverse() @ world_from_body
+        return self._world_from(of).inverse() @ world_from_body
+
+    def set_pose(self, name: str, pose: Pose, of: str = "L") -> None:
+        """Place a vehicle or an object, at rest; afterwards `pose` returns this pose.
+
+        Args:
+            name: of a vehicle, or of an object that can move (with ``<physics>`` and a mass).
+            pose: of its frame in the frame ``of``.
+            of: as `pose` takes it.
+
+        Raises:
+            UnknownName: there is no such vehicle, object or frame; names the nearest.
+            BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
+            UwsimError: the object is fixed, or a vehicle holds it.
+        """
+        self.world.place(name, checked_pose(name, self._world_from(of) @ pose))
+
+    def _world_from(self, frame: str) -> Pose:
+        """Return ``world_from_frame`` of ``L``, ``W`` or a body."""
+        frames = {"W": Pose.identity(), "L": self.world.world_from_localized}
+        return frames[frame] if frame in frames else self.world.body(frame).world_from_body
 
     def velocity(self, name: str) -> Array:
         """Return the twist of a simulated vehicle over ground, in its base frame, (6,).
@@ -235,14 +282,46 @@ class Simulation:
         return self.world.state.vehicle_velocity(index)
 
     def image(self, camera: str) -> RenderedImage:
-        """Render what a camera sees now, without noise: colour, range and ids.
+        """Render what a camera sees now, without noise: colour, range, ids and their names.
 
         Raises:
             UnknownName: there is no such camera; names the nearest.
             NoGraphics: there is no OpenGL.
         """
-        view = self.world.camera(camera)
-        return self.world.scenery.render_clean(view.world_from_camera, view.intrinsics)
+        view, scenery = self.world.camera(camera), self.world.scenery
+        image = scenery.render_clean(view.world_from_camera, view.intrinsics)
+        return replace(image, world_from_camera=view.world_from_camera, names=scenery.part_names)
+
+    def boxes(self, of: str = "L") -> dict[str, OrientedBox]:
+        """Return the boxes in 3-D of all links and objects, by the names that images have for them.
+
+        Args:
+            of: the frame of the boxes, as `pose` takes it. The frame of a camera is
+                ``simulation.world.camera(name).world_from_camera`` of ``W``.
+
+        Raises:
+            UnknownName: there is no such frame; names the nearest.
+        """
+        return oriented_boxes(self.world.scenery, self._world_from(of).inverse())
+
+    def set_fog(self, density: float) -> None:
+        """Set the density of the fog [1/m], 0 for clear water; BadSetting if it is negative."""
+        self.world.set_fog(checked_number("set_fog", density))
+
+    def set_light(self, rate: float) -> None:
+        """Scale the light of the scene, 1 by default, 0 for night; BadSetting if negative."""
+        self.world.set_light_rate(checked_number("set_light", rate))
+
+    def set_current(self, velocity: Sequence[float] | Flow | None) -> None:
+        """Add a current to those of the scene, in place of the one that was set before.
+
+        Args:
+            velocity: of the water in the frame of the file, (3,) [m/s]; or a `Flow`; None for none.
+
+        Raises:
+            BadSetting: these are not three numbers, or one exceeds the fastest current.
+        """
+        self.world.set_current(flow_of(velocity))
 
     @property
     def motion(self) -> Motion:
@@ -324,18 +403,20 @@ class Simulation:
         node.run(algorithm)
         return node
 
+    def _refuse_if_attached(self, action: str) -> None:
+        if self._nodes:
+            names = ", ".join(node.name for node in self._nodes)
+            raise UwsimError(f"Cannot be {action}: {names} is attached, with a state of its own.")
+
     def save(self) -> bytes:
         """Return the state as bytes, exact to the bit; `uwsim.simulation.snapshot` lists its parts.
 
         Raises:
             UwsimError: an algorithm is attached, whose state cannot be saved.
         """
-        if self._nodes:
-            names = ", ".join(node.name for node in self._nodes)
-            raise UwsimError(f"Cannot be saved: {names} is attached, with a state of its own.")
-        newest = {topic: (box.last, box.last_step) for topic, box in self._inboxes.items()}
-        values = {"is_open": self._is_started, "newest": newest, "world": state_of(self.world)}
-        return packed({"uwsim": __version__, **values})
+        self._refuse_if_attached("saved")
+        newest, world = self._access.newest, state_of(self.world)
+        return saved({"is_open": self._is_started, "newest": newest, "world": world})
 
     def restore(self, data: bytes) -> None:
         """Go back, or on, to a saved state of the same scene, seed and timestep.
@@ -343,19 +424,10 @@ class Simulation:
         Raises:
             UwsimError: the bytes are damaged, of another scene, or of another version.
         """
-        values = unpacked(data)
-        if values.pop("uwsim", None) != __version__:
-            raise UwsimError(f"The simulation was not saved by uwsim {__version__}.")
-        if set(values) != {"is_open", "newest", "world"}:
-            raise UwsimError("These bytes are no saved simulation.")
+        values = opened(data, {"is_open", "newest", "world"})
         put_state(self.world, values["world"])
         self._is_started = values["is_open"]
-        for topic, (last, step) in values["newest"].items():
-            if topic not in self._inboxes:
-                self._inboxes[topic] = self.bus.inbox(topic, object)
-            box = self._inboxes[topic]
-            box.clear()
-            box.last, box.last_step = last, step
+        self._access.newest = values["newest"]
         self.world.scenery.redraw()
 
     def close(self) -> None:
@@ -363,6 +435,7 @@ class Simulation:
         for node in self._nodes:
             node.close()
         self.world.close()
+        self._own_pool.close()
 
     def __enter__(self) -> Self:
         return self
@@ -374,9 +447,3 @@ class Simulation:
         traceback: TracebackType | None,
     ) -> None:
         self.close()
-
-
-def _shown(found: object) -> str:
-    """``a str: 'scene.xml'``, cut where it is long."""
-    text = repr(found)
-    return f"a {type(found).__name__}: {text if len(text) <= 60 else text[:57] + '...'}"

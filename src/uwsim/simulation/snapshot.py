@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from .. import __version__
 from ..errors import UwsimError
 
 Values = Mapping[str, Any]
@@ -69,6 +70,25 @@ def unpacked(data: bytes) -> dict[str, Any]:
     except Exception as error:  # whatever damaged bytes make of themselves
         raise UwsimError(f"These bytes are no saved simulation: {error}.") from None
     if not isinstance(values, dict):
+        raise UwsimError("These bytes are no saved simulation.")
+    return values
+
+
+def saved(values: Values) -> bytes:
+    """Return the values of a whole simulation as bytes, with the version of uwsim."""
+    return packed({"uwsim": __version__, **values})
+
+
+def opened(data: bytes, names: Collection[str]) -> dict[str, Any]:
+    """Read the values of a whole simulation, which have these names, from bytes.
+
+    Raises:
+        UwsimError: these are no bytes of a saved simulation, or another version saved them.
+    """
+    values = unpacked(data)
+    if values.pop("uwsim", None) != __version__:
+        raise UwsimError(f"The simulation was not saved by uwsim {__version__}.")
+    if set(values) != set(names):
         raise UwsimError("These bytes are no saved simulation.")
     return values
 

@@ -15,9 +15,9 @@ from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
 from ..devices.led_array import Led, LedArray
 from ..devices.structured_light_projector import MountedProjector
-from ..errors import AssetNotFound, SceneError, UnknownName
+from ..errors import AssetNotFound, SceneError, UnknownName, UwsimError
 from ..geodesy import Geodetic
-from ..geometry import Array
+from ..geometry import Array, Pose
 from ..messages import SpawnMarker, String
 from ..network import Channel, Network
 from ..scene.sim_params import Integrator
@@ -231,6 +231,30 @@ class SceneStage(SceneWorld):
             if 0 <= number < len(joints):
                 joints[number] = value
         moved.set_joints(joints)
+
+    def place(self, name: str, world_from_body: Pose) -> None:
+        """Place a vehicle or an object, at rest.
+
+        Raises:
+            UnknownName: there is none of that name; names the nearest.
+            UwsimError: the object is fixed, or a vehicle holds it.
+        """
+        if name in self.vehicles:
+            self.vehicle(name).place(world_from_body)
+            return
+        names = [thing.name for thing in self.scene.objects]
+        if name not in names:
+            raise UnknownName("vehicle or object", name, [*self.vehicles, *names])
+        index = names.index(name)
+        if not self.state.grips.can_hold(index):
+            raise UwsimError(
+                f"{name!r} cannot be placed: it is fixed, or a vehicle holds it. Set "
+                f"object[{name}].position when the scene is loaded, or vary it with <u:vary>."
+            )
+        mesh_from_object = self.body(name).world_from_body.inverse() @ self.state.poses.object(
+            index
+        )
+        self.state.grips.place(index, world_from_body @ mesh_from_object)
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -22,6 +23,7 @@ from tests.synthetic_results import (
     visibility,
 )
 from uwsim.analysis.plots import (
+    INK,
     compare_plot,
     curves_of,
     draw_plots,
@@ -279,3 +281,26 @@ def test_a_dollar_or_a_slash_in_a_name_is_no_mathematics_and_no_folder(tmp_path:
     columns = [replace(c, name="$\\evil/$") if c.name == "corners" else c for c in result.columns]
     files = draw_plots(replace(result, columns=tuple(columns), missing=()), tmp_path)
     assert {f.parent for f in files} == {tmp_path}
+
+
+def test_each_repeat_is_a_point_and_each_level_of_five_or_more_a_box() -> None:
+    result = visibility(seeds=(1, 2, 3, 4, 5, 6), lost_at=0.3)
+    (axes,) = value_plot(result, "corners").axes
+    (curve,) = curves_of(result, "corners")
+    lines = [line for line in axes.lines if line.get_marker() == "o" and line.get_alpha() == 0.55]
+    points = np.sort(np.concatenate([line.get_ydata() for line in lines]))
+    assert points == pytest.approx(sorted(v for values in curve.values for v in values))
+    boxed = [values for values in curve.values if len(values) >= 5]
+    medians = [
+        line.get_ydata()[0]
+        for line in axes.lines
+        if line.get_color() == INK and line.get_zorder() == 2.7
+    ]
+    assert medians == pytest.approx([float(np.median(values)) for values in boxed])
+    assert axes.get_xlim()[0] < 0.0
+
+
+@pytest.mark.parametrize("seeds", [(1,), (1, 2)])
+def test_few_repeats_have_no_box(seeds: tuple[int, ...]) -> None:
+    (axes,) = value_plot(visibility(seeds=seeds), "corners").axes
+    assert not [line for line in axes.lines if line.get_zorder() == 2.7]

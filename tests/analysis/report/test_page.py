@@ -27,6 +27,7 @@ from uwsim.cli import main
 from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
 from uwsim.results.log import Log, save_log
+from uwsim.results.measures_file import MeasureNote, save_measures
 from uwsim.results.provenance import save_provenance
 from uwsim.results.result import MAX_VALUE, Column, Missing, Result, SavedImage
 from uwsim.results.result_file import save
@@ -472,3 +473,61 @@ def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
     page = page_of(replace(base, rows=rows, missing=notes), tmp_path)
     assert len(page.source) < 2_000_000
     assert "The first 1000 of 5000 levels" in page.text
+
+
+def test_captions_are_the_measures_own_words_and_value(tmp_path: Path) -> None:
+    notes = {
+        "corners": MeasureNote(meaning="distance between truth g and estimate e", value="rms"),
+        "centroid": MeasureNote(meaning="", value="last"),
+    }
+    save_measures(notes, tmp_path)
+    text = whole_page_of(visibility(), tmp_path).text
+    assert (
+        "corners [px]: distance between truth g and estimate e; root mean square over each level."
+        in text
+    )
+    assert "centroid [px]." in text
+
+
+def test_lock_step_and_chosen_levels_are_plain_lines_and_not_warnings(tmp_path: Path) -> None:
+    for how in ("own process, grade (b)", "lock-step, web, grade (a)"):
+        result = visibility()
+        run = replace(result.run, clients=(("esm", how),), levels=(("fog", 0.5),))
+        page = page_of(replace(result, run=run), tmp_path)
+        assert "esm takes part" in page.text
+        assert "Only these levels of the sweep were run: fog=0.5." in page.text
+        assert 'class="warning"' not in page.source
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        "real time, web, not repeatable",
+        "in process",
+        "lock-step, ros1, grade (a), not guaranteed",
+        "anything else",
+    ],
+)
+def test_what_reduces_confidence_is_a_warning(how: str, tmp_path: Path) -> None:
+    result = visibility()
+    run = replace(result.run, clients=(("tracker", how),))
+    source = page_of(replace(result, run=run), tmp_path).source
+    warning = re.search(r'<div class="warning">(.*?)</div>', source, re.DOTALL)
+    assert warning is not None
+    assert "tracker takes part" in warning[1]
+
+
+def test_no_hash_of_an_input_is_empty(tmp_path: Path) -> None:
+    result = visibility()
+    assets = {"box": "sha256:", **(result.inputs.assets or {})}
+    page = page_of(replace(result, inputs=replace(result.inputs, assets=assets)), tmp_path)
+    assert not re.search(r"sha256:\s*<", page.source)
+
+
+def test_the_report_shows_measures_over_time(tmp_path: Path) -> None:
+    header = ("fog [1/m]", "time [s]", "total [px]")
+    samples = tuple((0.0, 0.1 * k, 1.0 + 0.1 * k) for k in range(5))
+    save_log(Log(measure="corners", header=header, samples=samples), tmp_path)
+    page = whole_page_of(visibility(), tmp_path)
+    assert "Within the levels" in page.text
+    assert "corners [px] over the time of the level." in page.text

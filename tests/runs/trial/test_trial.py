@@ -94,6 +94,8 @@ def test_a_level_alone_is_the_level_within_the_sweep(benchmark: Path, tmp_path: 
     alone = run(benchmark, tmp_path / "b", mode="independent", levels=["fog=0.8"])
     assert alone.values("fog") == (0.8,)
     assert alone.values("corners") == sweep.values("corners")[2:]
+    assert sweep.values("ended_at") == (0.2, 0.2, 0.2)  # from the start of each level
+    assert alone.values("ended_at") == (0.2,)
     assert alone.image_streams[0].sha256 == sweep.image_streams[2].sha256
 
 

@@ -186,3 +186,8 @@ def test_scenes_of_the_original_have_no_sun_shadows_unless_they_ask_for_them(
     assert image.colour is not None
     brightness = image.colour.sum(axis=2).astype(int)
     assert bool((brightness < 0.7 * np.median(brightness)).sum() > 20) is is_shaded
+
+
+def test_no_shape_of_a_urdf_is_an_input_without_a_hash(tmp_path: Path) -> None:
+    simulation, _ = seen(tmp_path, f'<link name="base">{shape()}</link>')
+    assert simulation.world.scenery.made_hashes == {}

@@ -12,15 +12,15 @@ from .curves import (
     written_unit,
 )
 from .drawing import CONTROL, MAX_INSIDE, is_fog_swept
+from .of_a_run import RunPlot, draw_run_plots
 from .over_levels import (
     OVERVIEW,
     compare_plot,
     draw_plots,
-    save_pdf,
-    save_plot,
     small_multiples,
     value_plot,
 )
+from .save import save_pdf, save_plot
 from .style import (
     DPI,
     FAINT,
@@ -47,10 +47,12 @@ __all__ = [
     "PALETTE",
     "SIZE",
     "Curve",
+    "RunPlot",
     "algorithm_of",
     "compare_plot",
     "curves_of",
     "draw_plots",
+    "draw_run_plots",
     "is_fog_swept",
     "label_of",
     "level_label",

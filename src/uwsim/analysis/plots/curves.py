@@ -28,6 +28,8 @@ class Curve:
     """Upper limit; NaN likewise."""
     n_missing: tuple[int, ...]
     """How many repeats have no value at each level."""
+    values: tuple[tuple[float, ...], ...]
+    """The values at each level, one a repeat that has one."""
     losses: tuple[tuple[float, str], ...]
     """(level, status) of the first level of each repeat that did not end ``ok``."""
     why: str | None
@@ -59,6 +61,7 @@ class Curve:
 def curves_of(result: Result, column: str) -> list[Curve]:
     """Return one curve, or with nested levels one for each combination of the outer ones."""
     outer = result.of_kind("level")[:-1]
+    numbers, rows = result.numbers(column), rows_by_level(result)
     found: dict[tuple[float, ...], list[LevelInterval]] = {}
     for entry in per_level(result, column):
         found.setdefault(entry.level[:-1], []).append(entry)
@@ -70,6 +73,10 @@ def curves_of(result: Result, column: str) -> list[Curve]:
             low=tuple(_or_nan(entry.interval.low) for entry in entries),
             high=tuple(_or_nan(entry.interval.high) for entry in entries),
             n_missing=tuple(entry.n_missing for entry in entries),
+            values=tuple(
+                tuple(v for row in rows[entry.level] if (v := numbers[row]) is not None)
+                for entry in entries
+            ),
             losses=_losses(result, key),
             why=next((entry.why for entry in entries if entry.why), None),
         )

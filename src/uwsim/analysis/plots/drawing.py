@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,7 +18,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from ...optics import LENGTHS
 from ...results.per_level import rows_by_level
 from ...results.result import Column, Result
-from .curves import Curve, algorithm_of, curves_of, label_of, written_unit
+from .curves import Curve, algorithm_of, curves_of, label_of, repeats_of, written_unit
 from .style import FAINT, INK, MARKERS, PALETTE, cut, level_label, plain
 
 CONTROL = "frozen"
@@ -33,6 +33,8 @@ FOLD = 28
 """Letters of an axis' name before it is folded."""
 FEW_LEVELS = 6
 """Levels up to which every one has its tick."""
+FEWEST_FOR_BOX = 5
+"""The number of values from which on a level has a box."""
 MAX_INSIDE = 4
 """Greatest number of curves with the legend inside the axes."""
 
@@ -74,6 +76,7 @@ def draw_column(
         if curve.name:
             name = with_loss(name, curve)
         draw_curve(axes, curve, look, name)
+        draw_repeats(axes, curve, look, with_boxes=len(curves) == 1)
         if len(curves) > 1:
             draw_end(axes, curve, look)
     compared = _curves_of_control(control, result, column.name)
@@ -136,6 +139,47 @@ def draw_curve(axes: Axes, curve: Curve, look: Look, name: str) -> None:
         axes.fill_between(
             curve.x, curve.low, curve.high, color=look.colour, alpha=0.18, linewidth=0
         )
+
+
+def draw_repeats(axes: Axes, curve: Curve, look: Look, *, with_boxes: bool) -> None:
+    """Draw a point for each repeat, and at each level a box from the lower to the upper quartile.
+
+    The line in the box is the median; whiskers reach to the last value within 1.5 times the box. A
+    level with fewer than five values has points only.
+    """
+    if max(map(len, curve.values), default=0) < 2:
+        return
+    width = _box_width(curve.x)
+    for x, values in zip(curve.x, curve.values, strict=True):
+        n = len(values)
+        offsets = (np.arange(n) - 0.5 * (n - 1)) / max(n - 1, 1) * (0.6 if with_boxes else 0.0)
+        axes.plot(
+            x + width * offsets, values, "o", color=look.colour, markersize=2.8, alpha=0.55,
+            markeredgewidth=0, zorder=2.8,
+        )  # fmt: skip
+    boxed = [k for k, values in enumerate(curve.values) if len(values) >= FEWEST_FOR_BOX]
+    if with_boxes and boxed:
+        line = {"color": look.colour, "linewidth": 0.7, "alpha": 0.8}
+        axes.boxplot(
+            [curve.values[k] for k in boxed],
+            positions=[curve.x[k] for k in boxed],
+            widths=width,
+            manage_ticks=False,
+            showfliers=False,
+            boxprops=line,
+            whiskerprops=line,
+            capprops=line,
+            medianprops={"color": INK, "linewidth": 1.0},
+            zorder=2.7,
+        )
+
+
+def _box_width(levels: Iterable[float]) -> float:
+    """Return the width of a box: a third of the least step, and a tenth of the axis at most."""
+    xs = sorted(set(levels))
+    if len(xs) < 2:
+        return 0.3
+    return float(min(0.36 * min(np.diff(xs)), 0.1 * (xs[-1] - xs[0])))
 
 
 def _draw_losses(axes: Axes, curve: Curve, label: bool) -> None:
@@ -218,7 +262,8 @@ def label_axes(axes: Axes, result: Result, column: Column, *, fold: int = FOLD) 
             axes.set_xticks(xs)
             axes.set_xlim(xs[0] - 1, xs[0] + 1)
         elif xs:
-            pad = 0.03 * (xs[-1] - xs[0])
+            has_repeats = len(set(repeats_of(result))) > 1
+            pad = max(0.03 * (xs[-1] - xs[0]), 0.7 * _box_width(xs) * has_repeats)
             axes.set_xlim(xs[0] - pad, xs[-1] + pad)
             if len(xs) <= FEW_LEVELS:
                 axes.set_xticks(xs, [f"{x:g}" for x in xs])
@@ -241,7 +286,8 @@ def scale_axes(axes: Axes, curves: Sequence[Curve]) -> None:
         axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
     else:
         limits = [v for curve in curves for v in curve.high if not np.isnan(v)]
-        top = min(max([high, *limits]), 1.6 * high) * 1.12 or 1.0
+        repeats = [v for curve in curves for values in curve.values for v in values]
+        top = max([min(max([high, *limits]), 1.6 * high), *repeats]) * 1.12 or 1.0
         axes.set_ylim(-0.03 * top if low < 0.01 * high else 0, top)
 
 

@@ -14,13 +14,10 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-import matplotlib as mpl
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from ...errors import ResultError
 from ...files.file_names import file_names
-from ...results.atomic_file import atomic_write
 from ...results.result import Result
 from .curves import algorithm_of, curves_of, repeats_of
 from .drawing import (
@@ -39,7 +36,8 @@ from .drawing import (
     scale_axes,
     with_loss,
 )
-from .style import DPI, SIZE, any_letter, cut, styled_figure, write_note
+from .save import save_pdf, save_plot
+from .style import SIZE, cut, styled_figure, write_note
 
 OVERVIEW = "all-measures"
 MAX_IN_A_COLUMN = 8
@@ -152,24 +150,6 @@ def draw_plots(
     return tuple(files)
 
 
-def save_plot(figure: Figure, path: Path) -> Path:
-    """Write a plot as PNG, 200 dots an inch, without a date or a program's name in it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    FigureCanvasAgg(figure)
-    with any_letter(), atomic_write(path) as draft:
-        figure.savefig(draft, dpi=DPI, format="png", metadata={"Software": None})
-    return path
-
-
-def save_pdf(figure: Figure, path: Path) -> Path:
-    """Write a plot as PDF for a paper: letters as letters, without a date or a program's name."""
-    with mpl.rc_context({"pdf.fonttype": 42}), any_letter(), atomic_write(path) as draft:
-        figure.savefig(
-            draft, format="pdf", metadata={"CreationDate": None, "Producer": None, "Creator": None}
-        )
-    return path
-
-
 def _with_room(size: tuple[float, float], n_curves: int) -> tuple[float, float]:
     """Widen a figure whose legend is next to the axes."""
     return (size[0] + 1.5, size[1]) if n_curves > MAX_INSIDE else size
@@ -212,5 +192,8 @@ def _origin(result: Result, *, with_algorithm: bool = True) -> tuple[str, str]:
         f"{seeds} {'?' if run.seed is None else run.seed}",
         f"uwsim {run.version or '?'}",
     ]
-    bands = "bands: 95 % intervals of the mean over repeats; hollow: not every repeat has a value"
+    bands = (
+        "bands: 95 % intervals of the mean; dots: repeats; boxes: quartiles and median; "
+        "hollow: not every repeat has a value"
+    )
     return " · ".join(part for part in parts if part), bands if n_repeats > 1 else ""

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+from ...results.measures_file import MeasureNote
 from ...results.per_level import seeds_of
 from ...results.result import Column, Result
 from ..plots import curves_of, is_fog_swept, label_of, repeats_of
 
+Notes = Mapping[str, MeasureNote]
+"""Measure -> what it is."""
 STATISTICS = {
     "mean": "mean over each level",
     "rms": "root mean square over each level",
@@ -14,18 +19,39 @@ STATISTICS = {
 """Detail of a measure -> its text in a caption."""
 
 
-def caption(result: Result, column: Column) -> str:
-    """Return the caption of a figure: ``corners [px], mean over each level``."""
+def caption(result: Result, column: Column, notes: Notes) -> str:
+    """Return the caption of a figure.
+
+    ``corners [px]: distance between truth g and estimate e; mean over each level``.
+    """
     if column.kind == "score":
         return f"{label_of(result, column)} = {column.expression}" if column.expression else (
             label_of(result, column)
         )  # fmt: skip
-    statistic = statistic_of(result, column.name)
-    return label_of(result, column) + (f", {statistic}" if statistic else "")
+    label, note = label_of(result, column), notes.get(column.name)
+    statistic = statistic_of(result, column.name, notes)
+    if note is None or not note.meaning:
+        return label + (f", {statistic}" if statistic else "")
+    return f"{label}: {note.meaning}" + (f"; {statistic}" if statistic else "")
 
 
-def statistic_of(result: Result, measure: str) -> str:
-    """Return which of its details a measure's values are; empty where the rows do not show it."""
+def over_time_caption(result: Result, measure: str, what: str, notes: Notes) -> str:
+    """Return the caption of a measure over time: ``corners [px], distance ..., over the time``."""
+    names = {column.name: column for column in result.of_kind("measure")}
+    label = label_of(result, names[measure]) if measure in names else measure
+    note = notes.get(measure)
+    if note is None or not note.meaning or note.value == "last":
+        return f"{label} {what}"
+    return f"{label}: {note.meaning}, {what}"
+
+
+def statistic_of(result: Result, measure: str, notes: Notes) -> str:
+    """Return which statistic a measure's values are; empty where nothing shows it.
+
+    The benchmark file says it (``u:value``); of results without `notes` the details show it.
+    """
+    if (note := notes.get(measure)) is not None:
+        return STATISTICS.get(note.value, "")
     names = {column.name for column in result.columns}
     values = result.values(measure)
     details = [key for key in STATISTICS if f"{measure}.{key}" in names]
@@ -47,6 +73,7 @@ def marks(result: Result, *, has_control: bool) -> str:
         messages = [
             f"Points: means over {n_repeats} repeats ({seeds_text(result)}).",
             "Bands: 95 % intervals of that mean (smoothed bootstrap-t over the repeats).",
+            "Dots: one a repeat. Boxes: quartiles and median; whiskers: up to 1.5 times the box.",
             "Hollow points: levels at which not every repeat has a value.",
         ]
     if any(curve.losses for curve in curves):

@@ -31,6 +31,8 @@ CLIENTS = {
     "in process": "in the process of the simulation (--in-process)",
 }
 """How an algorithm class takes part -> what that means."""
+SURE = ("own process, grade (b)",)
+"""Ways of taking part, other than those of programs outside, that give the same numbers again."""
 TRANSPORTS = {"web": "WebSocket", "ros1": "ROS 1", "ros2": "ROS 2"}
 GRADES = {
     "grade (a)": "in lock-step: simulation time waits for its answers (grade a: each names its "
@@ -63,29 +65,48 @@ def command(result: Result, provenance: Mapping[str, object]) -> str:
     return shlex.join(words)
 
 
-def remarks(result: Result, unchecked: str | None = None) -> list[str]:
-    """Return remarks: unfinished parts, chosen levels, changed settings, unchecked rows."""
-    run, message = result.run, []
+def warnings(result: Result, unchecked: str | None = None) -> list[str]:
+    """Return what reduces confidence: unfinished parts, unchecked rows, results that may differ."""
+    run, messages = result.run, []
     if run.units is not None and not run.is_finished:
-        message.append(
+        messages.append(
             f"Not finished: {run.units[0]} of {run.units[1]} parts are finished. --resume "
             f"continues."
         )
     if unchecked is not None:
-        message.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
+        messages.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
+    messages += [_participation(who, how) for who, how in run.clients or () if not _is_sure(how)]
+    messages += [f"{text}." for text in refused_lines(result)]
+    return messages + [f"{note}." for note in run.notes or ()]
+
+
+def remarks(result: Result) -> list[str]:
+    """Return what a reader should know: chosen levels, changed settings, how clients take part."""
+    run, messages = result.run, []
     if chosen := run.pairs_of_levels:
-        message.append(f"Only these levels of the sweep were run: {', '.join(chosen)}.")
+        messages.append(f"Only these levels of the sweep were run: {', '.join(chosen)}.")
     if settings := run.pairs_of_settings:
-        message.append(f"Changed for this run: {', '.join(settings)}.")
-    message += [f"{who} takes part: {_participation(how)}." for who, how in run.clients or ()]
-    message += [f"{text}." for text in refused_lines(result)]
+        messages.append(f"Changed for this run: {', '.join(settings)}.")
+    messages += [_participation(who, how) for who, how in run.clients or () if _is_sure(how)]
     if names := run.compatibility:
-        message.append(f"Compatibility quirks: {', '.join(names)}.")
-    return message + [f"{note}." for note in run.notes or ()]
+        messages.append(f"Compatibility quirks: {', '.join(names)}.")
+    return messages
 
 
-def _participation(how: str) -> str:
-    """Say in words how an algorithm takes part: ``lock-step, ros1, grade (a)``."""
+def _is_sure(how: str) -> bool:
+    """Whether another run gives the same numbers: in lock-step, by messages only."""
+    return how in SURE or (
+        any(grade in how for grade in ("grade (a)", "grade (b)", "grade (c)"))
+        and "not guaranteed" not in how
+    )
+
+
+def _participation(who: str, how: str) -> str:
+    """Describe in a sentence how an algorithm takes part: ``lock-step, ros1, grade (a)``."""
+    return f"{who} takes part {_words_of(how)}."
+
+
+def _words_of(how: str) -> str:
     _, *more = how.split(", ")
     if how in CLIENTS or not more or more[0] not in TRANSPORTS:
         return CLIENTS.get(how, how)

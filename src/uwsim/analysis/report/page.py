@@ -20,6 +20,7 @@ from ...results.directory import CONTROL, REPLAY, REPORT
 from ...results.journal import recorded_trials
 from ...results.journal_check import check_rows
 from ...results.log import logs_of
+from ...results.measures_file import load_measures
 from ...results.per_level import LevelInterval, per_level, rows_by_level
 from ...results.provenance import load_provenance
 from ...results.result import Result
@@ -29,14 +30,16 @@ from ..plots import (
     LEVEL_WORDS,
     MAX_INSIDE,
     OVERVIEW,
+    RunPlot,
     algorithm_of,
     draw_plots,
+    draw_run_plots,
     is_fog_swept,
     repeats_of,
     written_unit,
 )
 from ..templates import template
-from .captions import caption, marks, seeds_text, statistic_of
+from .captions import Notes, caption, marks, over_time_caption, seeds_text, statistic_of
 from .caveats import floor, is_static, optics
 from .configuration import (
     command,
@@ -46,6 +49,7 @@ from .configuration import (
     remarks,
     settings,
     variations,
+    warnings,
 )
 from .images import data_url, images_text, phase_images, shown_images
 from .outcomes import Ending, breaks, endings, named_level
@@ -84,8 +88,16 @@ def write_report(path: Path, *, pdf: bool = False) -> Path:
     unchecked = check_rows(result, directory)
     control = _control(directory)
     plots = draw_plots(result, directory / "plots", control=control, pdf=pdf)
+    run_plots = draw_run_plots(result, directory, directory / "plots", pdf=pdf)
     target = directory / REPORT
-    page = render(result, directory, plots=plots, control=control, unchecked=unchecked)
+    page = render(
+        result,
+        directory,
+        plots=plots,
+        run_plots=run_plots,
+        control=control,
+        unchecked=unchecked,
+    )
     write_text(target, page)
     return target
 
@@ -95,12 +107,13 @@ def render(
     directory: Path,
     *,
     plots: Iterable[Path],
+    run_plots: Iterable[RunPlot] = (),
     control: Result | None = None,
     unchecked: str | None = None,
 ) -> str:
     """Return the report's HTML; ``unchecked`` is the text returned by `check_rows`."""
     found = endings(result)
-    provenance = load_provenance(directory)
+    provenance, notes = load_provenance(directory), load_measures(directory)
     columns = result.of_kind("score") + result.of_kind("measure")
     n_repeats = len(set(repeats_of(result))) or 1
     n_levels = len(rows_by_level(result))
@@ -112,21 +125,31 @@ def render(
         lead=_lead(result),
         task=task_section(result, directory / "plots"),
         phases=phase_images(result, directory),
-        remarks=remarks(result, unchecked),
+        remarks=remarks(result),
+        warnings=warnings(result, unchecked),
         command=command(result, provenance),
         cards=_cards(result, found),
         heads=heads(result),
         table=level_rows(result),
         n_levels=n_levels,
-        values=_values(result),
+        values=_values(result, notes),
         repeats=n_repeats,
         full=all_cells(result),
         replay=REPLAY if (directory / REPLAY).is_file() else None,
         has_motion=bool(recorded_trials(directory)),
         n_rows=len(result.rows),
         plots=[
-            (caption(result, column), data_url(plot.read_bytes(), "png"))
+            (caption(result, column, notes), data_url(plot.read_bytes(), "png"))
             for column, plot in zip(columns, drawn, strict=False)
+        ],
+        run_plots=[
+            (
+                each.caption
+                if each.measure is None
+                else over_time_caption(result, each.measure, each.caption, notes),
+                data_url(each.path.read_bytes(), "png"),
+            )
+            for each in run_plots
         ],
         are_wide=_n_curves(result) > MAX_INSIDE,
         marks=marks(result, has_control=control is not None),
@@ -213,16 +236,17 @@ def _mean_text(entry: LevelInterval, other: LevelInterval) -> str:
     return number_text(shown, decimals).replace("-", "−")
 
 
-def _values(result: Result) -> list[str]:
+def _values(result: Result, notes: Notes) -> list[str]:
     """Say what the values in the table are: the statistic of each measure, the score, the time."""
     by_statistic: dict[str, list[str]] = {}
     for column in result.of_kind("measure"):
-        if statistic := statistic_of(result, column.name):
+        if statistic := statistic_of(result, column.name, notes):
             by_statistic.setdefault(statistic, []).append(column.name)
     messages = [f"{', '.join(names)}: {statistic}" for statistic, names in by_statistic.items()]
     messages += [f"total = {c.expression}" for c in result.of_kind("score") if c.expression]
     if result.of_kind("time"):
-        messages.append("ended_at: running time when the level ended, summed over the levels")
+        over = "from its start" if result.run.mode == "independent" else "summed over the levels"
+        messages.append(f"ended_at: running time when the level ended, {over}")
     return messages
 
 

@@ -118,12 +118,13 @@ class ControlSpec(MeasureSpec):
 
 
 class Control(Measure):
-    """Commands as `uwsim.benchmark.metrics.held_commands` counts them, and the shape of an error.
+    """Effort and variation of the commands, and the shape of an error over time.
 
-    *Commands.* A command holds until the next. What is in force when the measure goes on counts
-    for effort and largest value, not as a change. Details: ``variation``, ``effort`` and ``max``
-    over all axes that count, the same of each axis, and ``n``, the number of messages since the
-    measure went on. Sums over axes of different units are sums of bare numbers: choose ``axes``.
+    *Commands.* They are counted as `uwsim.benchmark.metrics.held_commands` describes. A command
+    holds until the next. What is in force when the measure goes on counts for effort and largest
+    value, not as a change. Details: ``variation``, ``effort`` and ``max`` over all axes that count,
+    the same of each axis, and ``n``, the number of messages since the measure went on. Sums over
+    axes of different units are sums of bare numbers: choose ``axes``.
 
     *Error.* Either the body's: ``position`` less where its origin is, in L, at every step; or
     what comes on the error topic, held from message to message. Details: those of

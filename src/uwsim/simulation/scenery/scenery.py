@@ -271,8 +271,11 @@ class Scenery:
 
     @property
     def made_hashes(self) -> dict[str, str]:
-        """Name of each model that is of no file -> sha256 of its arrays, sorted by name."""
-        made = [part.model for part in self.parts if not part.model.files]
+        """Name of each model that is of no file -> sha256 of its arrays, sorted by name.
+
+        Boxes, cylinders and spheres have none: the file of their robot or scene has their sizes.
+        """
+        made = [part.model for part in self.parts if part.model.sha256 and not part.model.files]
         models = {model.name: model.sha256 for model in made}
         return {name: models[name] for name in sorted(models)}
 

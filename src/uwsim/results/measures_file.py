@@ -1,0 +1,57 @@
+"""``measures.json``: what each measure of a result is, in words.
+
+.. code-block:: json
+
+    {"corners": {"meaning": "distance between truth g and estimate e", "value": "mean"}}
+
+``meaning`` is the first line of the measure's docstring, ``value`` the statistic that the benchmark
+file asks for (``u:value``). Captions of reports are made of it. Results of earlier versions have no
+such file.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from .atomic_file import write_text
+
+FILE = "measures.json"
+MAX_BYTES = 1_000_000
+"""The greatest size of a file that is read."""
+MAX_MEANING = 300
+"""The greatest number of letters of a meaning that is read."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeasureNote:
+    """What a measure is."""
+
+    meaning: str
+    """A noun phrase without a full stop; empty where the measure has no docstring."""
+    value: str
+    """``last``, ``mean``, ``rms`` or ``max``."""
+
+
+def save_measures(notes: Mapping[str, MeasureNote], directory: Path) -> None:
+    """Write the file into a result directory."""
+    texts = {name: asdict(note) for name, note in notes.items()}
+    write_text(directory / FILE, json.dumps(texts, indent=2, ensure_ascii=False) + "\n")
+
+
+def load_measures(directory: Path) -> dict[str, MeasureNote]:
+    """Read the file; empty where it is not there or damaged."""
+    try:
+        if (directory / FILE).stat().st_size > MAX_BYTES:
+            return {}
+        texts = json.loads((directory / FILE).read_text(encoding="utf-8"))
+        return {
+            str(name): MeasureNote(
+                meaning=str(note["meaning"])[:MAX_MEANING], value=str(note["value"])
+            )
+            for name, note in texts.items()
+        }
+    except (OSError, ValueError, RecursionError, AttributeError, KeyError, TypeError):
+        return {}

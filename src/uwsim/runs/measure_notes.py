@@ -1,0 +1,55 @@
+"""What the measures of a benchmark are in words: the first lines of their docstrings."""
+
+from __future__ import annotations
+
+import inspect
+import re
+import sys
+from collections.abc import Iterable
+
+from ..benchmark.measures import Measure, MeasureSpec
+from ..results.measures_file import MeasureNote
+
+MATH = re.compile(r":math:`([^`]*)`")
+CODE = re.compile(r"``?([^`]*)``?")
+SIGNS = (
+    (r"\lVert ", "‖"), (r" \rVert", "‖"), (r"\lVert", "‖"), (r"\rVert", "‖"),
+    ("^2", "²"), ("^3", "³"), (r"\,", " "),
+)  # fmt: skip
+"""Signs of TeX, and how they are written without it."""
+ROOT = re.compile(r"\\sqrt\{([^{}]*)\}")
+
+
+def notes_of(specs: Iterable[MeasureSpec]) -> dict[str, MeasureNote]:
+    """Return the note of each measure, by its name."""
+    return {spec.name: MeasureNote(meaning=meaning_of(spec), value=spec.value) for spec in specs}
+
+
+def meaning_of(spec: MeasureSpec) -> str:
+    """Return the first line of the docstring of a measure, as a phrase inside a sentence."""
+    doc = inspect.getdoc(live_class(spec) or type(spec)) or ""
+    line = plain_text(doc.strip().split("\n\n")[0].replace("\n", " ")).rstrip(".")
+    return line[:1].lower() + line[1:] if line[1:2].islower() or line[1:2] == " " else line
+
+
+def live_class(spec: MeasureSpec) -> type[Measure] | None:
+    """Return the class that ``bind`` returns, by its annotation; None where it does not say."""
+    function = type(spec).bind
+    name = str(function.__annotations__.get("return", "")).strip("'\"")
+    found = vars(sys.modules[function.__module__]).get(name) if name.isidentifier() else None
+    if found is None:
+        found = function.__annotations__.get("return")
+    is_live = isinstance(found, type) and issubclass(found, Measure) and found is not Measure
+    return found if is_live else None
+
+
+def plain_text(text: str) -> str:
+    """Return a line of a docstring without marks of code and of mathematics."""
+    return CODE.sub(r"\1", MATH.sub(lambda found: _without_tex(found[1]), text))
+
+
+def _without_tex(formula: str) -> str:
+    """Return a short formula without TeX."""
+    for sign, written in SIGNS:
+        formula = formula.replace(sign, written)
+    return re.sub(r"\\(\w+)", r"\1", ROOT.sub(r"√(\1)", formula)).replace("_", "")

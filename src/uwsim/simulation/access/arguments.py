@@ -1,0 +1,69 @@
+"""Checks of what a program passes to the Python interface of a simulation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from numbers import Integral
+
+import numpy as np
+
+from ...currents.constant import Constant
+from ...currents.current import MAX_SPEED
+from ...errors import BadSetting
+from ...geometry import Pose
+from ...world import Flow
+
+FARTHEST = 1e6
+"""The greatest coordinate at which a body is placed [m]."""
+
+
+def checked_seed(seed: int) -> int:
+    """Return a seed; BadSetting if it is not a whole number of at least 0."""
+    if isinstance(seed, bool) or not isinstance(seed, Integral) or seed < 0:
+        raise BadSetting(f"reset(seed={shown(seed)}): expected a whole number >= 0.")
+    return int(seed)
+
+
+def checked_number(method: str, number: float) -> float:
+    """Return a number; BadSetting if it is negative or not finite."""
+    if not 0.0 <= number < math.inf:
+        raise BadSetting(f"{method}({shown(number)}): expected a finite number >= 0.")
+    return float(number)
+
+
+def checked_pose(name: str, world_from_body: Pose) -> Pose:
+    """Return a pose in W; BadSetting if it is not finite or too far from the origin."""
+    position = world_from_body.position
+    if not np.isfinite(world_from_body.matrix).all() or np.abs(position).max() > FARTHEST:
+        raise BadSetting(
+            f"set_pose({name!r}): the position is {position.tolist()}; expected finite numbers, "
+            f"{FARTHEST:g} m at most from the origin."
+        )
+    return world_from_body
+
+
+def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
+    """Return the flow for a velocity (3,) [m/s] in L; a flow or None is returned as it is.
+
+    Raises:
+        BadSetting: these are not three numbers, or one exceeds the fastest current.
+    """
+    if velocity is None or not isinstance(velocity, Sequence | np.ndarray):
+        return velocity
+    try:
+        x, y, z = (float(component) for component in velocity)
+    except (TypeError, ValueError):
+        x = y = z = math.nan
+    if not all(abs(component) <= MAX_SPEED for component in (x, y, z)):
+        raise BadSetting(
+            f"set_current({shown(velocity)}): expected three numbers between {-MAX_SPEED:g} and "
+            f"{MAX_SPEED:g} [m/s]."
+        )
+    return Constant((x, y, z))
+
+
+def shown(found: object) -> str:
+    """Return the text of a value, cut where it is long."""
+    text = repr(found)
+    return text if len(text) <= 60 else text[:57] + "..."

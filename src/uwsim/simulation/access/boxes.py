@@ -1,0 +1,55 @@
+"""Boxes in 3-D of the links and objects of a scene."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...geometry import Array, Pose
+from ...numerics.linear import product
+from ...world import Box
+from ..parts import Part
+from ..scenery.scenery import Scenery
+
+
+@dataclass(frozen=True, eq=False)
+class OrientedBox:
+    """A box in 3-D around a body, with the axes of the body's mesh."""
+
+    pose: Pose
+    """The pose of its centre, in the frame that was asked for."""
+    size: Array
+    """The lengths of its edges along its axes, (3,) [m]."""
+
+    @property
+    def corners(self) -> Array:
+        """Its corners in the same frame, (8, 3) [m]: x changes first, z last."""
+        half = 0.5 * self.size
+        return self.pose.transform(Box(tuple(-half), tuple(half)).corners())
+
+
+def oriented_boxes(scenery: Scenery, frame_from_world: Pose) -> dict[str, OrientedBox]:
+    """Return the boxes of all parts in a frame, by their names in images.
+
+    Parts of one name share a box with the axes of the first part. Sand over buried objects has
+    no box.
+    """
+    groups: dict[str, list[Part]] = {}
+    for part in scenery.parts:
+        groups.setdefault(part.name, []).append(part)
+    boxes = {name: _box(scenery, parts) for name, parts in groups.items()}
+    return {name: OrientedBox(frame_from_world @ box.pose, box.size) for name, box in boxes.items()}
+
+
+def _box(scenery: Scenery, parts: list[Part]) -> OrientedBox:
+    """Return the box in W around some parts."""
+    left, _, right = np.linalg.svd(scenery.world_from_mesh(parts[0])[:3, :3])
+    rotation = product(left, right)  # the rotation nearest to a matrix with a scale in it
+    if np.linalg.det(rotation) < 0.0:
+        rotation = product(left, np.diag([1.0, 1.0, -1.0]) @ right)
+    corners = np.concatenate([scenery.corners(part) for part in parts])  # (8 n, 3) [m]
+    along = product(corners, rotation)
+    low, high = along.min(axis=0), along.max(axis=0)
+    centre = product(0.5 * (low + high), rotation.T)
+    return OrientedBox(Pose(centre, rotation), high - low)
