@@ -58,8 +58,13 @@ from .later_answers import LaterAnswers, pass_on
 from .log import Log
 from .queues import LatestQueue
 from .shown import known_services, known_topics
+from .work_budget import WorkBudget
 
 MAX_REQUESTS = 1000
+CALL_SHARE, CALL_BURST = 0.02, 0.05
+"""Share of the wall time in which a flood of calls is answered, and the time at once [s]."""
+AT_ONCE = 10
+"""Calls that are answered together while the simulation waits; more are a flood when it runs."""
 """Calls of services that may wait for the end of a step."""
 CALL_LIMIT = 60.0
 """How long a call of a service that is offered outside may take [s of wall time]."""
@@ -102,6 +107,7 @@ class Bridge(ABC):
         self._wants: list[tuple[str, int]] = []
         self._incoming: dict[str, LatestQueue[tuple[object, str]]] = {}
         self._requests: list[tuple[str, object, Future[object]]] = []
+        self._calls = WorkBudget(CALL_SHARE, CALL_BURST)
         self._offers: list[tuple[str, Service | None]] = []
         self._is_urgent = False  # something waits that is done also while the simulation waits
         self._woken = threading.Event()
@@ -268,15 +274,16 @@ class Bridge(ABC):
         deadline = time.monotonic() + limit_s
         while not until():
             if self._is_urgent:
-                self._serve()
-                continue
+                self._serve(AT_ONCE)
+                if time.monotonic() < deadline:
+                    continue
             left = deadline - time.monotonic()
             if left <= 0.0:
                 return False
             self._woken.wait(left)
             self._woken.clear()
         if self._is_urgent:
-            self._serve()
+            self._serve(AT_ONCE)
         return True
 
     def wake(self) -> None:
@@ -334,9 +341,9 @@ class Bridge(ABC):
             self.on_services(services)
 
     def _exchange(self) -> None:
-        self._serve()
+        self._serve(MAX_REQUESTS if self.admission is not None else None)
         with self._lock:
-            self._has_news = False
+            self._has_news = bool(self._requests)
             incoming, self._incoming = self._incoming, {}
         for topic in sorted(incoming):
             for message, by in incoming[topic].take():
@@ -344,20 +351,35 @@ class Bridge(ABC):
         self.bus.deliver()
         self._own.clear()
 
-    def _serve(self) -> None:
-        """Follow those outside who read or offer services, and answer their calls."""
+    def _serve(self, limit: int | None) -> None:
+        """Follow those outside who read or offer services, and answer their calls.
+
+        Args:
+            limit: of the calls that are answered now; None: all, or those that the budget allows
+                where more than `AT_ONCE` wait, so that a flood does not stop the simulation.
+        """
         with self._lock:
-            self._is_urgent = False
             wants, self._wants = self._wants, []
             requests, self._requests = self._requests, []
             offers, self._offers = self._offers, []
+            self._is_urgent = False
         for topic, n in wants:
             self._n_wanted[topic] += n
             self._follow_demand(topic)
         for name, service in offers:
             self._follow_offer(name, service)
+        n_answered, is_flood = 0, limit is None and len(requests) > AT_ONCE
         for name, request, future in requests:
+            if n_answered == limit or (is_flood and self._calls.delay > 0.0):
+                break
+            began = time.thread_time()
             self._answer(name, request, future)
+            self._calls.spend(time.thread_time() - began)
+            n_answered += 1
+        if n_answered < len(requests):
+            with self._lock:
+                self._requests = requests[n_answered:] + self._requests
+                self._has_news = self._is_urgent = True
 
     def _follow_offer(self, name: str, service: Service | None) -> None:
         """Offer a service of the outside on the bus, or no longer."""

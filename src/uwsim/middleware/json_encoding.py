@@ -69,6 +69,10 @@ def _message(cls: type[M], values: object, at: str) -> M:
     if not isinstance(values, Mapping):
         raise BadMessage(f"{at.rstrip('.') or name} is {_shown(values)}; expected an object.")
     known = {field[0]: field for field in _fields(name)}
+    if len(values) > len(known) + len(ROS1_NAMES) + len(IGNORED):
+        raise BadMessage(
+            f"{at.rstrip('.') or name} has {len(values)} fields; {name} has {', '.join(known)}."
+        )
     found: dict[str, object] = {}
     for key, value in values.items():
         field = ROS1_NAMES.get(key, key) if key not in known else key

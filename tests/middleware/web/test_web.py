@@ -35,6 +35,7 @@ from uwsim.messages import (
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
+from uwsim.middleware.work_budget import WorkBudget
 
 
 class Setting:
@@ -316,7 +317,9 @@ def masked(text: str) -> bytes:
 def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
     setting: Setting, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.middleware.web.server.MAX_RATE", 1e9)  # as fast as it can
+    for name in ("CLIENT_SHARE", "ALL_SHARE"):  # as fast as it can
+        monkeypatch.setattr(f"uwsim.middleware.web.server.{name}", 1e3)
+    setting.bridge._work = WorkBudget(1e3, 1.0)
     found: list[String] = []
     setting.bus.subscribe("text", String, found.append)
     setting.bridge.step()

@@ -28,7 +28,8 @@ from ...messages.services import Service
 from ..bridge import LATCHED, Bridge
 from ..log import Log
 from ..stamps import clock_time
-from ..types import message_class, wire_type
+from ..types import message_class, ros2_store, wire_type
+from ..work_budget import WorkBudget
 from .frame_republisher import FEEDBACK, SOURCES, FrameRepublisher, feedback
 from .options import WebOptions
 from .outgoing import Outgoing, as_jpeg
@@ -38,8 +39,14 @@ LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
 """Origins of pages that may connect unless others are named: those of this computer."""
 MAX_FRAME = 16 * 2**20
 """Longest frame of a client [bytes]."""
-MAX_RATE = 5000
-"""Frames a second that are read from one client."""
+SMALL_FRAME, N_LARGE = 2**20, 8
+"""Longest frame of clients beyond the first `N_LARGE` [bytes]: unfinished frames are kept."""
+CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
+"""Share of the wall time in which frames of one client are read, and the time at once [s]."""
+ALL_SHARE, ALL_BURST = 0.04, 0.1
+"""The same of all clients together, but those that a run in lock-step waits for."""
+FRAME_COST, MAX_COST = 5e-5, 0.05
+"""Time that the WebSocket library takes for a frame, and the most that a frame counts [s]."""
 MAX_CLIENTS = 64
 PING, PING_LIMIT = 20.0, 300.0
 """How often a client is asked whether it is there, and how long it may take to answer [s]."""
@@ -81,6 +88,7 @@ class WebBridge(Bridge):
         """Services of the bus."""
         self._offerers: dict[str, tuple[Session, ...]] = {}
         self._sessions: set[Session] = set()
+        self._work = WorkBudget(ALL_SHARE, ALL_BURST)
         self._republisher = FrameRepublisher()
         self._republications: dict[Session, list[str]] = {}
         self._loop = asyncio.new_event_loop()
@@ -317,6 +325,7 @@ class WebBridge(Bridge):
 
     async def _listen(self) -> None:
         self._ended = asyncio.Event()
+        ros2_store()  # once, before there are clients whose work is limited
         options = self._options
         server = await serve(
             self._attend,
@@ -356,17 +365,21 @@ class WebBridge(Bridge):
         self._sessions.add(session)
         self.log.say(f"{name} has come", kind="has come")
         writer = asyncio.create_task(_write(connection, session))
-        began, n = time.monotonic(), 0
+        own = WorkBudget(CLIENT_SHARE, CLIENT_BURST)
+        protocol = connection.protocol
+        if len(self._sessions) > N_LARGE:
+            protocol.max_message_size = min(protocol.max_message_size or MAX_FRAME, SMALL_FRAME)
         try:
             await self._begun.wait()
             async for raw in connection:
+                began = time.thread_time()
                 session.handle(raw)
-                n += 1
-                if n % 100 == 0:  # a flood waits in the sockets, not here
-                    early = n / MAX_RATE - (time.monotonic() - began)
-                    await asyncio.sleep(max(0.0, early))
-                    if early < -1.0:
-                        began, n = time.monotonic(), 0
+                if not session.is_waited_for:  # a flood waits in the sockets, not here
+                    took = min(FRAME_COST + time.thread_time() - began, MAX_COST)
+                    own.spend(took)
+                    self._work.spend(took)
+                    if (delay := max(own.delay, self._work.delay)) > 0.0:
+                        await asyncio.sleep(delay)
         except ConnectionClosed:
             pass
         finally:

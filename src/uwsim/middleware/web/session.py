@@ -28,6 +28,8 @@ from .queue import MAX_MESSAGES, Lane, OutQueue
 if TYPE_CHECKING:
     from .server import WebBridge
 
+MAX_KEYS = 200_000
+"""Fields that a frame may have, those of messages in lists counted each."""
 MAX_NAMES = 1000
 """Topics and services that one client may use."""
 
@@ -118,6 +120,11 @@ class Session:
     def name(self) -> str:
         """Its name in the log."""
         return self._name
+
+    @property
+    def is_waited_for(self) -> bool:
+        """Whether the client takes part in lock-step: the simulation waits for its answers."""
+        return self._joined_as is not None and self._bridge.admission is not None
 
     def reply(self, content: dict[str, Any]) -> None:
         """Send an object, behind what waits already. Any thread."""
@@ -332,6 +339,8 @@ def read_frame(raw: str | bytes) -> dict[str, Any]:
     """
     if isinstance(raw, bytes):
         raise BadMessage("A binary frame came; expected JSON text.")
+    if len(raw) > MAX_KEYS and raw.count('":') > MAX_KEYS:
+        raise BadMessage(f"A frame has more than {MAX_KEYS} fields.")
     try:
         found = json.loads(raw)
     except (ValueError, RecursionError) as error:
