@@ -204,11 +204,26 @@ def compare(
     return compare_files(paths, column=column, higher_is_better=higher_is_better)
 
 
-def check(*paths: str | Path) -> tuple[Diagnostic, ...]:
+def check(
+    *paths: str | Path,
+    data_path: Sequence[str | Path] = (),
+    arguments: Mapping[str, Setting] | None = None,
+) -> tuple[Diagnostic, ...]:
     """Return the errors and warnings of scene, benchmark, robot and hydrodynamics files.
 
     Errors come with their file, line and severity; a file without any gives none.
+
+    Args:
+        paths: the files.
+        data_path: more folders in which files are looked for.
+        arguments: values of their xacro arguments, by name.
     """
     from .runs.check import diagnostics_of
 
-    return tuple(diagnostic for path in paths for diagnostic in diagnostics_of(Path(path)))
+    folders = tuple(Path(folder) for folder in data_path)
+    given = {name: str(value) for name, value in (arguments or {}).items()}
+    return tuple(
+        diagnostic
+        for path in paths
+        for diagnostic in diagnostics_of(Path(path), data_path=folders, arguments=given)
+    )

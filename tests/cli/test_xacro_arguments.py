@@ -100,6 +100,8 @@ def test_python_and_set_take_them_as_settings(scene: Path) -> None:
         assert simulation.world.body("rov").world_from_body.position[2] == pytest.approx(-2.5)
     with pytest.raises(SceneError):
         uwsim.load(scene, settings={"xacro.depth": "deep"})
+    found = [each.message for each in uwsim.check(scene, arguments={"payload": "hull"})]
+    assert "two links are called 'hull'" in found
 
 
 def test_a_plan_keeps_them_with_the_settings_of_its_result(scene: Path) -> None:
