@@ -44,8 +44,8 @@ def thrust_said(
         if greatest + battery.hotel_load > battery.greatest_load:
             messages.append(
                 f"the battery {battery.name!r} feeds {battery.greatest_load:.4g} W at most, and "
-                f"all thrusters draw up to {greatest:.4g} W: they then give less thrust; expected a "
-                "higher <voltage> or a lower <resistance>"
+                f"all thrusters draw up to {greatest:.4g} W: they then give less thrust; "
+                "expected a higher <voltage> or a lower <resistance>"
             )
     return "; ".join(filter(None, messages))
 
