@@ -81,7 +81,7 @@ class Stepper:
             mujoco.mj_step if uses_callback else lambda _, data: water.step_without_callback(data)
         )
         self._uses_callback = uses_callback
-        self._end_and_begin = step_kernel.end_and_begin
+        self._end_and_begin: Callable[[npt.NDArray[np.void]], int] = step_kernel.end_and_begin
         if bounces is not None:
             self._end_and_begin = self._bound_and_begin
 

@@ -40,7 +40,8 @@ class _Body:
 
     def place(self) -> Array:
         """The middle of its box in W, (3,) [m]."""
-        return self.pose().transform(self.middle[None])[0]
+        place: Array = self.pose().transform(self.middle[None])[0]
+        return place
 
 
 class BelowGround:
