@@ -143,6 +143,10 @@ class Actuators(Protocol):
     def joints(self) -> tuple[str, ...]:
         """Names of its joints, those that mimic included."""
 
+    @property
+    def greatest_power(self) -> float:
+        """Electric power of all thrusters at their greatest thrusts [W]."""
+
     def powers(self) -> npt.NDArray[np.float64]:
         """Electric power of the thrusters, then of the joints, (n,) [W]."""
 

@@ -12,7 +12,7 @@ from tests.simulation.girona500 import make
 from uwsim.benchmark.measures import EnergySpec
 from uwsim.devices.battery import BatterySpec
 from uwsim.devices.motor_currents import MotorCurrentsSpec
-from uwsim.messages import BatteryState, Float64MultiArray, JointState
+from uwsim.messages import BatteryState, Float64MultiArray, JointState, MultiArrayLayout
 from uwsim.simulation import Simulation
 from uwsim.topics.sensor_topic import BatteryToROSSpec, MotorCurrentsToROSSpec
 from uwsim.topics.thruster_commands import ROSThrustersToPATSpec
@@ -155,3 +155,78 @@ def test_a_vehicle_without_dynamics_has_no_motors() -> None:
         simulation.latest("/currents")
         simulation.advance(0.1)
         assert list(simulation.latest("/currents").name) == []
+
+
+def full_thrust(simulation: Simulation, command: float = 1.0) -> None:
+    simulation.publish(
+        "/thrusters", Float64MultiArray(layout=MultiArrayLayout([], 0), data=np.full(5, command))
+    )
+
+
+@pytest.mark.parametrize("resistance", [0.25, 1.0, 4.0])
+@pytest.mark.parametrize("hotel_load", [0.0, 60.0])
+def test_thrusters_get_no_more_than_the_battery_can_feed(
+    resistance: float, hotel_load: float
+) -> None:
+    battery = replace(BATTERY, resistance=resistance, hotel_load=hotel_load)
+    greatest = 50.0**2 / (4.0 * resistance)
+    with vehicle(replace(BATTERY, resistance=0.0)) as free:
+        full_thrust(free)
+        free.advance(1.0)
+        wanted = free.world.actuators(NAME)
+        demand, full = float(wanted.powers().sum()), wanted.thrusts()
+        for_thrust = float(wanted.powers()[:5].sum())
+    with vehicle(battery) as simulation:
+        simulation.latest("/battery")
+        full_thrust(simulation)
+        simulation.advance(1.0)
+        actuators = simulation.world.actuators(NAME)
+        power, thrusts = float(actuators.powers().sum()) + hotel_load, actuators.thrusts()
+        share = (float(actuators.powers()[:5].sum()) / for_thrust) ** (2.0 / 3.0)
+        message = simulation.latest("/battery")
+    fed = message.voltage * -message.current
+    assert power == pytest.approx(min(demand + hotel_load, greatest), rel=1e-3)
+    assert fed == pytest.approx(power, rel=1e-6)
+    is_overload = demand + hotel_load > greatest
+    failure, unknown = (
+        BatteryState.POWER_SUPPLY_HEALTH_UNSPEC_FAILURE,
+        BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN,
+    )
+    assert message.power_supply_health == (failure if is_overload else unknown)
+    if is_overload:
+        assert thrusts == pytest.approx(share * full, rel=1e-6)
+
+
+def test_the_charge_is_that_of_the_power_in_an_overload() -> None:
+    battery = replace(BATTERY, resistance=1.0)
+    with vehicle(battery) as simulation:
+        full_thrust(simulation)
+        after(simulation, 2.0)
+        before = after(simulation, 0.0).charge
+        simulation.advance(2.0)
+        drawn = before - simulation.latest("/battery").charge
+    assert drawn == pytest.approx(25.0 * 2.0 / 3600.0, rel=1e-3)
+
+
+def test_an_overload_ends_with_the_load() -> None:
+    with vehicle(replace(BATTERY, resistance=4.0)) as simulation:
+        full_thrust(simulation)
+        after(simulation, 1.0)
+        full_thrust(simulation, 0.05)
+        message = after(simulation, 3.0)
+        thrusts = simulation.world.actuators(NAME).thrusts()
+    assert message.power_supply_health == BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
+    with vehicle(BATTERY) as free:
+        full_thrust(free, 0.05)
+        free.advance(4.0)
+        assert thrusts == pytest.approx(free.world.actuators(NAME).thrusts(), rel=0.02)
+
+
+@pytest.mark.parametrize(("resistance", "warns"), [(0.01, False), (4.0, True)])
+def test_a_battery_that_cannot_feed_all_thrusters_is_warned_of(
+    resistance: float, warns: bool
+) -> None:
+    with vehicle(replace(BATTERY, resistance=resistance)) as simulation:
+        texts = [warning.message for warning in simulation.world.warnings]
+    found = [text for text in texts if "'battery' feeds 156.2 W at most" in text]
+    assert bool(found) is warns

@@ -12,9 +12,17 @@ With the open-circuit voltage :math:`V_0` and the internal resistance R, a load 
 .. math:: I = \frac{V_0 - \sqrt{V_0^2 - 4 R P}}{2 R}, \qquad V = V_0 - R I ,
 
 and the store loses :math:`V_0 I`. What the thrusters and joints draw is the law of the measure
-``<u:energy>``, looked at 50 times a second. Not modelled: a voltage that falls with the charge,
-temperature, ageing. With ``<stopsThrusters>`` an empty battery stops the thrusters; arms hold their
-place, as those with self-locking gears do. Without it the vehicle goes on.
+``<u:energy>``, looked at 50 times a second. The battery can feed
+
+.. math:: P_{max} = V_0^2 / 4R
+
+at most. Where thrusters, joints and the constant load ask for more, the thrusters get what is left:
+all give the same smaller share of their thrust, found at the end of every step, so that thrust,
+current and charge agree. The message reports such an overload as an unspecified failure. Not
+modelled: a voltage that falls with the charge, thrust that falls with the voltage, joints that are
+weaker in an overload, temperature, ageing. With ``<stopsThrusters>`` an empty battery stops the
+thrusters; arms hold their place, as those with self-locking gears do. Without it the vehicle goes
+on.
 """
 
 from __future__ import annotations
@@ -30,7 +38,11 @@ from ..world import Actuators, Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 
 RATE = 50.0
-"""How often the load is looked at [Hz]."""
+"""How often the charge is reckoned [Hz]."""
+ROUNDS = 30
+"""Corrections of the share of the thrusts at most."""
+TOLERANCE = 1e-9
+"""Of the power fed, share of the greatest."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,11 +67,17 @@ class BatterySpec(DeviceSpec):
     stops_thrusters: bool = False
     """Whether the thrusters of a simulated vehicle stop when it is empty."""
 
+    @property
+    def greatest_load(self) -> float:
+        """The greatest power that it can feed [W]."""
+        return self.voltage**2 / (4.0 * self.resistance) if self.resistance > 0.0 else math.inf
+
     def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Battery:
         """Find the consumers; of a vehicle that is not simulated there is the constant load."""
         actuators = stage.actuators(vehicle.name)
-        stopped = actuators.thrusters if actuators is not None and self.stops_thrusters else ()
-        cuts = tuple(vehicle.loss_setter(name) for name in stopped)
+        limited = self.stops_thrusters or self.greatest_load < math.inf
+        reduced = actuators.thrusters if actuators is not None and limited else ()
+        cuts = tuple(vehicle.loss_setter(name) for name in reduced)
         battery = Battery(self, stage, actuators, cuts)
         stage.every(RATE, battery.drain)
         return battery
@@ -68,7 +86,7 @@ class BatterySpec(DeviceSpec):
 class Battery(Device):
     """The charge that is left, and the voltage and current of now."""
 
-    STATE = ("_drawn", "_current", "_time")
+    STATE = ("_drawn", "_current", "_time", "_is_overloaded")
 
     def __init__(
         self,
@@ -80,6 +98,9 @@ class Battery(Device):
         self._spec, self._stage, self._actuators, self._cuts = spec, stage, actuators, cuts
         self._drawn = (1.0 - spec.charge) * self._full  # [A s]
         self._current, self._time = 0.0, stage.time
+        self._is_overloaded = False
+        greatest = 0.0 if actuators is None else actuators.greatest_power
+        self._can_overload = bool(cuts) and spec.hotel_load + greatest > spec.greatest_load
 
     @property
     def _full(self) -> float:
@@ -92,9 +113,50 @@ class Battery(Device):
         self._drawn += 0.5 * (self._current + current) * (now - self._time)
         self._drawn = min(self._drawn, self._full)
         self._current, self._time = current, now
-        if self._drawn >= self._full:
-            for cut in self._cuts:
-                cut(1.0)
+        if self._is_empty:
+            self._cut(1.0)
+
+    @property
+    def _is_empty(self) -> bool:
+        """Whether it is empty and stops the thrusters then."""
+        return self._spec.stops_thrusters and self._drawn >= self._full
+
+    def rests_until(self, time: float) -> float:
+        """Return when it looks at the load again: at the next step, if that may be too much."""
+        return time if self._can_overload else math.inf
+
+    def animate(self, time: float) -> None:
+        """Limit the thrusts, at the end of a step, to what it can feed."""
+        if self._can_overload and not self._is_empty:
+            self._limit()
+
+    def _limit(self) -> None:
+        """Find the share of the thrusts that it can feed.
+
+        The law of power is the thrust to the power of 1.5: one round corrects the share. Measured
+        polynomials take some more.
+        """
+        assert self._actuators is not None
+        n, share = len(self._actuators.thrusters), 1.0
+        self._cut(0.0)
+        self._is_overloaded = False
+        for _ in range(ROUNDS):
+            powers = self._actuators.powers().tolist()
+            thrusters = math.fsum(powers[:n])
+            left = self._spec.greatest_load - self._spec.hotel_load - math.fsum(powers[n:])
+            if thrusters - left <= TOLERANCE * self._spec.greatest_load:
+                return
+            self._is_overloaded = True
+            if left <= 0.0 or thrusters <= 0.0:
+                self._cut(1.0)
+                return
+            share *= (left / thrusters) ** (2.0 / 3.0)
+            self._cut(1.0 - share)
+
+    def _cut(self, loss: float) -> None:
+        """Take a share of all thrusts away [0..1]."""
+        for cut in self._cuts:
+            cut(loss)
 
     def _load(self) -> float:
         """Power that is drawn now [W]."""
@@ -109,12 +171,15 @@ class Battery(Device):
 
     def sample(self, time: float) -> BatteryState:
         """Read it now, at ``time`` [s]."""
-        current = self._current_of(self._load())
+        load = self._load()
+        current = self._current_of(load)
         left = max(self._full - self._drawn, 0.0)
-        unknown, dead = (
-            BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN,
-            BatteryState.POWER_SUPPLY_HEALTH_DEAD,
-        )
+        greatest = self._spec.greatest_load * (1.0 + 1e-6)
+        health = BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
+        if left <= 0.0:
+            health = BatteryState.POWER_SUPPLY_HEALTH_DEAD
+        elif self._is_overloaded or load > greatest:
+            health = BatteryState.POWER_SUPPLY_HEALTH_UNSPEC_FAILURE
         return BatteryState(
             header=header(time, self._spec.name),
             voltage=self._spec.voltage - self._spec.resistance * current,
@@ -125,6 +190,6 @@ class Battery(Device):
             design_capacity=self._full / 3600.0,
             percentage=left / self._full,
             power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING,
-            power_supply_health=unknown if left > 0.0 else dead,
+            power_supply_health=health,
             present=True,
         )

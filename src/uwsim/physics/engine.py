@@ -18,10 +18,11 @@ from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec
 from ..world import Contact
 from .actuation.vehicle_actuation import actuation_of
+from .bounce_limit import BounceLimit
 from .collision.contacts import EngineContacts, body_name
 from .collision.shapes import CollisionShape
 from .collision.world_tree import place_fixed_shapes
-from .compile import compile_scene, vehicle_joint
+from .compile import compile_scene, loose_joint, vehicle_joint
 from .engine_warnings import StepCheck
 from .grips import Grips
 from .hydrodynamics import VehicleHydrodynamics
@@ -53,6 +54,7 @@ class Engine:
         "poses",
         "grips",
         "_contacts",
+        "_bounces",
     )
     """Attributes of its state, for snapshots."""
 
@@ -96,6 +98,7 @@ class Engine:
         """What moves each simulated vehicle, by its number."""
         self._set_first_joints(scene)
         self._wet, self._felt_at = self._wet_points()
+        self._bounces = _bounces_of(scene, model, data)
         self._stepper = self._make_stepper([free[i] for i in robots if i not in dynamics])
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
 
@@ -163,6 +166,8 @@ class Engine:
         if self._stepper is None:
             return
         self.grips.follow()
+        if self._bounces is not None:
+            self._bounces.is_on = not self.grips.is_holding
         try:
             self._stepper.run(n, self._n_steps, water)
         finally:
@@ -180,6 +185,9 @@ class Engine:
             return
         self.grips.follow()
         self._uwsim_physics.step()
+        if self._bounces is not None:
+            self._bounces.is_on = not self.grips.is_holding
+            self._bounces.apply()
         self._n_steps += 1
         self._check.end_if_warned(self._n_steps)
         self._contacts.hold = True
@@ -273,6 +281,7 @@ class Engine:
             placed,
             self._wet.tolist(),
             self._check,
+            self._bounces,
         )
 
 
@@ -280,6 +289,16 @@ def joint_places(model: mujoco.MjModel, robot: RobotSpec, index: int) -> npt.NDA
     """Where the joint vector of a vehicle lies in ``qpos``, (n,)."""
     names = [vehicle_joint(index, joint.name) for joint in robot.movable]
     return np.array([model.joint(name).qposadr[0] for name in names], dtype=np.intp)
+
+
+def _bounces_of(scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> BounceLimit | None:
+    """The bound on the energy of loose objects; None where nothing has a restitution."""
+    if all(thing.solid.restitution is None for thing in scene.objects):
+        return None
+    names = {model.joint(i).name: int(model.jnt_bodyid[i]) for i in range(model.njnt)}
+    loose = [loose_joint(i) for i in range(len(scene.objects))]
+    bodies = [names[name] for name in loose if name in names]
+    return BounceLimit(model, data, bodies) if bodies else None
 
 
 def _water_of(model: mujoco.MjModel) -> Hydrodynamics:

@@ -105,6 +105,11 @@ class Grips:
         """Whether a body of the engine follows a vehicle that is not simulated."""
         return any(self._follows(thing, hold) for thing, hold in self._held.items())
 
+    @property
+    def is_holding(self) -> bool:
+        """Whether a vehicle holds an object."""
+        return bool(self._held)
+
     def follow(self) -> None:
         """Put the bodies that follow a vehicle where they are, before a step."""
         for thing, hold in self._held.items():

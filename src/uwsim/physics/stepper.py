@@ -16,6 +16,7 @@ from ..geometry import Array
 from . import step_kernel
 from .actuation.autopilot import Autopilot
 from .actuation.servos import Servos
+from .bounce_limit import BounceLimit
 from .engine_warnings import StepCheck
 from .hydrodynamics import callback
 from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -37,6 +38,7 @@ class Stepper:
         placed: joints of the vehicles that stay where they are put.
         wet: bodies whose water is set.
         check: says what is wrong with a step.
+        bounces: bounds the energy of objects that bounce; None where none does.
     """
 
     def __init__(
@@ -48,8 +50,10 @@ class Stepper:
         placed: Sequence[int],
         wet: Sequence[int],
         check: StepCheck,
+        bounces: BounceLimit | None,
     ) -> None:
         model = water.model
+        self._bounces = bounces
         self._model, self._data, self._water, self._check = model, data, water, check
         self._plan = plan = np.zeros(1, step_kernel.PLAN)
         uses_callback = callback.has_slot()
@@ -77,6 +81,9 @@ class Stepper:
             mujoco.mj_step if uses_callback else lambda _, data: water.step_without_callback(data)
         )
         self._uses_callback = uses_callback
+        self._end_and_begin: Callable[[npt.NDArray[np.void]], int] = step_kernel.end_and_begin
+        if bounces is not None:
+            self._end_and_begin = self._bound_and_begin
 
     @property
     def n_steps(self) -> int:
@@ -110,15 +117,26 @@ class Stepper:
         found = step_kernel.WENT_WELL
         for _ in range(n - 1):
             step(model, data)
-            found = step_kernel.end_and_begin(plan)
+            found = self._end_and_begin(plan)
             if found != step_kernel.WENT_WELL:
                 break
         else:
             step(model, data)
             found = step_kernel.end(plan)
+            if self._bounces is not None and found == step_kernel.WENT_WELL:
+                self._bounces.apply()
         if found != step_kernel.WENT_WELL:
             plan["step"] += 1
             self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
+
+    def _bound_and_begin(self, plan: npt.NDArray[np.void]) -> int:
+        """Complete a step, bound what bounces, and begin the next step."""
+        assert self._bounces is not None
+        found = int(step_kernel.end(plan))
+        if found == step_kernel.WENT_WELL:
+            self._bounces.apply()
+            step_kernel.begin(plan)
+        return found
 
 
 def _numbers(rows: Sequence[Sequence[int]]) -> Ints:

@@ -359,6 +359,7 @@ class Simulation:
         state, water = self.world.state, self.world.water
         if not state.is_dynamic:
             state.fall()
+            self.world.below_ground.look(self.step)
             return
         first, half = self.step, 0.5 * self.timestep  # forces act in the middle of a step
         motion = None
@@ -370,6 +371,7 @@ class Simulation:
             state.step(n, motion)
         finally:
             self.bus.step = first + max(0, state.n_steps - before - 1)
+        self.world.below_ground.look(self.step)
 
     def _animate(self) -> None:
         """Move what devices animate."""

@@ -28,6 +28,7 @@ from ..world import TIMESTEP, Actuators, Contact
 from .bodies import SceneBody, find_body, name_bodies, read_robots
 from .checks.place_warnings import place_warnings
 from .checks.plausibility import plausibility_warnings
+from .collision.below_ground import BelowGround
 from .collision.collision_shapes import simulated_shapes
 from .collision.contacts import Contacts
 from .collision.floor import set_on_floor
@@ -90,6 +91,10 @@ class SceneWorld:
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self.state = Engine(scene, self.robots, dynamics, timestep, shapes)
         """Where everything is, and what moves it."""
+        self.below_ground = BelowGround(
+            scene, self.robots, shapes, self.state, timestep=timestep, data_path=data_path
+        )
+        """Whether a body has passed through the ground."""
         self._vehicles = vehicles_of(scene, self.robots, self.state, lambda: self._bus.step)
         self.scenery = Scenery(
             scene,

@@ -146,3 +146,24 @@ def test_bundled_vehicles_under_held_commands_are_within_the_documented_errors(n
     reference = end("mjINT_RK4", 0.001)
     assert np.linalg.norm(end("mjINT_IMPLICITFAST", 0.002) - reference) < 1e-4
     assert np.linalg.norm(end("mjINT_RK4", 0.002) - reference) < 1e-7
+
+
+@pytest.mark.slow
+def test_a_vehicle_with_the_bundled_arm_at_rest_is_within_2_um() -> None:
+    """Drag of the arm's links is of second order; the reference is RK4 with half the step."""
+
+    def end(integrator: str, timestep: float) -> np.ndarray:
+        built, vehicle = bundled("g500_physical", timestep=timestep)
+        built.opt.integrator = getattr(mujoco.mjtIntegrator, integrator)
+        water, data = install(built), mujoco.MjData(built)
+        limits = np.array([one.limits[1] for one in vehicle.thrusters])
+        phases = np.arange(len(limits))
+        for k in range(round(10.0 / timestep)):
+            if k % round(0.02 / timestep) == 0:
+                pace = 0.4 + 0.13 * phases
+                water.set_thrusters(data, 0.6 * limits * np.sin(pace * k * timestep + phases))
+            water.step(data)
+        return data.qpos[:3].copy()
+
+    apart = end("mjINT_IMPLICITFAST", 0.002) - end("mjINT_RK4", 0.001)
+    assert np.linalg.norm(apart) < 2e-6

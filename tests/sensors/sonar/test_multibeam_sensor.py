@@ -9,7 +9,13 @@ import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate
 from uwsim.geometry import Pose, rotation_from_rpy
-from uwsim.sensors.sonar.multibeam_sensor import BeamFan, FanSpec, MultibeamSensorSpec
+from uwsim.sensors.pencil import pencil
+from uwsim.sensors.sonar.multibeam_sensor import (
+    BeamFan,
+    FanSpec,
+    MultibeamSensorSpec,
+    on_one_surface,
+)
 from uwsim.sensors.sonar.profiling_sonar import ProfilingSonarSpec
 
 FAN = {"init_angle": -60.0, "final_angle": 60.0, "angle_incr": 0.5, "range": 30.0}
@@ -64,6 +70,41 @@ def test_a_wide_beam_gives_the_mean_of_what_it_covers() -> None:
     mean = 5.0 * (weights / np.cos(angles)).sum() / weights.sum()
     assert message.ranges[120] == pytest.approx(mean, rel=1e-6)
     assert (message.ranges[1:-1] >= narrow.ranges[1:-1] - 1e-6).all()
+
+
+@pytest.mark.parametrize("width", [0.5, 2.0, 6.0])
+@pytest.mark.parametrize("top", [-2.0, -3.5, -4.7])
+@pytest.mark.parametrize("incr", [0.5, 0.13])
+def test_at_an_edge_a_wide_beam_gives_one_surface_or_the_other(
+    width: float, top: float, incr: float
+) -> None:
+    world = AcousticWorld(plate(100.0, -5.0), plate(0.9, top))
+    message = make(world, beam_width=width, angle_incr=incr).sample(0.0)
+    angles = message.angle_min + message.angle_increment * np.arange(len(message.ranges))
+    half, is_one = math.radians(0.5 * width), np.zeros(len(angles), dtype=bool)
+    for height in (5.0, -top):
+        ends = height / np.cos(np.abs(angles) + half)
+        starts = height / np.cos(np.maximum(np.abs(angles) - half, 0.0))
+        is_one |= (message.ranges > starts - 1e-4) & (message.ranges < ends + 1e-4)
+    assert is_one.all()
+    assert np.unique(np.round(message.ranges, 1)).size > 2
+
+
+@pytest.mark.parametrize("width", [0.5, 3.0, 10.0])
+def test_a_beam_on_one_sloping_surface_keeps_all_its_rays(width: float) -> None:
+    """At every slope that the whole beam meets."""
+    turns = np.radians(np.linspace(0.0, 84.0 - width, 60))
+    axes = np.stack([np.zeros(60), np.sin(turns), -np.cos(turns)], axis=1)
+    beside = np.broadcast_to([1.0, 0.0, 0.0], axes.shape)
+    rays, weights = pencil(axes, beside, math.radians(width))
+    distances = 5.0 / -rays[:, :, 2]
+    assert on_one_surface(distances, weights, math.radians(width)).all()
+
+
+def test_of_three_surfaces_that_with_most_of_the_beam_counts() -> None:
+    distances = np.array([[4.0] * 3 + [6.0] * 5 + [9.0] * 4 + [np.inf] * 2])
+    found = on_one_surface(distances, np.ones(14), 0.02)
+    assert found[0].tolist() == [False] * 3 + [True] * 5 + [False] * 6
 
 
 def test_noise_is_that_of_the_sensor_and_spares_beams_that_hit_nothing() -> None:

@@ -20,7 +20,7 @@ from ...scene.urdf.robot import RobotSpec
 from ..compile import vehicle_joint, vehicle_thruster
 from ..hydrodynamics import VehicleHydrodynamics
 from ..hydrodynamics.columns import WATER_COLUMNS
-from .power import power_table
+from .power import greatest_power, power_table
 
 if TYPE_CHECKING:
     from ..hydrodynamics.hydrodynamics import Hydrodynamics
@@ -69,6 +69,9 @@ class Actuators:
         self._tables = np.array(
             [power_table(one, water.density, terms) for one in vehicle.thrusters]
         ).reshape(-1, 2, 1 + terms)
+        powers = [greatest_power(one, water.density) for one in vehicle.thrusters]
+        self.greatest_power = math.fsum(powers)
+        """Electric power of all thrusters at their greatest thrusts [W]."""
         names = [vehicle_joint(index, name) for name in self.joints]
         joints = [model.joint(name).id for name in names]
         servos = [model.actuator(f"{name}/servo").id for name in names]

@@ -61,6 +61,22 @@ def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array
     return table
 
 
+def greatest_power(thruster: ThrusterSpec, density: float) -> float:
+    """Return the electric power of a thruster at its greatest thrust, forward or backward [W].
+
+    Args:
+        thruster: its spec.
+        density: of the water [kg/m3].
+    """
+    table = power_table(thruster, density)
+    found = []
+    for row, forward in enumerate((True, False)):
+        thrusts = np.linspace(0.0, _greatest(thruster, forward=forward), 201)
+        law = table[row, 0] * thrusts**1.5
+        found.append(float((law + _polynomial(tuple(table[row, 1:]), thrusts)).max()))
+    return max(found)
+
+
 def power_errors(thruster: ThrusterSpec) -> list[str]:
     """Report where the power that a file gives would be below 0."""
     errors = []

@@ -9,8 +9,9 @@
     </multibeamSensor>
 
 A beam at the angle t points along (0, sin t, -cos t). Its range is exact for the triangles of the
-scene. With a beam width it is the mean over what the beam covers, weighted by its pattern, as
-bottom detection by amplitude finds it.
+scene. With a beam width it is the mean over the surface that the beam covers, weighted by its
+pattern, as bottom detection by amplitude finds it. Where the beam covers two surfaces, one behind
+the other, it is that of the one with more of the beam.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from ...geometry import Array
 from ...messages import LaserScan, header
@@ -135,8 +137,38 @@ class BeamFan:
         distances = hits.distance.reshape(-1, len(self._weights))
         if len(self._weights) == 1:
             return np.minimum(distances[:, 0], reach)
-        is_hit = np.isfinite(distances)
+        is_hit = on_one_surface(distances, self._weights, math.radians(self._spec.beam_width))
         weights = np.where(is_hit, self._weights, 0.0).sum(axis=1)
         total = np.where(is_hit, self._weights * np.where(is_hit, distances, 0.0), 0.0).sum(axis=1)
         ranges: Array = np.where(weights > 0.0, total / np.maximum(weights, 1e-300), reach)
         return ranges
+
+
+def on_one_surface(distances: Array, weights: Array, width: float) -> npt.NDArray[np.bool_]:
+    """Return which rays of each beam meet the surface that has most of the beam, (n, k).
+
+    Of a beam's distances in order, a gap of more than half their spread is between two surfaces: on
+    one surface, however it slopes, the rays lie closer. So does a curve of :math:`r w^2` at most,
+    what a beam across a flat surface differs by.
+
+    Args:
+        distances: of the rays of each beam; inf where nothing is met, (n, k) [m].
+        weights: of the rays, (k,).
+        width: of a beam [rad].
+    """
+    found = np.isfinite(distances)
+    for beam in np.flatnonzero(found.sum(axis=1) > 1).tolist():
+        own = np.flatnonzero(found[beam])
+        while len(own) > 1:
+            own = own[np.argsort(distances[beam, own], kind="stable")]
+            ordered = distances[beam, own]
+            gaps = np.diff(ordered)
+            place = int(np.argmax(gaps))
+            spread = ordered[-1] - ordered[0]
+            if gaps[place] <= 0.5 * spread or gaps[place] <= ordered[0] * width**2:
+                break
+            near, far = own[: place + 1], own[place + 1 :]
+            own = near if weights[near].sum() >= weights[far].sum() else far
+            found[beam] = False
+            found[beam, own] = True
+    return found

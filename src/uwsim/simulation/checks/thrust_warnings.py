@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...devices.battery import BatterySpec
 from ...numerics.linear import length, product
 from ...physics.actuation.allocation import (
     AXES,
@@ -19,6 +20,7 @@ from ...physics.actuation.allocation import (
     allocate,
     thrusters_on_base,
 )
+from ...physics.actuation.power import greatest_power
 from ...physics.balance import Balance, balance_of
 from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
@@ -32,8 +34,20 @@ HELD_BY = {SWAY: "sway", HEAVE: "depth (heave)", YAW: "heading (yaw)", SURGE: "s
 def thrust_said(
     scene: SceneSpec, index: int, robot: RobotSpec, dynamics: VehicleHydrodynamics
 ) -> str:
-    """Report the axes that the thrusters of a simulated vehicle cannot drive; empty if none."""
-    return limits_said(allocation_of(scene, index, robot, dynamics))
+    """Report what the thrusters of a simulated vehicle cannot do; empty if nothing.
+
+    Axes that they cannot drive, and thrusts that no battery of the vehicle can feed.
+    """
+    messages = [limits_said(allocation_of(scene, index, robot, dynamics))]
+    greatest = sum(greatest_power(one, dynamics.density) for one in dynamics.thrusters)
+    for battery in scene.vehicles[index].parts_of(BatterySpec):
+        if greatest + battery.hotel_load > battery.greatest_load:
+            messages.append(
+                f"the battery {battery.name!r} feeds {battery.greatest_load:.4g} W at most, and "
+                f"all thrusters draw up to {greatest:.4g} W: they then give less thrust; "
+                "expected a higher <voltage> or a lower <resistance>"
+            )
+    return "; ".join(filter(None, messages))
 
 
 def allocation_of(
