@@ -15,7 +15,6 @@
 
 from __future__ import annotations
 
-import math
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields
@@ -74,6 +73,8 @@ def read_mapping(path: Path) -> PilotMapping:
     """
     try:
         read = tomllib.loads(path.read_text(encoding="utf-8"))
+    except RecursionError:
+        raise BadSetting(f"--pilot-mapping {path}: lists are nested too deeply.") from None
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         raise BadSetting(f"--pilot-mapping {path}: cannot be read: {why}.") from None
@@ -94,7 +95,13 @@ def _check(path: Path, name: str, value: object) -> None:
     targets = list(value.values()) if isinstance(value, dict) else value
     if isinstance(value, dict) != (name == "keys") or not isinstance(targets, list):
         raise BadSetting(f"--pilot-mapping {path}: {name} is {value!r}; see docs/piloting.md.")
-    for target in " ".join(map(str, targets)).split():
+    for target in targets:
+        if not isinstance(target, str):
+            raise BadSetting(
+                f"--pilot-mapping {path}: {name} has {repr(target)[:60]}; expected the names of "
+                "axes in quotation marks."
+            )
+    for target in " ".join(targets).split():
         axis = target.removeprefix("-").removeprefix("+")
         if axis not in AXES:
             raise BadSetting(
@@ -109,8 +116,10 @@ def _add(total: dict[str, float], targets: str, value: float) -> None:
 
 
 def _number(value: object) -> float:
-    is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    return float(value) if is_number and math.isfinite(value) else 0.0  # type: ignore[arg-type]
+    """A number of a page, -1..1; 0 for what is none."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
+        return 0.0
+    return float(min(1, max(-1, value)))
 
 
 def merged(by_viewer: Mapping[int, Sequence[float]]) -> tuple[float, ...] | None:
