@@ -14,9 +14,7 @@ def run() -> int:
     atexit.register(ignore_from_now_on)  # the first registered is the last called
     from .cli import main
     from .cli.app import say
-    from .terminal import ignore_casts
 
-    ignore_casts()
     try:
         return main()
     except KeyboardInterrupt as error:  # a second one, while the first was handled
