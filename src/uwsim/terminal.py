@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
+import warnings
 from collections.abc import Iterable
 
 from .errors import Diagnostic
@@ -21,10 +22,19 @@ def warn(message: str) -> None:
     print(printable(f"uwsim: warning: {message}"), file=sys.stderr)
 
 
-def print_warnings(warnings: Iterable[Diagnostic]) -> None:
+def print_warnings(found: Iterable[Diagnostic]) -> None:
     """Print warnings about files; the command continues."""
-    for warning in warnings:
+    for warning in found:
         print(printable(str(warning)), file=sys.stderr)
+
+
+def ignore_casts() -> None:
+    """Print nothing where a number does not fit its type; it becomes infinite, which is checked.
+
+    For the processes of the commands, all their threads.
+    """
+    what = "(overflow|invalid value) encountered in cast"
+    warnings.filterwarnings("ignore", what, RuntimeWarning)
 
 
 def printable(text: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import tracemalloc
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from scipy.io import netcdf_file
 
 from uwsim.currents import Current, Field, FieldSpec, Place, read_grid
+from uwsim.currents.field import read_csv
 from uwsim.errors import AssetError
 from uwsim.rng import stream
 
@@ -304,3 +306,23 @@ def test_whatever_stands_in_a_netcdf_file_there_is_one_line(tmp_path: Path) -> N
             said = str(error)
         assert said.startswith(str(path))
         assert "\n" not in said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("names", ["x,y,u,v", "x,y,z,t,u,v,w"])
+def test_a_table_takes_little_more_memory_than_it_is_long(tmp_path: Path, names: str) -> None:
+    n, n_names = 40_000, names.count(",") + 1
+    rest = ",0" * (n_names - 3)
+    lines = [f"{k % 200},{k // 200}{rest},0.25" for k in range(n)]
+    path = tmp_path / "field.csv"
+    path.write_text("\n".join([names, *lines]) + "\n")
+    data = path.read_bytes()
+    tracemalloc.start()
+    try:
+        grid = read_csv(path, data)
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert grid.velocities.size == 3 * n
+    numbers = 8 * n * n_names
+    assert peak < 3 * len(data) + 3 * numbers + 8 * n * 10

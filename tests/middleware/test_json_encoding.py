@@ -99,3 +99,34 @@ def test_what_does_not_fit_is_one_line(cls: type, values: object, line: str) -> 
         from_json(cls, values)
     assert line in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("text", ["1e309", "-1e309", "1" * 400, "-" + "1" * 400, "Infinity"])
+@pytest.mark.parametrize(
+    ("cls", "shape"),
+    [
+        (TwistStamped, '{"twist": {"linear": {"y": %s}}}'),
+        (Odometry, '{"pose": {"pose": {"orientation": {"w": %s}}}}'),
+        (Image, '{"height": %s}'),
+        (Image, '{"data": [1, %s]}'),
+        (JointState, '{"position": [0.5, %s]}'),
+        (GTpublish, '{"groundTruth": [%s]}'),
+        (TwistStamped, '{"header": {"stamp": {"sec": %s}}}'),
+    ],
+)
+def test_a_number_beyond_its_type_is_one_line(cls: type, shape: str, text: str) -> None:
+    with pytest.raises(BadMessage, match="expected") as caught:
+        from_json(cls, json.loads(shape % text))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("value", [1e39, -3.5e38, 10**39])
+def test_a_number_beyond_float32_is_one_line_and_no_warning(value: float) -> None:
+    with pytest.raises(BadMessage, match="groundTruth"):
+        from_json(GTpublish, {"groundTruth": [0.5, value]})
+
+
+def test_nested_lists_are_no_numbers() -> None:
+    for values in ([[1.0, 2.0], [3.0, 4.0]], [[]], [1.0, [2.0]]):
+        with pytest.raises(BadMessage, match="groundTruth"):
+            from_json(GTpublish, {"groundTruth": values})

@@ -85,6 +85,44 @@ def test_a_damaged_track_is_an_error_that_says_so(damage: object, tmp_path: Path
         load_track(tmp_path / "none.motion")
 
 
+DEEP = json.loads("[" * 900 + "]" * 900)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"began": [1.0]},
+        {"began": 10**400},
+        {"began": True},
+        {"duration": "2.0"},
+        {"duration": {"s": 2.0}},
+        {"status": ["ok"]},
+        {"status": 7},
+        {"values": [0.5]},
+        {"values": {"fog": [0.5]}},
+        {"values": {"fog": DEEP}},
+        {"more": 1.0},
+    ],
+)
+def test_a_level_of_other_kinds_is_an_error_when_the_track_is_read(
+    change: dict[str, object], tmp_path: Path
+) -> None:
+    line, _, rest = gzip.decompress(written(9)[0]).partition(b"\n")
+    for part in ("levels", "signals"):
+        head = json.loads(line)
+        if part == "signals":
+            name, value = next(iter(change.items()))
+            change = {{"began": "step", "duration": "unit"}.get(name, "name"): value}
+            if isinstance(value, str):
+                continue
+        head[part] = [{**head[part][0], **change}]
+        path = tmp_path / "00000.motion"
+        path.write_bytes(gzip.compress(json.dumps(head).encode() + b"\n" + rest))
+        with pytest.raises(ResultError, match="is no motion track") as refused:
+            load_track(path)
+        assert "\n" not in str(refused.value)
+
+
 def test_a_bench_keeps_the_motion_of_each_trial_with_its_fog_and_its_quadrangles(
     tmp_path: Path,
 ) -> None:

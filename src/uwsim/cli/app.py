@@ -16,6 +16,7 @@ import typer
 
 from .. import __version__
 from ..numerics.compiling import when_many_are_compiled
+from ..terminal import ignore_casts
 from .exit_status import INTERRUPTED, exit_status, one_line
 from .old_options import refuse_old_options
 from .options.completion import words_typed
@@ -170,6 +171,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     given = list(sys.argv[1:] if arguments is None else arguments)
     wanted = [argument for argument in given if argument != TRACEBACK] or ["--help"]
     when_many_are_compiled(tell_of_compiling)
+    ignore_casts()
     try:
         refuse_old_options(wanted, COMMANDS)
         result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False, obj=wanted)

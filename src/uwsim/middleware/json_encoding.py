@@ -19,12 +19,14 @@ import numpy as np
 from rosbags.interfaces import Nodetype
 
 from ..errors import BadMessage
-from ..external_values import read_number
 from .types import PLACEHOLDER, message_class, ros2_store
 
 M = TypeVar("M")
 BYTES = ("uint8", "byte", "char")
 DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
+INTEGERS = ("byte", "char", *(f"{sign}int{n}" for sign in ("", "u") for n in (8, 16, 32, 64)))
+LARGEST = {name: float(np.finfo(name).max) for name in ("float32", "float64")}
+"""Type -> its largest number; JSON can have larger ones."""
 ROS1_NAMES = {"secs": "sec", "nsecs": "nanosec"}
 """Names of ROS 1 in times."""
 IGNORED = frozenset({"seq"})
@@ -129,8 +131,10 @@ def _in(value: Any, kind: str, inner: str, length: int, at: str) -> Any:
         return _sized([_in(each, "text", "", 0, at) for each in value], length, at)
     try:
         numbers = [math.nan if each is None else each for each in value]
-        with np.errstate(over="raise"):
-            array = np.array(numbers, dtype=DTYPES.get(inner, inner)).reshape(-1)
+        with np.errstate(over="raise", invalid="raise"):
+            array = np.array(numbers, dtype=DTYPES.get(inner, inner))
+        if array.ndim != 1 or (inner.startswith("float") and np.isinf(array).any()):
+            raise ValueError("it is nested, or a number is too large")
         return _sized(array, length, at)
     except (TypeError, ValueError, OverflowError, FloatingPointError):
         raise BadMessage(f"{at} is {_shown(value)}; expected numbers ({inner}).") from None
@@ -141,15 +145,12 @@ def _number(value: Any, inner: str, at: str) -> Any:
         return value
     if inner.startswith("float") and value is None:
         return math.nan
-    if inner.startswith("float") and isinstance(value, float) and not math.isfinite(value):
-        return value
-    number = read_number(value)
-    if number is not None and inner.startswith("float"):
-        if abs(number) <= float(np.finfo(inner).max):
-            return number
-    elif number is not None and inner != "bool" and value == int(value):
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if is_number and inner.startswith("float") and not abs(value) > LARGEST.get(inner, 0):
+        return float(value)
+    if is_number and inner in INTEGERS:
         limits = np.iinfo(DTYPES.get(inner, inner))
-        if limits.min <= value <= limits.max:
+        if limits.min <= value <= limits.max and value == int(value):
             return int(value)
     raise BadMessage(f"{at} is {_shown(value)}; expected a value of type {inner}.")
 

@@ -69,8 +69,10 @@ def load_log(path: Path | str) -> Log:
     path = Path(path)
     try:
         with path.open(encoding="utf-8", newline="") as stream:
-            header, *rows = csv.reader(stream, strict=True)
-        samples = tuple(tuple(_value(cell) for cell in row) for row in rows)
+            rows = csv.reader(stream, strict=True)
+            if (header := next(rows, None)) is None:
+                raise ValueError("it is empty")
+            samples = tuple(tuple(map(_value, row)) for row in rows)
     except (OSError, ValueError, csv.Error) as error:
         raise ResultError(f"{path}: cannot be read as a log: {error}.") from None
     if any(len(sample) != len(header) for sample in samples):

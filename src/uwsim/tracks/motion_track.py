@@ -219,7 +219,7 @@ def _opened(data: bytes) -> bytes:
 
 def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
     bodies = tuple(map(str, head["bodies"]))
-    signals = tuple(Signal(**each) for each in head["signals"])
+    signals = tuple(_signal(**each) for each in head["signals"])
     pose = [float(head["length"])] * 3 + [float(head["quaternion"])] * 4
     steps, n = np.array([*pose * len(bodies), *(signal.step for signal in signals)]), int(head["n"])
     rate = float(head["rate"])
@@ -236,11 +236,41 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
         poses=poses,
         signals=signals,
         values=rows[:, NUMBERS * len(bodies) :],
-        levels=tuple(TrackLevel(**each) for each in head["levels"]),
+        levels=tuple(_level(**each) for each in head["levels"]),
         rate=rate,
         sand=_dug(head.get("sand", {"n": 0}), rest[size:]),
         markers=from_json(head.get("markers", {"shapes": (), "changes": ()})),
     )
+
+
+def _signal(name: object, unit: object = "1", step: object = 1e-4) -> Signal:
+    """Return a signal of a head; raises ValueError or TypeError."""
+    return Signal(name=_text("name", name), unit=_text("unit", unit), step=_number("step", step))
+
+
+def _level(values: object, began: object, duration: object, status: object) -> TrackLevel:
+    """Return a level of a head; raises ValueError or TypeError."""
+    if not isinstance(values, dict):
+        raise ValueError(f"the values of a level are {str(values)[:60]}; expected an object")
+    return TrackLevel(
+        values={str(name): _number("values", value) for name, value in values.items()},
+        began=_number("began", began),
+        duration=_number("duration", duration),
+        status=_text("status", status),
+    )
+
+
+def _number(name: str, value: object) -> float:
+    is_number = isinstance(value, int | float) and not isinstance(value, bool)
+    if not is_number or not math.isfinite(float(value)):  # type: ignore[arg-type]
+        raise ValueError(f"{name} is {str(value)[:60]}; expected a number")
+    return value  # type: ignore[return-value]
+
+
+def _text(name: str, value: object) -> str:
+    if not isinstance(value, str):
+        raise ValueError(f"{name} is {str(value)[:60]}; expected a text")
+    return value
 
 
 def _dug(head: dict[str, Any], rest: bytes) -> DugSand:

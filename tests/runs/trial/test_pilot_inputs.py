@@ -58,6 +58,28 @@ def thrust(simulation: Simulation) -> list[float]:
     return commanded
 
 
+HEAD = json.dumps({"uwsim_inputs": 1, "axes": list(AXES)})
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        f'{{"step": 1, "values": [{10**400}]}}',
+        f'{{"step": 1, "values": [{"1" * 400}{", 0" * (len(AXES) - 1)}]}}',
+        '{"step": 1e400, "values": []}',
+        '{"step": [1], "values": []}',
+        "[" * 100_000,
+        '{"step": 1, "values": ' + "[" * 100_000,
+        "7",
+        "null",
+    ],
+)
+def test_a_line_of_no_inputs_is_an_error(line: str) -> None:
+    for text in (f"{HEAD}\n{line}\n", line):
+        with pytest.raises(ResultError, match="is no file of a pilot's inputs"):
+            read_inputs(text.encode())
+
+
 @pytest.mark.slow
 def test_a_pilot_drives_the_propeller_of_a_vehicle_that_takes_no_twist() -> None:
     with opened("remus-scene") as simulation:

@@ -17,6 +17,7 @@ from typing import Self
 
 from ...benchmark.plugin import raised
 from ...errors import RunFailed, UwsimError
+from ...terminal import ignore_casts
 from ..run import Run
 from .executor import run_all
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
@@ -82,6 +83,7 @@ class BackgroundProcess:
 def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:
     """Execute jobs until the parent has ended or closes the pipe."""
     exit_with_parent(parent)
+    ignore_casts()
     with suppress(Exception):  # heavy, and loaded while the levels run; errors are reported below
         reporter()
     with suppress(EOFError, OSError):  # the parent has gone

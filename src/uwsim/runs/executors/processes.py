@@ -20,6 +20,7 @@ from multiprocessing.connection import Connection, wait
 from ...environment import environment
 from ...interrupts import is_of_user
 from ...simulation import BEFORE, Calls, Counter, Cut, RendererPool, open_call
+from ...terminal import ignore_casts
 from ..own_process.process import TOO_LONG, how
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
@@ -205,6 +206,7 @@ def work(
 ) -> None:
     """Run the jobs from the pipe until ``None`` comes, or until the parent has ended."""
     exit_with_parent(parent)
+    ignore_casts()
     pool = RendererPool()
     try:
         while (job := pipe.recv()) is not None:

@@ -38,6 +38,7 @@ from ...errors import BadSetting, NotAllowed, UwsimError
 from ...files.source_module import source_module
 from ...message_fields import unfit
 from ...raised import what_was_raised
+from ...terminal import ignore_casts
 from .codec import MAX_FRAME, Unknown, decode, encode, message_class
 
 M = TypeVar("M")
@@ -238,6 +239,7 @@ def main(descriptor: int, parent: int) -> None:
         descriptor: of the socket.
         parent: the process that holds the other end.
     """
+    ignore_casts()
     os.set_inheritable(descriptor, False)  # not for processes that the algorithm starts
     threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
     Child(Connection(descriptor)).serve()

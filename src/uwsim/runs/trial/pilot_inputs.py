@@ -100,7 +100,7 @@ def read_inputs(data: bytes) -> StoredInputs:
         found = {int(each["step"]): tuple(map(float, each["values"])) for each in lines}
         if any(len(v) != len(axes) or not np.isfinite(v).all() for v in found.values()):
             raise ValueError("a line has not a number for each axis")
-    except (ValueError, KeyError, TypeError) as error:
+    except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
         raise ResultError(f"is no file of a pilot's inputs: {error}") from None
     return StoredInputs(axes=axes, by_step=found)
 

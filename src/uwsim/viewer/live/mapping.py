@@ -23,7 +23,6 @@ from typing import Any
 
 from ...algorithms.pilot import AXES
 from ...errors import BadSetting, did_you_mean
-from ...external_values import read_number
 
 KEYS = {
     **{"w": "+surge", "s": "-surge", "d": "+sway", "a": "-sway", "e": "+yaw", "q": "-yaw"},
@@ -74,6 +73,8 @@ def read_mapping(path: Path) -> PilotMapping:
     """
     try:
         read = tomllib.loads(path.read_text(encoding="utf-8"))
+    except RecursionError:
+        raise BadSetting(f"--pilot-mapping {path}: lists are nested too deeply.") from None
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or error
         raise BadSetting(f"--pilot-mapping {path}: cannot be read: {why}.") from None
@@ -94,7 +95,13 @@ def _check(path: Path, name: str, value: object) -> None:
     targets = list(value.values()) if isinstance(value, dict) else value
     if isinstance(value, dict) != (name == "keys") or not isinstance(targets, list):
         raise BadSetting(f"--pilot-mapping {path}: {name} is {value!r}; see docs/piloting.md.")
-    for target in " ".join(map(str, targets)).split():
+    for target in targets:
+        if not isinstance(target, str):
+            raise BadSetting(
+                f"--pilot-mapping {path}: {name} has {repr(target)[:60]}; expected the names of "
+                "axes in quotation marks."
+            )
+    for target in " ".join(targets).split():
         axis = target.removeprefix("-").removeprefix("+")
         if axis not in AXES:
             raise BadSetting(
@@ -109,7 +116,10 @@ def _add(total: dict[str, float], targets: str, value: float) -> None:
 
 
 def _number(value: object) -> float:
-    return read_number(value) or 0.0
+    """A number of a page, -1..1; 0 for what is none."""
+    if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
+        return 0.0
+    return float(min(1, max(-1, value)))
 
 
 def merged(by_viewer: Mapping[int, Sequence[float]]) -> tuple[float, ...] | None:
