@@ -18,8 +18,8 @@ import numpy as np
 from ..numerics.opencv import plain_opencv
 from .mesh import Model, Texture
 
-KEPT = 128
-"""So many weathered models are kept, with their textures on the graphics side."""
+KEPT = 16
+"""So many weathered models are kept: each seed of a scene that varies has others."""
 
 
 @lru_cache(maxsize=KEPT)

@@ -104,11 +104,16 @@ def _layout(present: list[str]) -> str:
     return " ".join(f"{n}f" if name in present else f"{4 * n}x" for name, n in sizes.items())
 
 
+KEPT_SCENES = 4
+"""Models and textures that none of so many scenes has used are removed from the GPU."""
+
+
 class GpuModels:
-    """Uploads models and textures, each once, for as long as the context lives.
+    """Uploads models and textures, each once, and keeps them while scenes use them.
 
     A model is uploaded when it comes into a scene, a texture when it is first seen: of a tank with
-    its house, a camera that looks down needs one of nine.
+    its house, a camera that looks down needs one of nine. One that the last `KEPT_SCENES` have not
+    used is removed: scenes that vary from seed to seed have models of their own.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -120,6 +125,9 @@ class GpuModels:
         }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
         self._with_copies: set[int] = set()  # numbers of the textures that have smaller ones
+        self._n_scenes = 0  # that have ended
+        self._models_used: dict[int, int] = {}  # number of the scene that used one last
+        self._textures_used: dict[tuple[str, int], int] = {}
 
     def upload(self, model: Model) -> tuple[Batch, ...]:
         """The model's batches; the same object is uploaded only once."""
@@ -128,11 +136,27 @@ class GpuModels:
             several = [self._batches(each) for each in merged(model)]
             known = model, tuple(itertools.chain.from_iterable(several))
             self._models[id(model)] = known  # holds the model, so that its id stays its own
+        self._models_used[id(model)] = self._n_scenes
         return known[1]
+
+    def end_scene(self) -> None:
+        """Remove the models and textures that none of the last scenes has used."""
+        self._n_scenes += 1
+        oldest = self._n_scenes - KEPT_SCENES
+        for model, _ in list(self._models.values()):
+            if self._models_used[id(model)] < oldest:
+                self.discard(model)
+        for key, last in list(self._textures_used.items()):
+            if last < oldest:
+                _, made = self._textures.pop(key)
+                del self._textures_used[key]
+                self._with_copies.discard(made.glo)  # the number is given to another one
+                made.release()
 
     def discard(self, model: Model) -> None:
         """Free the buffers of a model that is in no scene any more."""
         _, batches = self._models.pop(id(model), (model, ()))
+        self._models_used.pop(id(model), None)
         for buffers in {id(batch.buffers): batch.buffers for batch in batches}.values():
             buffers.release()
 
@@ -182,4 +206,5 @@ class GpuModels:
             made = self._context.texture((width, height), 3, upright.tobytes(), alignment=1)
             made.repeat_x = made.repeat_y = texture.repeats
             self._textures[key] = texture, made
+        self._textures_used[key] = self._n_scenes
         return self._textures[key][1]

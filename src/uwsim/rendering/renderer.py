@@ -129,8 +129,10 @@ class Renderer:
             self._models.discard(model)
 
     def clear(self) -> None:
-        """Remove every instance; uploaded models stay on the GPU for later use."""
+        """Remove every instance; uploaded models stay on the GPU for the next scenes."""
         self._instances.clear()
+        with self._context:
+            self._models.end_scene()
 
     def draw(
         self,
