@@ -12,6 +12,7 @@ import numpy.typing as npt
 import pytest
 
 import uwsim
+from uwsim.rendering.grey import grey_truncated
 from uwsim.results import journal
 from uwsim.tracks import load_track
 from uwsim.viewer.document import document
@@ -123,6 +124,29 @@ def test_views_and_switches_are_there_by_key(replayed: Any) -> None:
     before_theme = replayed.evaluate(theme)
     replayed.keyboard.press("n")
     assert replayed.evaluate(theme) != before_theme
+
+
+def test_a_grey_camera_is_grey_in_the_page(tab: Any, tmp_path: Path) -> None:
+    """As the simulation makes it grey, near and where there is no surface."""
+    blob = Blob()
+    with uwsim.load("shipwreck-scene") as simulation:
+        head = scene_head(simulation, "grey", blob)
+        (camera, *_) = head["cameras"]
+        camera["grey"] = True
+        path = tmp_path / "page.html"
+        path.write_text(document("grey", packed(head, blob)), encoding="utf-8")
+        tab.goto(path.as_uri())
+        tab.wait_for_function(EVERY)
+        view = simulation.world.camera(camera["name"])
+        colour = simulation.world.scenery.render_clean(
+            view.world_from_camera, view.intrinsics, fog=0.1
+        ).colour
+        assert colour is not None
+        drawn = image(tab, camera, {"fog": 0.1})
+    assert (drawn == drawn[..., :1]).all()
+    off = np.abs(drawn[..., 0] - grey_truncated(colour.view(np.uint8)).astype(np.int16))
+    assert off.mean() <= 1.0
+    assert np.percentile(off, 99) <= 5.0
 
 
 @pytest.mark.parametrize("scene", SCENES)

@@ -18,7 +18,9 @@ class DirectTracker(Tracker):
 
     Levels on which the patch has fewer than 8 rows or columns are left out. A level's result is
     taken only as far as it raised the correlation, so a coarse level that fits nothing does no
-    harm.
+    harm. At the start the template's pixels are those of the image, anywhere else they are
+    interpolated and a little blurred: of a target at rest in images with little noise every step
+    may be refused, and the result is then exactly the start.
     """
 
     def __init__(self, templates: list[Template], quad: Array, method: Method) -> None:

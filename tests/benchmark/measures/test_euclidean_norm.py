@@ -323,3 +323,25 @@ def test_a_misspelt_name_is_an_error_that_names_the_right_one(
     world, _ = seen_box()
     with pytest.raises(UnknownName, match=f"Did you mean '{right}'"):
         EuclideanNormSpec(name="e", ground_truth=truth, target="estimate").bind(world)
+
+
+@pytest.mark.parametrize(("steps", "is_noted"), [((0.0, 0.0, 0.0), True), ((0.0, 0.01), False)])
+def test_estimates_that_never_leave_the_start_are_noted(
+    steps: tuple[float, ...], is_noted: bool
+) -> None:
+    """An error of exactly 0 in every fog is no merit of a tracker whose target is at rest."""
+    world, _ = seen_box()
+    told: list[GTpublish] = []
+
+    def listen(request: GTpublish) -> GTpublishResponse:
+        told.append(request)
+        return GTpublishResponse()
+
+    world.bus.services.serve("autoInit", GTpublish, listen)
+    norm = corners_spec("autoInit").bind(world)
+    norm.start()
+    for step in steps:
+        say(world, norm, *(told[0].groundTruth + np.float32(step)).tolist())
+    assert any("exactly the start that 'autoInit' was given" in note for note in norm.notes) is (
+        is_noted
+    )

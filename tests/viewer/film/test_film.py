@@ -17,6 +17,7 @@ from PIL import Image
 from tests.short_benchmark import run, write_benchmark
 from tests.simulation.test_lamp import LAMP, night
 from uwsim.cli import main
+from uwsim.rendering.grey import grey_truncated
 from uwsim.results.journal import recorded_trials, track_path
 from uwsim.simulation.views import focus_of
 from uwsim.tracks import Signal
@@ -194,6 +195,20 @@ def test_the_inset_is_the_image_of_the_camera(small: Film, trial: RecordedTrial)
         assert off.mean() < 0.25  # the corners that are drawn into it
     finally:
         puppets.close()
+
+
+def test_a_grey_camera_is_grey_in_the_inset_and_as_the_view(
+    small: Film, trial: RecordedTrial, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    camera = small._puppets.simulation.world.camera("bowtech1")
+    coloured = small._seen("bowtech1", (72, 54), 0.6)
+    monkeypatch.setattr(camera, "is_grey", True)
+    grey = small._seen("bowtech1", (72, 54), 0.6)
+    plain = (grey[..., 0] == grey[..., 1]) & (grey[..., 1] == grey[..., 2])
+    assert plain.mean() > 0.8  # all but the quadrangles of truth and estimate
+    expected = grey_truncated(np.ascontiguousarray(coloured))
+    np.testing.assert_array_equal(grey[plain][:, 0], expected[plain])
+    assert (coloured.max(axis=2) != coloured.min(axis=2)).mean() > 0.5
 
 
 @pytest.mark.parametrize("view", ["chase", "fixed", "camera"])

@@ -140,6 +140,8 @@ class EuclideanNorm(Measure):
         self._refused = ""  # why the newest message was not scored
         self._notes: list[str] = []
         self._has_initialised = False
+        self._start: Array | None = None  # what publishOn was given last (k,)
+        self._n_at_start = 0  # estimates that are exactly that
         self._waits_since: int | None = None  # step of the last estimate, or of the start
         self._silence = (0, 0)  # the longest: its length [steps], the step at which it began
 
@@ -227,8 +229,14 @@ class EuclideanNorm(Measure):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What became of ``publishOn``, if it could not be called."""
-        return tuple(self._notes)
+        """What became of ``publishOn``, and whether all estimates are what it was given."""
+        if self._n < 2 or self._n_at_start < self._n:
+            return tuple(self._notes)
+        return (
+            *self._notes,
+            f"all estimates are exactly the start that {self._publish_on!r} was given: the target "
+            "is at rest and the algorithm took no step, or refused each as no better",
+        )
 
     @property
     def has_initialised(self) -> bool:
@@ -263,6 +271,8 @@ class EuclideanNorm(Measure):
         if not good:
             return False
         self._n += len(good)
+        if (start := self._start) is not None:
+            self._n_at_start += sum(bool((e == start).all()) for e in good)
         self._estimate = good[-1]
         self._waits_since = self._world.step
         truth = self._truth.read()
@@ -313,7 +323,9 @@ class EuclideanNorm(Measure):
         elif truth is None:
             self._notes.append(f"{service!r} was not called: {self._truth.missing}")
         else:
-            self._world.bus.services.call(service, GTpublish(truth.astype(np.float32)))
+            given = truth.astype(np.float32)
+            self._start = given.astype(np.float64)
+            self._world.bus.services.call(service, GTpublish(given))
             self._has_initialised = True
 
 

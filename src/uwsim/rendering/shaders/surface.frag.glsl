@@ -1,5 +1,5 @@
 // Provides: colour, range and id of a surface seen through water, whichever are requested.
-// Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, shadow.glsl, lamplight.glsl, projection.glsl, targets.glsl.
+// Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, grey.glsl, shadow.glsl, lamplight.glsl, projection.glsl, targets.glsl.
 // The switch OPACITY is 1..254 of 255, or not there: opaque; the renderer blends.
 // lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).
 #define VARYING in
@@ -11,6 +11,7 @@
 #ifdef COLOUR
 #include "sun.glsl"
 #include "water.glsl"
+#include "grey.glsl"
 #ifdef TEXTURED
 uniform sampler2D base_map;
 #endif
@@ -69,7 +70,7 @@ void main() {
 #else
     float opacity = 1.0;
 #endif
-    colour_out = vec4(through_water(dry, water_range, fog_range, v_terms.z), opacity);
+    colour_out = vec4(as_taken(through_water(dry, water_range, fog_range, v_terms.z)), opacity);
 #endif
 #ifdef RANGE
     range_out = range;

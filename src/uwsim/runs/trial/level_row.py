@@ -79,11 +79,17 @@ class Cells:
 
 
 def cells_of(measures: Sequence[TriggeredMeasure], status: str, why: str | None) -> Cells:
-    """Return the values of measures; those that the algorithm feeds are null if it is not ok."""
+    """Return the values of measures.
+
+    Those that the algorithm feeds are null if the row is not ok. In a ``timeout`` they keep what
+    they have: a measure that waited for estimates has no value by itself, the others do.
+    """
     cells = Cells()
     for triggered in measures:
         name, measure = triggered.spec.name, triggered.measure
         blank = status == SIMULATION_ERROR or (status != "ok" and measure.fed_by_algorithm)
+        if status == "timeout" and finite(triggered.value)[0] is not None:
+            blank = False
         cells.units[name] = measure.unit
         cells.values[name], reason = (None, why) if blank else finite(triggered.value)
         if cells.values[name] is None:

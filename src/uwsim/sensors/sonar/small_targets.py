@@ -36,7 +36,7 @@ MAX_RADIUS = math.radians(20.0)
 """The greatest angular radius of a small target [rad]."""
 STEEPEST = math.radians(85.0)
 """A small target is not higher or lower [rad]."""
-MAX_RAYS = 8192
+MAX_RAYS = 4096
 """Rays to all small targets of a ping at most; lattices become coarser beyond it."""
 TURN = (0.85, math.sqrt(1.0 - 0.85**2))
 """Cosine and sine of the angle between a lattice and the rows."""

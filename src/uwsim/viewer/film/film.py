@@ -11,6 +11,7 @@ import numpy as np
 
 from ...errors import BadSetting, UnknownName
 from ...geometry import Intrinsics
+from ...rendering.grey import grey_truncated
 from ...simulation import Simulation
 from ..recorded import RecordedLevel, RecordedTrial
 from . import overlay
@@ -187,6 +188,8 @@ class Film:
         rendered = world.scenery.render_clean(camera.world_from_camera, lens, targets={"colour"})
         assert rendered.colour is not None
         image = rendered.colour.view(np.uint8)
+        if camera.is_grey:
+            image = np.repeat(grey_truncated(image)[..., None], 3, axis=2)
         scale = lens.width / camera.intrinsics.width
         for kind, colour in (("truth", overlay.TRUTH), ("estimate", overlay.ESTIMATE)):
             corners = self._puppets.corners(kind, name, time)

@@ -115,7 +115,8 @@ export class Picture {
     const lamps = this.lamps(moment);
     const { worldFromCamera, observer } = sight;
     const lens = scaled(sight.lens, ratio);
-    this.renderer?.draw({ worldFromCamera, lens, water: clear, lamps, observer }, null, [0, 0]);
+    const grey = sight.camera?.grey;
+    this.renderer?.draw({ worldFromCamera, lens, water: clear, lamps, observer, grey }, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
@@ -139,7 +140,7 @@ export class Picture {
 
   /** A camera's image in its own size, row 0 at the top, RGBA. */
   image(lens: Lens, worldFromCamera: Float64Array, player: Player, moment: Moment,
-        switches: Switches, water: Partial<Water> = {}, observer = false): Uint8Array {
+        switches: Switches, water: Partial<Water> = {}, observer = false, grey = false): Uint8Array {
     const { gl, models, renderer } = this;
     if (!gl || !renderer) return new Uint8Array();
     models.place(moment.poses);
@@ -155,6 +156,7 @@ export class Picture {
     const look = {
       worldFromCamera, lens, lamps: this.lamps(moment), observer,
       water: { ...this.water(player, moment, switches), ...water },
+      grey,
     };
     renderer.draw(look, buffer, [0, 0], true);
     const pixels = new Uint8Array(4 * lens.width * lens.height);
@@ -197,7 +199,8 @@ export class Picture {
         const corner: [number, number] = [
           Math.round(x * ratio), Math.round((height - y - place.height + 2) * ratio),
         ];
-        const look = { worldFromCamera, lens: scaled(lens, ratio), water, lamps, observer: false };
+        const { grey } = camera;
+        const look = { worldFromCamera, lens: scaled(lens, ratio), water, lamps, observer: false, grey };
         this.renderer?.draw(look, null, corner);
       }
       drawQuads(context, camera, lens, x, y, moment);

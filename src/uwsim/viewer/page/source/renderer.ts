@@ -29,6 +29,8 @@ export interface Look {
   lamps: ShiningLamp[];
   /** Above the water there is air, and ghosts are seen: the view of an observer. */
   observer: boolean;
+  /** The image is that of a grey camera. */
+  grey?: boolean;
 }
 
 /** The uniform blocks of all instances, for one camera at a time. */
@@ -106,6 +108,7 @@ export class Renderer {
     const switches: Switches = { COLOUR: 0 };
     if (water.fog === 0) switches.NO_FOG = 1;
     else if (water.clip && !look.observer) switches.FOG_CLIP = 1;
+    if (look.grey) switches.GREY = 1;
     if (look.observer) Object.assign(switches, { AIR: 1, POLISHED: 1 });
     if (look.observer && !this.isSoftware) switches.SOFT = 1;
     const sun = unit(this.head.suns[water.sun].direction);
@@ -124,7 +127,7 @@ export class Renderer {
     gl.depthFunc(gl.LEQUAL);
     gl.disable(gl.BLEND);
     for (const piece of seen.filter(isOpaque)) this.drawPiece(piece, eye, switches, isFlipped);
-    this.drawBackground();
+    this.drawBackground(look.grey ? { COLOUR: 0, GREY: 1 } : { COLOUR: 0 });
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.depthMask(false);
@@ -178,12 +181,12 @@ export class Renderer {
     this.slots.drawPiece(piece, isFlipped);
   }
 
-  private drawBackground(): void {
+  private drawBackground(switches: Switches): void {
     const { gl } = this;
     gl.bindSampler(UNITS.base_map, null);
     gl.disable(gl.CULL_FACE);
     gl.bindVertexArray(null);
-    gl.useProgram(this.programs.get("background", { COLOUR: 0 }));
+    gl.useProgram(this.programs.get("background", switches));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 

@@ -2,6 +2,7 @@
 import backgroundFragment from "../../../rendering/shaders/background.frag.glsl";
 import backgroundVertex from "../../../rendering/shaders/background.vert.glsl";
 import frame from "../../../rendering/shaders/frame.glsl";
+import grey from "../../../rendering/shaders/grey.glsl";
 import instance from "../../../rendering/shaders/instance.glsl";
 import lamplight from "../../../rendering/shaders/lamplight.glsl";
 import lamps from "../../../rendering/shaders/lamps.glsl";
@@ -21,6 +22,7 @@ const FILES: Record<string, string> = {
   "background.frag.glsl": backgroundFragment,
   "background.vert.glsl": backgroundVertex,
   "frame.glsl": frame,
+  "grey.glsl": grey,
   "instance.glsl": instance,
   "lamplight.glsl": lamplight,
   "lamps.glsl": lamps,

@@ -26,7 +26,7 @@ export function expose(page: Page): void {
         const moment = player.moment(page.time);
         picture.models.place(moment.poses);
         const place = picture.models.mounted(camera);
-        const pixels = picture.image(camera, place, player, moment, page.switches, water);
+        const pixels = picture.image(camera, place, player, moment, page.switches, water, false, camera.grey);
         let text = "";
         for (let i = 0; i < pixels.length; i += 8192)
           text += String.fromCharCode(...pixels.subarray(i, i + 8192));
