@@ -316,8 +316,9 @@ def test_which_units_are_replayed_is_drawn_anew_and_can_be_drawn_again(
     monkeypatch.setattr("uwsim.verify.verify.verify", lambda *_, **__: Verification())
     for number in (7, 4_000_000_000):
         _, said = verify(capsys, "--sample", "1")
-        line = "sample: 1 of 2 trials, by chance; the same again with --sample-seed "
-        assert f"{line}{number}\n" in said
+        line = "sample: 1 of 2 trials, by chance; the same again: uwsim verify "
+        assert line in said
+        assert f" --sample 1 --sample-seed {number}\n" in said
     assert "--sample-seed 12\n" in verify(capsys, "--sample", "1", "--sample-seed", "12")[1]
     assert "sample" not in verify(capsys, "--all", "--sample-seed", "12")[1]
 
