@@ -349,7 +349,8 @@ def _write_list(node: etree._Element, field: schema.Field, text: str) -> None:
     listed, words = etree.SubElement(node, field.tag), text.replace(",", " ").split()
     if field.xml.item is None:
         listed.text = " ".join(words)
-    for word in words if field.xml.item is not None else ():
+        return
+    for word in words:
         etree.SubElement(listed, field.xml.item).text = word
 
 

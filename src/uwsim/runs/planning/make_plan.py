@@ -143,12 +143,12 @@ def _read_files(request: PlanRequest, wrong: AllErrors) -> _Files:
     scene: SceneSpec | None = None
     data_path = tuple(request.data_path)
     with wrong.kept():
+        plugins, tables = read_plugins(request.plugins)
+    with wrong.kept():
         path = benchmark_file(request.benchmark, data_path)
-    with wrong.kept():
-        named = [] if path is None else named_plugins(path, request)
-        plugins, tables = read_plugins([*request.plugins, *named])
-    with wrong.kept():
-        if tables is not None and path is not None:
+        if tables is not None:
+            if named := named_plugins(path, request):
+                plugins, tables = read_plugins([*request.plugins, *named])
             spec = benchmark_of(path, plugins, tables)
     with wrong.kept():
         scene = scene_of(request.scene, path, spec, data_path)
