@@ -230,7 +230,7 @@ def test_where_no_result_is_the_error_says_what_is_there_and_how_to_go_on(
     assert "--algorithm esm --algorithm esm --seed 3" in said("report", "both")
     begun = ["--overwrite", "--scene", "tank.xml", "--data-path", "my models", "--out", "out"]
     save_provenance({"command": ["bench", "b.xml", *begun]}, folder / "both" / "esm")
-    go_on = "--scene tank.xml --data-path 'my models' --out out --resume."
+    go_on = "--scene tank.xml --data-path 'my models' --out both --resume."  # where it is now
     assert said("report", "both").endswith(f"Resume with: uwsim bench b.xml {go_on}")
     (folder / "empty").mkdir()
     assert said("report", "empty") == "uwsim: empty: no result here (no result.json)."
