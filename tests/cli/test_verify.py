@@ -230,7 +230,7 @@ def test_where_no_result_is_the_error_says_what_is_there_and_how_to_go_on(
     assert "--algorithm esm --algorithm esm --seed 3" in said("report", "both")
     begun = ["--overwrite", "--scene", "tank.xml", "--data-path", "my models", "--out", "out"]
     save_provenance({"command": ["bench", "b.xml", *begun]}, folder / "both" / "esm")
-    go_on = "--scene tank.xml --data-path 'my models' --out out --resume."
+    go_on = "--scene tank.xml --data-path 'my models' --out both --resume."  # where it is now
     assert said("report", "both").endswith(f"Resume with: uwsim bench b.xml {go_on}")
     (folder / "empty").mkdir()
     assert said("report", "empty") == "uwsim: empty: no result here (no result.json)."
@@ -316,8 +316,9 @@ def test_which_units_are_replayed_is_drawn_anew_and_can_be_drawn_again(
     monkeypatch.setattr("uwsim.verify.verify.verify", lambda *_, **__: Verification())
     for number in (7, 4_000_000_000):
         _, said = verify(capsys, "--sample", "1")
-        line = "sample: 1 of 2 trials, by chance; the same again with --sample-seed "
-        assert f"{line}{number}\n" in said
+        line = "sample: 1 of 2 trials, by chance; the same again: uwsim verify "
+        assert line in said
+        assert f" --sample 1 --sample-seed {number}\n" in said
     assert "--sample-seed 12\n" in verify(capsys, "--sample", "1", "--sample-seed", "12")[1]
     assert "sample" not in verify(capsys, "--all", "--sample-seed", "12")[1]
 

@@ -12,6 +12,14 @@ r"""Ground truth: what an estimate is compared with, evaluated in the live scene
     <groundTruth type="relativeLocation">
       <from>localizedWorld</from> <to>girona500</to>
     </groundTruth>
+    <groundTruth type="topic">
+      <topic>truth/corners</topic> <components>nw_x nw_y ne_x ne_y</components> <unit>px</unit>
+      <publishOn>autoInit</publishOn>
+    </groundTruth>
+
+A truth that comes on a topic (std_msgs/Float32MultiArray) is hidden from the algorithm under test:
+it can neither read nor publish there. `uwsim.benchmark.updaters.bag_fog_updater` publishes that of
+recorded images, from a CSV file.
 
 Image coordinates are in pixels from the centre of the first pixel, top left, v down, as in ROS and
 OpenCV (`uwsim.geometry.Intrinsics`); constants are compared as they are.
@@ -27,6 +35,8 @@ from typing import ClassVar
 import numpy as np
 
 from ..geometry import Array
+from ..inbox import Inbox
+from ..messages import Float32MultiArray
 from ..numerics.linear import placed, product, turned_back
 from ..schema import Spec, element
 from ..world import Body, Box, Camera, World
@@ -63,6 +73,9 @@ class GroundTruth(abc.ABC):
     def n_images(self) -> int | None:
         """Images that its camera took so far; None where no camera takes images of it."""
         return None
+
+    def close(self) -> None:  # noqa: B027 - most truths hold nothing
+        """Release its resources (a subscription)."""
 
     @abc.abstractmethod
     def read(self) -> Array | None:
@@ -318,10 +331,59 @@ def top_face(body: Body) -> Array:
     return corners
 
 
+@dataclass(frozen=True, kw_only=True)
+class TopicTruthSpec(GroundTruthSpec):
+    """A ``<groundTruth type="topic">`` element; an extension."""
+
+    topic: str
+    """Topic of the truth (std_msgs/Float32MultiArray); an empty message means that there is
+    none."""
+    components: str
+    """Names of its numbers, separated by blanks: ``x y``."""
+    unit: str = element(default="1")  # type: ignore[misc]  # of others it follows from the type
+    """Unit of its numbers."""
+    publish_on: str | None = element(default=None)
+    """Service called with the truth when the measure starts; None: no call."""
+
+    def bind(self, world: World, truth: str = "original") -> TopicTruth:
+        """Listen to the topic, and hide it from the algorithm."""
+        world.bus.withhold(self.topic)
+        inbox = world.bus.inbox(self.topic, Float32MultiArray, latched=True)
+        return TopicTruth(self.topic, tuple(self.components.split()), inbox)
+
+
+class TopicTruth(GroundTruth):
+    """The newest message of a topic; a sample is taken whenever one arrives."""
+
+    def __init__(
+        self, topic: str, components: tuple[str, ...], inbox: Inbox[Float32MultiArray]
+    ) -> None:
+        self.components, self._inbox, self._n = components, inbox, 0
+        self.missing = f"no truth on {topic!r}"  # type: ignore[misc]  # names the topic
+
+    @property
+    def n_images(self) -> int:
+        """Messages that arrived so far: each belongs to an image."""
+        self._n += len(self._inbox.take())
+        return self._n
+
+    def read(self) -> Array | None:
+        """Return the newest truth, (k,); None before the first, and where there is none."""
+        last = self._inbox.last
+        numbers = np.zeros(0) if last is None else np.asarray(last.data, dtype=np.float64)
+        is_whole = numbers.shape == (len(self.components),) and bool(np.isfinite(numbers).all())
+        return numbers if is_whole else None
+
+    def close(self) -> None:
+        """Stop listening."""
+        self._inbox.close()
+
+
 GROUND_TRUTHS: dict[str, type[GroundTruthSpec]] = {
     "centroidFromCamera": CentroidFromCameraSpec,
     "constant": ConstantSpec,
     "cornersFromCamera": CornersFromCameraSpec,
     "relativeLocation": RelativeLocationSpec,
+    "topic": TopicTruthSpec,
 }
 """Type -> spec. In alphabetical order."""

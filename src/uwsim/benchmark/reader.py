@@ -149,6 +149,7 @@ class _Reader:
             warn_overridden(updater, self.diagnostics)
             warn_still_water(updater, self.diagnostics)
         given["compatibility"] = self.compatibility(root)
+        given["plugin"] = tuple(str(root.get(f"{{{NAMESPACE}}}plugin", "")).split())
         spec = read(BenchmarkSpec, root, self.diagnostics, given=given)
         if spec is not None and updater is not None:
             check_variations(
@@ -189,9 +190,9 @@ class _Reader:
         spec = read(cls, node, self.diagnostics, given=self.by_hand(cls, node))
         if spec is None:
             return None
-        if isinstance(spec, PathFollowingSpec) and spec.topic is None:
+        if isinstance(spec, PathFollowingSpec) and spec.topic is None and spec.reference is None:
             self.diagnostics.warning(
-                node, "<pathFollowing> without <topic> has no path, and no value"
+                node, "<pathFollowing> without <topic> and <u:path> has no path, and no value"
             )
         if spec.value not in cls.values:
             self.diagnostics.error(
@@ -316,7 +317,11 @@ class _Reader:
         message = (
             f"{shown_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
         )
-        self.diagnostics.unknown(node, message + OF_A_PLUGIN * name.startswith(PREFIX), name, known)
+        if name.startswith(PREFIX):
+            message += OF_A_PLUGIN
+            if (plugin := node.getroottree().getroot().get(f"{{{NAMESPACE}}}plugin")) is not None:
+                message += f"; {str(plugin)[:100]!r} of u:plugin is not run by `uwsim check`"
+        self.diagnostics.unknown(node, message, name, known)
 
 
 def _take_out(node: etree._Element) -> None:

@@ -45,6 +45,9 @@ class BenchmarkSpec(Spec):
     """Scene file, relative to this file's folder; None: it is given with ``--scene``."""
     algorithm: str | None = element(default=None, attribute=True, namespaced=True)
     """Algorithm under test, unless `--algorithm` names another."""
+    plugin: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
+    """Plugins (files with measures, triggers, updaters or algorithms of one's own), separated by
+    blanks; relative to this file's folder. `uwsim check` runs those of ``--plugin`` only."""
     mode: Literal["sequential", "independent"] | None = element(
         default=None, attribute=True, namespaced=True
     )

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import secrets
-from collections.abc import Mapping
+import shlex
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -58,8 +59,15 @@ class SampleOptions:
         ),
     ] = None
 
-    def choose(self, run: Run, stored: Result) -> tuple[int, tuple[Trial, ...]]:
+    def choose(
+        self, run: Run, stored: Result, typed: Sequence[str]
+    ) -> tuple[int, tuple[Trial, ...]]:
         """Print and return which of the finished trials are replayed, and how many there are.
+
+        Args:
+            run: the run that made the result.
+            stored: the result.
+            typed: the command, as it was typed behind ``uwsim``.
 
         Raises:
             ResultError: none is finished.
@@ -77,7 +85,7 @@ class SampleOptions:
         typer.echo(head(stored, run.out, len(whole), len(run.plan.trials())))
         if len(trials) < len(whole):
             which = f"{len(trials)} of {count(len(whole), 'trial')}"
-            typer.echo(f"sample: {which}, by chance; the same again with --sample-seed {drawn}")
+            typer.echo(f"sample: {which}, by chance; the same again: {same_sample(typed, drawn)}")
         return len(whole), trials
 
 
@@ -116,8 +124,22 @@ class PlaceOptions:
         )
 
 
+def same_sample(typed: Sequence[str], seed: int) -> str:
+    """Return the command that replays the same sample as a command that was typed."""
+    words, skip = [], False
+    for word in typed:
+        if not skip and word.partition("=")[0] != "--sample-seed":
+            words.append(word)
+        skip = word == "--sample-seed"
+    return shlex.join(["uwsim", *words, "--sample-seed", str(seed)])
+
+
 def verify(
-    result: ResultArgument, sample: SampleOptions, by: WorkerOptions, places: PlaceOptions
+    context: typer.Context,
+    result: ResultArgument,
+    sample: SampleOptions,
+    by: WorkerOptions,
+    places: PlaceOptions,
 ) -> None:
     """Replay a sample of a stored result and compare it with what is stored, byte for byte.
 
@@ -139,7 +161,7 @@ def verify(
     executor = by.executor()
     stored, directory = load(result), file_of(result).parent
     run = replayed_run(stored, directory, places.overrides())
-    n_whole, trials = sample.choose(run, stored)
+    n_whole, trials = sample.choose(run, stored, context.obj)
     n_levels = sum(len(trial.levels) for trial in trials)
     others = made_otherwise(stored, directory, run.info)
     for line in others.values():

@@ -112,6 +112,14 @@ class _Parts:
         self.joints.append(joint)
 
 
+def set_errors(vehicle: VehicleHydrodynamics) -> list[str]:
+    """Return what is wrong with the numbers of a set that was changed after it was read."""
+    found = [message for body in vehicle.bodies for message in body_errors(body)]
+    for thruster in vehicle.thrusters:
+        found += thruster_errors(thruster) or power_errors(thruster)
+    return [*found, *(message for fin in vehicle.fins for message in fin_errors(fin))]
+
+
 def read_vehicle(
     path: Path | str, links: Iterable[str] | None = None, joints: Iterable[str] | None = None
 ) -> VehicleHydrodynamics:

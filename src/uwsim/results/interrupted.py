@@ -52,7 +52,8 @@ def resuming(directory: Path) -> str | None:
     typed = load_provenance(directory / next(iter(heads))).get("command")
     if isinstance(typed, list) and typed:
         words = [str(word) for word in typed if word not in ("--overwrite", "--resume")]
-        return shlex.join(["uwsim", *words, "--resume"])
+        place = directory if alone is None or words.count("--algorithm") < 2 else directory.parent
+        return shlex.join(["uwsim", *_with_out(words, place), "--resume"])
     try:
         for name, head in heads.items():
             HEAD(head, name)
@@ -67,6 +68,16 @@ def resuming(directory: Path) -> str | None:
         repeats=1 if runs[0].repeats is None else runs[0].repeats,
     )
     return shlex.join([*words, "--out", str(directory), "--resume"])
+
+
+def _with_out(words: list[str], directory: Path) -> list[str]:
+    """Return a command whose result goes to the directory as it is called here."""
+    for i, word in enumerate(words):
+        if word == "--out" and i + 1 < len(words):
+            return [*words[: i + 1], str(directory), *words[i + 2 :]]
+        if word.startswith("--out="):
+            return [*words[:i], f"--out={directory}", *words[i + 1 :]]
+    return [*words, "--out", str(directory)]
 
 
 def _heads_below(directory: Path) -> dict[str, Record]:

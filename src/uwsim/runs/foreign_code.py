@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import BadSetting
@@ -30,14 +31,14 @@ def refused(code: str, file: str) -> BadSetting:
     return BadSetting(f"{file}: names the Python code {code!r}, which --no-code refuses.")
 
 
-def announce(code: str, file: str) -> None:
-    """Announce that ``module:name``, which a file names, will run."""
+def announce(code: str, file: str, *, place: Path | None = None) -> None:
+    """Announce that ``module:name``, or a plugin at a place, which a file names, will run."""
     try:
-        place = located(code.partition(":")[0])
+        where = place or located(code.partition(":")[0])
     except (ModuleNotFoundError, ValueError):
         return  # the import reports it
     message = (
-        f"uwsim: {file} runs Python code: {code} in {place or 'Python'} (--no-code refuses it)"
+        f"uwsim: {file} runs Python code: {code} in {where or 'Python'} (--no-code refuses it)"
     )
     print(printable(message), file=sys.stderr)
 

@@ -4,7 +4,11 @@ A path is element names joined by dots; ``[name]`` chooses among equals, and may
 there is only one: ``vehicle[girona500].virtualCamera[bowtech1].std``. What has no name is chosen by
 its axis (``sway[x]``), or by its number from 1 (``oceanState.current.gaussMarkov[2]``). The value
 is read by the same rules as in a file. Three numbers are set together (``position=1 2 3``) or one
-by one (``position.x=1``), a list as a whole (``jointValues=0 0 2.2 0 0.8``).
+by one (``position.x=1``), a list as a whole (``jointValues=0 0 2.2 0 0.8``) or by its numbers from
+1 (``jointValues.3=2.2``).
+
+What is behind ``vehicle[NAME].hydrodynamics`` leads into the hydrodynamics file of a vehicle:
+``vehicle[girona500].hydrodynamics.body[base_link].mass``. It is looked up when that file is read.
 """
 
 from __future__ import annotations
@@ -23,6 +27,8 @@ from ..errors import BadSetting, UnknownName, did_you_mean
 T = TypeVar("T")
 OF_XACRO = "xacro."
 """Beginning of the settings that are xacro arguments, which hold when the file is read."""
+HYDRODYNAMICS = "hydrodynamics"
+"""What leads from a vehicle into its hydrodynamics file."""
 _PART = re.compile(r"([^\[\].=]+)(?:\[([^\]]*)\])?(?:\.|$)")
 
 
@@ -49,9 +55,8 @@ class Place:
     def is_number(self) -> bool:
         """Whether it is one number."""
         is_scalar = self.field.kind in ("float", "int") and not self.field.repeated
-        return (is_scalar and not self.rest) or (
-            self.field.kind == "triple" and len(self.rest) == 1
-        )
+        has_parts = self.field.kind == "triple" or _is_list(self.field)
+        return (is_scalar and not self.rest) or (has_parts and len(self.rest) == 1)
 
     @property
     def is_whole(self) -> bool:
@@ -64,7 +69,11 @@ class Place:
         if self.field.kind == "triple":
             return f"three numbers; choose one, .{self.field.xml.parts[0]}"
         words = {"str": "text", "bool": "a flag", "word": "a word"}
-        return "a list" if self.field.repeated else words.get(self.field.kind, "a number")
+        return (
+            "a list"
+            if _is_list(self.field) or self.field.repeated
+            else words.get(self.field.kind, "a number")
+        )
 
     @property
     def unit(self) -> str:
@@ -74,6 +83,44 @@ class Place:
     def with_value(self, text: str) -> Any:
         """Return a copy of the whole with another value here; BadSetting if it is invalid."""
         changed = _with_value(self.leaf, self.field, list(self.rest), text)
+        for step in reversed(self.steps):
+            changed = step.put(changed)
+        return changed
+
+
+@dataclass(frozen=True)
+class HydrodynamicsPlace(Place):
+    """A number of the hydrodynamics file of a vehicle, which is not read yet."""
+
+    number: str = ""
+    """The path in the file: ``body[base_link].mass``."""
+
+    @property
+    def path(self) -> str:
+        """The path in full."""
+        return ".".join([*(s.name for s in self.steps if s.name), HYDRODYNAMICS, self.number])
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is one number; what it is in truth shows when the file is read."""
+        return True
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it is a whole number."""
+        return False
+
+    @property
+    def unit(self) -> str:
+        """Its unit, which is not known here."""
+        return ""
+
+    def with_value(self, text: str) -> Any:
+        """Return a copy of the whole in which the number is set."""
+        others = tuple(each for each in self.leaf.hydrodynamics if each[0] != self.number)
+        changed = dataclasses.replace(
+            self.leaf, hydrodynamics=(*others, (self.number, " ".join(text.split())))
+        )
         for step in reversed(self.steps):
             changed = step.put(changed)
         return changed
@@ -137,6 +184,8 @@ def locate(spec: Any, path: str) -> Place:
     steps: list[Step] = []
     while True:
         (name, chosen), parts = parts[0], parts[1:]
+        if name == HYDRODYNAMICS and hasattr(spec, HYDRODYNAMICS):
+            return _hydrodynamics_place(tuple(steps), spec, parts)
         field = _field(type(spec), name)
         current = getattr(spec, field.name)
         index: int | None = None
@@ -167,6 +216,19 @@ def locate(spec: Any, path: str) -> Place:
         key = "" if index is None else f"[{_key(current, index)}]"
         steps.append(Step(spec, field.name, index, name + key))
         spec = inner
+
+
+def _hydrodynamics_place(
+    steps: tuple[Step, ...], vehicle: Any, parts: Sequence[tuple[str, str | None]]
+) -> HydrodynamicsPlace:
+    """Return the place of a number in the hydrodynamics file of a vehicle."""
+    if vehicle.dynamics is None:
+        raise BadSetting(f"the vehicle {vehicle.name!r} has no <u:dynamics>.")
+    if not parts:
+        raise BadSetting("<hydrodynamics> is not a value; continue with body[LINK].mass, ...")
+    number = ".".join(name if key is None else f"{name}[{key}]" for name, key in parts)
+    field = _field(type(vehicle), "dynamics")
+    return HydrodynamicsPlace(steps, vehicle, field, (), number)
 
 
 def overlaps(one: Place, other: Place) -> bool:
@@ -223,8 +285,9 @@ def _index(entries: Sequence[Any], fits: Sequence[bool], name: str, chosen: str 
 
 
 def _name_of(entry: Any) -> str:
-    """What chooses an entry among equals: its name, or the axis that it is about."""
-    return str(getattr(entry, "name", getattr(entry, "axis", "")))
+    """What chooses an entry among equals: its name, or the axis or link that it is about."""
+    names = (getattr(entry, name, None) for name in ("name", "axis", "link"))
+    return str(next((name for name in names if name is not None), ""))
 
 
 def _key(entries: Sequence[Any], index: int) -> str:
@@ -245,8 +308,13 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
         _write_triple(
             etree.SubElement(node, field.tag), getattr(spec, field.name), field, rest, text
         )
+    elif rest and _is_list(field):
+        text, rest = _with_number(getattr(spec, field.name), field, rest, text), []
+        _write_list(node, field, text)
     elif rest:
         raise BadSetting(f"<{field.shown}> is a value; it has no elements.")
+    elif field.kind == "numbers":
+        _write_list(node, field, text)
     elif field.kind not in ("str", "float", "int", "bool", "word"):
         raise BadSetting(f"<{field.shown}> cannot be set from here; change the file.")
     elif not text and field.kind != "str":
@@ -256,9 +324,7 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
     elif field.xml.text:
         node.text = text
     elif field.xml.item is not None:
-        listed = etree.SubElement(node, field.tag)
-        for word in text.replace(",", " ").split():
-            etree.SubElement(listed, field.xml.item).text = word
+        _write_list(node, field, text)
     else:
         etree.SubElement(node, field.tag).text = text
     diagnostics = schema.Diagnostics("")
@@ -273,6 +339,33 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
             "; ".join(diagnostic.message for diagnostic in diagnostics.all()) or "no value."
         )
     return changed
+
+
+def _is_list(field: schema.Field) -> bool:
+    """Whether a field is a list of numbers in one element."""
+    return field.kind == "numbers" or (field.xml.item is not None and field.kind == "float")
+
+
+def _with_number(current: Any, field: schema.Field, rest: list[str], text: str) -> str:
+    """Return the text of a list in which one number, counted from 1, is another."""
+    numbers = [repr(float(number)) for number in current or ()]
+    if len(rest) > 1 or not rest[0].isdecimal() or not 1 <= int(rest[0]) <= len(numbers):
+        raise BadSetting(
+            f"<{field.shown}> has {len(numbers)} numbers; expected one of them, from 1, as in "
+            f"{field.shown}.1."
+        )
+    numbers[int(rest[0]) - 1] = text
+    return " ".join(numbers)
+
+
+def _write_list(node: etree._Element, field: schema.Field, text: str) -> None:
+    """Write a list of numbers: in one text, or an element each."""
+    listed, words = etree.SubElement(node, field.tag), text.replace(",", " ").split()
+    if field.xml.item is None:
+        listed.text = " ".join(words)
+        return
+    for word in words:
+        etree.SubElement(listed, field.xml.item).text = word
 
 
 def _write_triple(

@@ -15,7 +15,7 @@ The fields stand in the order of the original grammar, as in `spec`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
 from ..devices import DEVICES
@@ -74,6 +74,8 @@ class VehicleSpec(Spec):
     dynamics: str | None = element(namespaced=True, default=None)
     """Name of the hydrodynamic model, for example g500_physical; without it the vehicle is moved
     by commands alone."""
+    hydrodynamics: tuple[tuple[str, str], ...] = field(default=(), metadata={"not_in_file": True})
+    """Path and value of each number of that model that ``--set`` or ``u:vary`` sets."""
     velocity_loop: Literal["water", "ground"] = element(namespaced=True, default="water")
     """What the velocity loop of a simulated vehicle measures its speed against."""
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)

@@ -9,18 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Literal
+from typing import Literal, cast
 
 from ..currents import Place, PythonFunctionSpec
 from ..devices.fault import FaultSpec
 from ..devices.fault_fields import number_fields
-from ..errors import Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
+from ..errors import BadSetting, Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
 from ..physics.free_objects import MAX_BUOYANCY
 from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
-from ..physics.vehicle_file import VehicleError, read_vehicle_into
+from ..physics.vehicle_file import VehicleError, read_vehicle_into, set_errors
 from ..physics.vehicle_sets import find_vehicle
 from ..rng import stream
+from ..scene.settings import HydrodynamicsPlace, locate
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
@@ -55,6 +56,14 @@ def read_dynamics(
     if diagnostics := [diagnostic for diagnostic in search.found if diagnostic.severity == "error"]:
         raise SceneError(diagnostics)
     return search.dynamics
+
+
+def locate_number(dynamics: VehicleHydrodynamics, path: str) -> bool:
+    """Whether a path leads to one number of a set, or nowhere, which is reported elsewhere."""
+    try:
+        return locate(dynamics, path).is_number
+    except BadSetting:
+        return True
 
 
 class Search:
@@ -105,9 +114,44 @@ class Search:
         else:
             self.found += diagnostics.all()
             if dynamics is not None:
+                self._check_varied(index, dynamics)
+                dynamics = self._with_settings(index, dynamics)
                 self.dynamics[index] = dynamics
                 self._weigh(index, name, robot)
                 self._name_massless(index, robot)
+
+    def _with_settings(self, index: int, dynamics: VehicleHydrodynamics) -> VehicleHydrodynamics:
+        """Apply what ``--set`` and ``u:vary`` change in a set; errors are reported."""
+        vehicle = self._scene.vehicles[index]
+        for path, text in vehicle.hydrodynamics:
+            dynamics = self._with_setting(index, dynamics, path, text)
+        return dynamics
+
+    def _with_setting(
+        self, index: int, dynamics: VehicleHydrodynamics, path: str, text: str
+    ) -> VehicleHydrodynamics:
+        vehicle = self._scene.vehicles[index]
+        try:
+            changed = locate(dynamics, path).with_value(text)
+            errors = set_errors(changed)
+        except BadSetting as error:
+            changed, errors = dynamics, [str(error)]
+        for message in errors:
+            name = f"vehicle[{vehicle.name}].hydrodynamics.{path}={text}"
+            self._say(f"{name}: {message}", vehicle, DYNAMICS)
+        return dynamics if errors else cast(VehicleHydrodynamics, changed)
+
+    def _check_varied(self, index: int, dynamics: VehicleHydrodynamics) -> None:
+        """Report what is wrong with a set in which a varied number is at a bound."""
+        for variation in self._scene.vary:
+            place = locate(self._scene, variation.path)
+            if isinstance(place, HydrodynamicsPlace) and place.leaf is self._scene.vehicles[index]:
+                if not locate_number(dynamics, place.number):
+                    message = f"<u:path> {variation.path}: it is not one number of the set"
+                    self._say(message, self._scene.vehicles[index], DYNAMICS)
+                    continue
+                for bound in variation.bounds:
+                    self._with_setting(index, dynamics, place.number, repr(bound))
 
     def _weigh(self, index: int, name: str, robot: RobotSpec) -> None:
         """Compare a vehicle's weight with its displacement."""

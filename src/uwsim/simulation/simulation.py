@@ -245,7 +245,7 @@ class Simulation:
             UnknownName: there is no such body; names the nearest.
         """
         world_from_body = self.world.body(name).world_from_body
-        return self._world_from(of).inverse() @ world_from_body
+        return self._world_from_frame(of).inverse() @ world_from_body
 
     def set_pose(self, name: str, pose: Pose, of: str = "L") -> None:
         """Place a vehicle or an object, at rest; afterwards `pose` returns this pose.
@@ -260,9 +260,9 @@ class Simulation:
             BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
             UwsimError: the object is fixed, or a vehicle holds it.
         """
-        self.world.place(name, checked_pose(name, self._world_from(of) @ pose))
+        self.world.place(name, checked_pose(name, self._world_from_frame(of) @ pose))
 
-    def _world_from(self, frame: str) -> Pose:
+    def _world_from_frame(self, frame: str) -> Pose:
         """Return ``world_from_frame`` of ``L``, ``W`` or a body."""
         frames = {"W": Pose.identity(), "L": self.world.world_from_localized}
         return frames[frame] if frame in frames else self.world.body(frame).world_from_body
@@ -302,7 +302,7 @@ class Simulation:
         Raises:
             UnknownName: there is no such frame; names the nearest.
         """
-        return oriented_boxes(self.world.scenery, self._world_from(of).inverse())
+        return oriented_boxes(self.world.scenery, self._world_from_frame(of).inverse())
 
     def set_fog(self, density: float) -> None:
         """Set the density of the fog [1/m], 0 for clear water; BadSetting if it is negative."""

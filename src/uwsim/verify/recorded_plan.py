@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from ..assets.bundled import bundled
 from ..errors import AssetNotFound, ResultError
 from ..results.inputs import Inputs, differing
+from ..runs.named_plugins import plugin_names
 from ..runs.own_process.program import IN_PROCESS, is_outside
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan_request import PlanRequest
@@ -81,7 +82,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         settings=[s for s in settings if not (is_blind and s.startswith("algorithm."))],
         compat=run.compatibility or (),
         data_path=overrides.data_path,
-        plugins=_plugins(result, overrides.plugins),
+        plugins=_plugins(result, overrides.plugins, [*typed, *_beside(result, benchmark)]),
         no_code=overrides.no_code,
         in_process=IN_PROCESS in dict(run.clients or ()).values(),
         algorithm_is_from=str(directory),
@@ -178,12 +179,22 @@ def scene_named_by(benchmark: Path) -> list[str]:
     return [] if named is None else [str(named).strip()]
 
 
-def _plugins(result: Result, overrides: Sequence[Path]) -> list[Path]:
+def _beside(result: Result, benchmark: Path) -> list[str]:
+    """Return where the plugins are that the benchmark names, or that are in its folder."""
+    names = [*plugin_names(benchmark), *(name for name, _ in result.inputs.plugins or ())]
+    return [str(benchmark.parent / name) for name in names]
+
+
+def _plugins(result: Result, overrides: Sequence[Path], typed: Sequence[str]) -> list[Path]:
     """Return the plugins that were used, in the order in which they were.
 
-    The file of an algorithm ``FILE.py:Class`` is where its name says, unless it has changed.
+    Those that are not given are those of the same hash that were given then, or that are in the
+    benchmark's folder. The file of an algorithm ``FILE.py:Class`` is where its name says, unless it
+    has changed.
     """
-    hashes = {path: _sha256(path) for path in overrides}
+    names = [name for name, _ in result.inputs.plugins or ()]
+    known = [Path(word) for word in typed if Path(word).name in names and Path(word).is_file()]
+    hashes = {path: _sha256(path) for path in (*overrides, *known)}
     program = Path((result.run.algorithm or "").partition(":")[0])
     found = []
     for name, wanted in result.inputs.plugins or ():
@@ -192,9 +203,10 @@ def _plugins(result: Result, overrides: Sequence[Path]) -> list[Path]:
         right = [path for path, digest in hashes.items() if digest == wanted]
         if not right:
             alike = [str(path) for path in overrides if path.name == name]
-            what = f"; {alike[0]} is another" if alike else f"; give it with --plugin {name}"
+            what = f"{alike[0]} is another file" if alike else "it is not in the benchmark's folder"
             raise ResultError(
-                f"The result was made with the plugin {name} ({_shortened(wanted)}){what}."
+                f"The result was made with the plugin {name} ({_shortened(wanted)}); {what}. Give "
+                "its path with --plugin."
             )
         found.append(right[0])
     if extra := [str(path) for path in overrides if path not in found]:

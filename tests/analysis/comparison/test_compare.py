@@ -29,6 +29,7 @@ from uwsim.analysis.comparison import (
 from uwsim.analysis.comparison.document import csv_text, json_text
 from uwsim.analysis.comparison.matrix import matrix
 from uwsim.analysis.comparison.page import render
+from uwsim.analysis.comparison.plots import _bars as bars_plot
 from uwsim.analysis.comparison.plots import curves, differences_plot, success
 from uwsim.analysis.comparison.sentences import sentences, told_apart
 from uwsim.analysis.comparison.terminal import drawn
@@ -36,7 +37,7 @@ from uwsim.errors import ResultError, UnknownName
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Result
 from uwsim.results.run_info import RunInfo
-from uwsim.statistics import mean_interval, rate, repeats_needed, sign_flip
+from uwsim.statistics import Interval, mean_interval, rate, repeats_needed, sign_flip
 
 EVIL = "<script>alert('x')</script>"
 
@@ -625,3 +626,12 @@ def test_differences_stand_on_a_zero_line_and_the_winning_side_is_named(three: C
     assert figure.axes[0].lines[0].get_ydata()[0] == 0.0
     assert curves(three).axes[0].get_ylabel() == "total [px]"
     assert success(compared(noisy("a", 1.0, n=2, salt=1), noisy("b", 1.0, n=2, salt=2))) is None
+
+
+def test_bars_without_any_value_say_so() -> None:
+    nothing = Interval(n=0, mean=None, std=None, low=None, high=None)
+    some = Interval(n=2, mean=1.0, std=0.1, low=0.5, high=1.5)
+    for bars, is_empty in (([nothing, nothing], True), ([nothing, some], False)):
+        figure = bars_plot([("a", each, False) for each in bars], "total [px]", zero=True)
+        texts = [text.get_text() for text in figure.axes[0].texts]
+        assert any("no data: no repeat has a value in both results" in t for t in texts) == is_empty

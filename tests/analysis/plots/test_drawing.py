@@ -294,7 +294,7 @@ def test_each_repeat_is_a_point_and_each_level_of_five_or_more_a_box() -> None:
     medians = [
         line.get_ydata()[0]
         for line in axes.lines
-        if line.get_color() == INK and line.get_zorder() == 2.7
+        if line.get_color() == INK and line.get_linewidth() == 1.0
     ]
     assert medians == pytest.approx([float(np.median(values)) for values in boxed])
     assert axes.get_xlim()[0] < 0.0
@@ -303,4 +303,4 @@ def test_each_repeat_is_a_point_and_each_level_of_five_or_more_a_box() -> None:
 @pytest.mark.parametrize("seeds", [(1,), (1, 2)])
 def test_few_repeats_have_no_box(seeds: tuple[int, ...]) -> None:
     (axes,) = value_plot(visibility(seeds=seeds), "corners").axes
-    assert not [line for line in axes.lines if line.get_zorder() == 2.7]
+    assert not [line for line in axes.lines if line.get_color() == INK]

@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from tests.synthetic_results import one_level, visibility
-from uwsim.analysis.plots import draw_run_plots
+from uwsim.analysis.plots import INK, draw_run_plots
+from uwsim.analysis.plots.one_level import one_level_plot
 from uwsim.analysis.plots.over_time import over_time_plot, samples_of
 from uwsim.analysis.plots.panels import MAX_PANELS, panels_of
 from uwsim.analysis.plots.track_plot import read_tracks, track_plot
+from uwsim.analysis.report import render
 from uwsim.results.log import Log, save_log
 from uwsim.results.result import Result
 from uwsim.tracks.motion_track import TrackLevel, quantised, steps_of, track_bytes
@@ -168,3 +170,40 @@ def test_plots_of_a_run_have_captions_and_the_same_bytes_every_time(tmp_path: Pa
     again = draw_run_plots(result, tmp_path, tmp_path / "b")
     for one, other in zip(plots, again, strict=True):
         assert one.path.read_bytes() == other.path.read_bytes()
+
+
+def of_one_level(seeds: tuple[int, ...]) -> Result:
+    """The first level of a sweep, over several seeds."""
+    result = visibility(seeds=seeds)
+    level = result.index("fog")
+    rows = tuple(row for row in result.rows if row[level] == 0.0)
+    return replace(result, rows=rows, missing=())
+
+
+@pytest.mark.parametrize(("n", "has_box"), [(2, False), (6, True)])
+def test_one_level_is_a_row_for_each_column_with_a_point_for_each_repeat(
+    n: int, has_box: bool
+) -> None:
+    result = of_one_level(tuple(range(1, n + 1)))
+    figure = one_level_plot(result)
+    assert figure is not None
+    names = [axes.get_ylabel() for axes in figure.axes]
+    assert names == ["total [px]", "corners [px]", "centroid [px]"]
+    for axes, column in zip(figure.axes, ("total", "corners", "centroid"), strict=True):
+        points = next(line for line in axes.lines if line.get_alpha() == 0.55)
+        assert sorted(points.get_xdata()) == pytest.approx(sorted(result.numbers(column)))
+        assert any(line.get_color() == INK for line in axes.lines) == has_box
+
+
+def test_a_report_of_one_level_has_no_curves_but_its_repeats(tmp_path: Path) -> None:
+    result = of_one_level((1, 2, 3))
+    plots = draw_run_plots(result, tmp_path, tmp_path / "plots")
+    assert [plot.path.name for plot in plots] == ["repeats.png"]
+    curve = tmp_path / "total.png"
+    curve.write_bytes(plots[0].path.read_bytes())
+    page = render(result, tmp_path, plots=[curve], run_plots=plots)
+    assert "<h2>Curves</h2>" not in page
+    assert "The repeats; dots: repeats" in page
+    whole = visibility(seeds=(1, 2))
+    assert not draw_run_plots(whole, tmp_path, tmp_path / "plots")
+    assert "<h2>Curves</h2>" in render(whole, tmp_path, plots=[curve])

@@ -11,6 +11,7 @@ import pytest
 from tests.fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures.path_following import PathFollowing, PathFollowingSpec
 from uwsim.benchmark.metrics.polyline import Polyline
+from uwsim.benchmark.reference_path import ReferencePathSpec
 from uwsim.errors import UnknownName
 from uwsim.geometry import rotation_from_rpy, rotation_z
 from uwsim.messages import Path, Point, PoseStamped, Quaternion, header
@@ -199,7 +200,7 @@ def test_without_a_path_there_is_no_value_and_the_reason_says_so() -> None:
     assert measure.log_values == (None,) * 5
     nowhere = PathFollowingSpec(name="p", target="v").bind(world)
     nowhere.start()
-    assert nowhere.why == "no <topic> says where the path is"
+    assert nowhere.why == "neither <topic> nor <u:path> gives a path"
     assert not measure.fed_by_algorithm
 
 
@@ -332,3 +333,30 @@ def test_a_path_of_one_point_is_a_place_and_for_the_original_no_path() -> None:
         measure.update()
         assert measure.value == value
     assert measure.why == "the path on 'path' has one point"
+
+
+@pytest.mark.parametrize("topic", [None, "path"])
+def test_a_path_of_the_file_is_followed_and_published_where_there_is_a_topic(
+    topic: str | None,
+) -> None:
+    world = FakeWorld({"v": FakeBody((0.0, 0.3, 0.4))}, timestep=0.01)
+    reference = ReferencePathSpec(points=(0.0, 0.0, 0.0, 10.0, 0.0, 0.0))
+    spec = PathFollowingSpec(name="p", target="v", topic=topic, reference=reference)
+    measure = spec.bind(world)
+    inbox = world.bus.inbox("path", Path)
+    measure.start()
+    world.bus.deliver()
+    go(world, measure, lambda t: (t, 0.3, 0.4), 5.0)
+    assert measure.value == pytest.approx(0.5 * 5.0, abs=EXACT)
+    assert measure.details["share"] == pytest.approx(0.5, abs=EXACT)
+    published = inbox.take()
+    assert len(published) == (topic is not None)
+    for path in published:
+        assert [pose.pose.position.x for pose in path.poses] == [0.0, 10.0]
+
+
+def test_without_topic_and_path_there_is_no_value() -> None:
+    measure = PathFollowingSpec(name="p", target="v").bind(FakeWorld({"v": FakeBody()}))
+    measure.start()
+    assert measure.value is None
+    assert measure.why == "neither <topic> nor <u:path> gives a path"

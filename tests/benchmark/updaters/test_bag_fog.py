@@ -11,13 +11,16 @@ import pytest
 from tests.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
 from tests.fakes import FakeWorld
 from tests.short_trial import make_plan, rows_of, tank
+from uwsim.benchmark.ground_truth import TopicTruthSpec
+from uwsim.benchmark.measures import EuclideanNormSpec
+from uwsim.benchmark.recorded_truth import RecordedTruthSpec
 from uwsim.benchmark.updaters import BagFogUpdaterSpec
 from uwsim.benchmark.updaters.bag_fog_updater import BagFogUpdater, fogged
 from uwsim.bus import Node
 from uwsim.cli import main
 from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import AssetError, AssetNotFound, BadSetting, RunFailed, UnknownName
-from uwsim.messages import CameraInfo, Image, pixels_of, seconds
+from uwsim.messages import CameraInfo, Float32MultiArray, Image, pixels_of, seconds
 from uwsim.messages.bag_camera import RecordedFrame
 from uwsim.rendering.water import Water, apply_water
 from uwsim.runs.planning.plan import Plan
@@ -333,3 +336,59 @@ def test_the_result_has_the_number_of_images_published_and_their_hash(tmp_path: 
     assert ends[0].streams == ends[1].streams
     ((topic, n_frames, sha256),) = ends[0].streams
     assert (topic, n_frames, len(sha256)) == (IMAGE, 8, 64)
+
+
+def test_the_truth_of_each_image_comes_with_it_and_is_hidden_from_the_algorithm(
+    tmp_path: Path,
+) -> None:
+    write_bag(tmp_path, "mcap", images())
+    (tmp_path / "corners.csv").write_text("time,u,v\n0,1,10\n0.2,3,30\n0.3,,0\n")
+    truth = RecordedTruthSpec(file="corners.csv", topic="truth/corners")
+    stage = world(timestep=0.01)
+    updater = spec(tmp_path, bag="dive", truth=truth).bind(stage)
+    assert stage.bus.is_withheld("truth/corners")
+    screen = Screen(stage)
+    found: list[tuple[float, list[float]]] = []
+    stage.bus.subscribe(
+        "truth/corners",
+        Float32MultiArray,
+        lambda said: found.append((round(stage.time, 6), said.data.tolist())),
+    )
+    updater.apply(0.0)
+    stage.advance(50)
+    updater.close()
+    assert [time for time, _ in found] == screen.times
+    assert [data for _, data in found[:4]] == [[1.0, 10.0], [2.0, 20.0], [], [1.0, 10.0]]
+
+
+def test_a_moving_target_in_recorded_images_is_scored(tmp_path: Path) -> None:
+    stage = world(timestep=0.01)
+    write_bag(tmp_path, "ros1", images())
+    (tmp_path / "corners.csv").write_text("time,u,v\n0,1,10\n0.25,6,60\n")
+    truth = RecordedTruthSpec(file="corners.csv", topic="truth/corners")
+    updater = spec(tmp_path, truth=truth).bind(stage)
+    measure = EuclideanNormSpec(
+        name="corners",
+        target="estimate",
+        value="mean",
+        ground_truth=TopicTruthSpec(topic="truth/corners", components="u v", unit="px"),
+    ).bind(stage)
+    assert measure.unit == "px"
+    stage.advance(1)  # the first image stands until the benchmark begins
+    publish = stage.bus.publisher("estimate", Float32MultiArray)
+    stage.bus.subscribe(
+        IMAGE,
+        Image,
+        lambda _: publish(Float32MultiArray(data=np.array([1.0, 10.0], dtype=np.float32))),
+    )
+    measure.start()
+    updater.apply(0.0)
+    for _ in range(30):
+        stage.advance(1)
+        measure.update()
+    updater.close()
+    offsets = [np.hypot(5 * t, 50 * t) / 0.25 for t in TIMES]
+    assert measure.details["frames"] == 3.0
+    assert measure.value == pytest.approx(np.mean(offsets), rel=1e-5)
+    assert measure.details["u.max"] == pytest.approx(5.0, rel=1e-5)
+    measure.close()

@@ -35,6 +35,7 @@ from ..plots import (
     write_note,
     written_unit,
 )
+from ..plots.drawing import say_no_data
 from .inputs import Entry
 from .model import AtLevel, Comparison, Versus
 
@@ -229,6 +230,8 @@ def _bars(bars: Sequence[Bar], label: str, *, zero: bool) -> Figure:
                 [found.mean], [i], MARKERS[0 if zero else i % len(MARKERS)], color=colour,
                 markersize=5, markerfacecolor=colour if is_filled else "white",
             )  # fmt: skip
+        if all(found.mean is None for _, found, _ in bars):
+            say_no_data(axes, "no repeat has a value" + " in both results" * zero)
         axes.set_yticks(range(len(bars)), [plain(name) for name, _, _ in bars])
         axes.set_ylim(len(bars) - 0.5, -0.5)
         axes.grid(visible=False, axis="y")

@@ -8,12 +8,15 @@ from pathlib import Path
 from ...errors import ResultError
 from ...files.file_names import file_names
 from ...results.log import load_log, logs_of
+from ...results.per_level import rows_by_level
 from ...results.result import Result
+from .one_level import NOTE, one_level_plot
 from .over_time import note_of, over_time_plot
 from .save import save_pdf, save_plot
 from .track_plot import read_tracks, track_plot
 
 TRACK = "track"
+ONE_LEVEL = "repeats"
 OVER_TIME = "-over-time"
 
 
@@ -41,6 +44,13 @@ def draw_run_plots(
         pdf: also draw each as PDF.
     """
     plots: list[RunPlot] = []
+    if len(rows_by_level(result)) == 1 and len(result.rows) > 1:
+        figure = one_level_plot(result)
+        if figure is not None:
+            path = save_plot(figure, folder / f"{ONE_LEVEL}.png")
+            plots.append(RunPlot(path=path, measure=None, caption=f"The repeats; {NOTE}"))
+            if pdf:
+                save_pdf(figure, path.with_suffix(".pdf"))
     logs = {}
     for path in logs_of(directory):
         try:
@@ -49,7 +59,7 @@ def draw_run_plots(
             continue  # a damaged log has no plot
         logs[path.stem] = log
     order = {column.name: i for i, column in enumerate(result.of_kind("measure"))}
-    files = file_names(logs, taken=[TRACK])
+    files = file_names(logs, taken=[TRACK, ONE_LEVEL])
     for stem, log in sorted(logs.items(), key=lambda each: order.get(each[1].measure, len(order))):
         figure = over_time_plot(result, log)
         if figure is not None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
 
 Level = tuple[float, ...]
@@ -68,7 +69,8 @@ class Panels:
 
     def label(self, grid: Sequence[Axes], x: str, y: str) -> None:
         """Label the axes at the left and at the bottom of the figure."""
-        if (layout := grid[0].figure.get_layout_engine()) is not None:
+        layout = grid[0].figure.get_layout_engine()
+        if isinstance(layout, ConstrainedLayoutEngine):
             layout.set(wspace=0.07)  # the numbers of two panels do not touch
         for i, axes in enumerate(grid):
             is_lowest = i + self.n_columns >= len(grid)

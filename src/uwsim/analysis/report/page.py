@@ -117,7 +117,7 @@ def render(
     columns = result.of_kind("score") + result.of_kind("measure")
     n_repeats = len(set(repeats_of(result))) or 1
     n_levels = len(rows_by_level(result))
-    drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels * n_repeats != 1]
+    drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels > 1]
     images = shown_images(result, directory)
     return template("report.html.j2").render(
         title=result.inputs.title,

@@ -264,6 +264,7 @@ class EuclideanNorm(Measure):
     def close(self) -> None:
         """Unsubscribe."""
         self._inbox.close()
+        self._truth.close()
 
     def _read(self) -> bool:
         """Take what arrived; return whether an estimate was among it, which is then in force."""

@@ -6,11 +6,21 @@ r"""Path following: how far a body strays from a path.
       <name>pathError</name> <target>girona500</target>
       <topic>path</topic> <from>localizedWorld</from>
     </pathFollowing>
+
+With ``<u:path>`` the file itself has the path, by its points or by a CSV file next to it:
+
+.. code-block:: xml
+
+    <pathFollowing u:value="rms">
+      <name>pathError</name> <target>girona500</target> <from>localizedWorld</from>
+      <u:path> <u:points> 0 0 4  2 0 4  2 1 4 </u:points> </u:path>
+    </pathFollowing>
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
@@ -23,6 +33,7 @@ from ...schema import element
 from ...world import Body, World
 from ..metrics.polyline import Polyline
 from ..metrics.signal import VALUES, Signal
+from ..reference_path import ReferencePathSpec, path_message
 from .measure import Measure, MeasureSpec
 
 PARTS = {"iae": "m s", "distance": "m", "waypoint": "1", "ise": "m^2 s", "share": "1"}
@@ -48,6 +59,14 @@ class PathFollowingSpec(MeasureSpec):
     """Topic of the path (nav_msgs/Path); without one there is no path, and so no value."""
     from_: str | None = element("from", default=None, refers_to="body")
     """Route of the body in whose frame the path is given; None: W, not L."""
+    reference: ReferencePathSpec | None = element("path", namespaced=True, default=None)
+    """The path. With ``<topic>`` too, it is published there when the measure starts."""
+    path: str = field(default="", compare=False, metadata={"path": True})
+    """The benchmark file; a file of points is searched in its folder."""
+
+    def errors(self) -> Sequence[str]:
+        """Return errors of the path."""
+        return () if self.reference is None else self.reference.errors()
 
     @property
     def start_value(self) -> float:
@@ -58,7 +77,8 @@ class PathFollowingSpec(MeasureSpec):
         """Find target and frame; raises UnknownName if one is not there."""
         inbox = None if self.topic is None else world.bus.inbox(self.topic, Path, latched=True)
         frame = None if self.from_ is None else world.body(self.from_)
-        return PathFollowing(self, world, world.body(self.target), frame, inbox)
+        points = None if self.reference is None else self.reference.read(self.path)
+        return PathFollowing(self, world, world.body(self.target), frame, inbox, points)
 
 
 class PathFollowing(Measure):
@@ -71,14 +91,16 @@ class PathFollowing(Measure):
     :math:`(d_0^2 + d_0 d_1 + d_1^2) \Delta t / 3`. What passes while the measure is off, or before
     there is a path, does not count.
 
-    The path is the newest one there is when the measure starts, or the first to arrive after that;
-    later ones are ignored until the next level. Its points are joined by straight segments in the
-    frame ``from`` as that stands at each step (orientations and the message's frame_id are not
-    looked at). The first segment is the current one to begin with; at each step at which the body
-    is nearer to the next segment than to the current one, that becomes the current one. So a body
-    that leaps over two waypoints is measured against a segment behind it for a step, one that
-    begins in the middle of the path against the first segments until it comes near them, and there
-    is no way back. A point that repeats the one before it is left out.
+    The path is that of ``<u:path>``. Without it, it is the newest one there is when the measure
+    starts, or the first to arrive after that; later ones are ignored until the next level. Its
+    points are joined by straight segments in the frame ``from`` as that stands at each step
+    (orientations and the message's frame_id are not looked at).
+
+    The first segment is the current one to begin with; at each step at which the body is nearer to
+    the next segment than to the current one, that becomes the current one. So a body that leaps
+    over two waypoints is measured against a segment behind it for a step, one that begins in the
+    middle of the path against the first segments until it comes near them, and there is no way
+    back. A point that repeats the one before it is left out.
 
     Details: ``iae`` (the value) [m s], ``ise`` [m^2 s], ``distance`` now [m], ``waypoint``, the
     point, from 0, at which the current segment begins, ``share`` of the path's length up to the
@@ -100,6 +122,7 @@ class PathFollowing(Measure):
         target: Body,
         frame: Body | None,
         inbox: Inbox[Path] | None,
+        points: Array | None = None,
     ) -> None:
         self._world, self._target, self._frame, self._inbox = world, target, frame, inbox
         self._topic, self._which = spec.topic, spec.value
@@ -114,6 +137,7 @@ class PathFollowing(Measure):
         self._path: Polyline | None = None
         self._waypoints: list[int] = []  # at which of its points each segment begins
         self._refused = ""  # why the newest path could not be taken
+        self._reference = points
         self._was_on = False
         self._segment = 0
         self._furthest = 0.0  # along the path [m]
@@ -126,6 +150,10 @@ class PathFollowing(Measure):
         """Begin, with the newest path there is."""
         self._was_on = True
         self._before = None
+        if self._reference is not None:
+            self._take(self._reference)
+            if self._topic is not None:
+                self._world.bus.publisher(self._topic, Path)(path_message(self._reference))
         self.update()
 
     def update(self) -> None:
@@ -163,7 +191,7 @@ class PathFollowing(Measure):
         if not self._was_on:
             return "it was never on"
         if self._topic is None:
-            return "no <topic> says where the path is"
+            return "neither <topic> nor <u:path> gives a path"
         return self._refused or f"no path on {self._topic!r}"
 
     @property
@@ -221,11 +249,15 @@ class PathFollowing(Measure):
         elif len(points) == 1 and self._refuses_points:
             self._refused = f"the path on {self._topic!r} has one point"
         else:
-            if self._adds_place and self._frame is not None:
-                points = points + self._frame.world_from_body.position
-            differs = np.r_[True, np.any(points[1:] != points[:-1], axis=1) | self._keeps_repeats]
-            self._waypoints = np.flatnonzero(differs).tolist()
-            self._path = Polyline(points[differs])
+            self._take(points)
+
+    def _take(self, points: Array) -> None:
+        """Take a path of points (n, 3) [m]."""
+        if self._adds_place and self._frame is not None:
+            points = points + self._frame.world_from_body.position
+        differs = np.r_[True, np.any(points[1:] != points[:-1], axis=1) | self._keeps_repeats]
+        self._waypoints = np.flatnonzero(differs).tolist()
+        self._path = Polyline(points[differs])
 
     def _place(self) -> Array:
         """Where the body is, in the path's frame, (3,) [m]."""

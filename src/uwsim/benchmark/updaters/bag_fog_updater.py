@@ -8,6 +8,7 @@ r"""bagFogUpdater: fog over recorded images, to test an algorithm on real footag
       <bag>dive.bag</bag> <imageTopic>camera</imageTopic> <infoTopic>camera_info</infoTopic>
       <imageDepth>2.5</imageDepth>
       <imagePub>/foggy/image</imagePub> <infoPub>/foggy/camera_info</infoPub>
+      <u:truth> <u:file>corners.csv</u:file> <u:topic>truth/corners</u:topic> </u:truth>
     </bagFogUpdater>
 
 The bag is replayed in an endless loop, in simulation time and with the spacing recorded; from the
@@ -19,6 +20,11 @@ as ``imageDepth`` away, so an image c in fog of density f and colour g becomes
 which is what the renderer does with fog (docs/rendering.md); g is the scene's fog colour. Images
 are published as ``rgb8`` or ``mono8``, each with the camera's info, both stamped with the time of
 publishing. Not modelled: attenuation, and fog that was in the water already.
+
+``<u:truth>`` gives the truth of each image: a CSV file with a column ``time`` [s], which counts
+from the first image of the recording, and a column for each number. Between two lines it is
+interpolated linearly. It is published with each image, for ``<groundTruth type="topic">``. Where a
+cell is empty on either side, before the first line and after the last, the message is empty.
 """
 
 from __future__ import annotations
@@ -33,11 +39,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
-from ...messages import CameraInfo, Image, image, time_from_seconds
+from ...messages import CameraInfo, Float32MultiArray, Image, image, time_from_seconds
 from ...messages.bag_camera import DecodedImage, RecordedFrame, Recording, camera_info
 from ...numerics.linear import dot
 from ...schema import element
 from ...world import Stage
+from ..recorded_truth import RecordedTruth, RecordedTruthSpec
 from .fog_sweep import FogSweepSpec
 from .updater import SceneUpdater
 
@@ -65,6 +72,8 @@ class BagFogUpdaterSpec(FogSweepSpec):
     """Topic the images are published on; None: as in the recording."""
     info_pub: str | None = element(default=None)
     """Topic the camera's info is published on; None: as in the recording."""
+    truth: RecordedTruthSpec | None = element(namespaced=True, default=None)
+    """The truth of the images."""
     path: str = field(default="", compare=False, metadata={"path": True})
     """The benchmark file; recordings are searched next to it."""
 
@@ -103,7 +112,8 @@ class BagFogUpdaterSpec(FogSweepSpec):
                 raise BadSetting(
                     f"Topic {topic!r} is the scene's already; name another in <{tag}>.", name=topic
                 )
-        return BagFogUpdater(stage, self, path)
+        truth = None if self.truth is None else self.truth.read(self.path)
+        return BagFogUpdater(stage, self, path, truth)
 
 
 class BagFogUpdater(SceneUpdater):
@@ -118,8 +128,12 @@ class BagFogUpdater(SceneUpdater):
     the channels as they were recorded, and grey images stay as they are.
     """
 
-    def __init__(self, stage: Stage, spec: BagFogUpdaterSpec, path: Path) -> None:
-        self._stage, self._spec, self._path = stage, spec, path
+    def __init__(
+        self, stage: Stage, spec: BagFogUpdaterSpec, path: Path, truth: RecordedTruth | None = None
+    ) -> None:
+        self._stage, self._spec, self._path, self._truth = stage, spec, path, truth
+        if truth is not None:
+            stage.bus.withhold(truth.topic)
         self._is_original = "bag-fog" in stage.compatibility
         self._image_topic, self._info_topic = spec.topics
         self._density = spec.density(spec.initial)  # [1/m]
@@ -196,6 +210,11 @@ class BagFogUpdater(SceneUpdater):
             raise RunFailed(f"The recording broke off: {error}") from error
 
     def _publish(self, frame: RecordedFrame) -> None:
+        if self._truth is not None:
+            numbers = self._truth.at(frame.time * 1e-9)
+            self._stage.bus.publisher(self._truth.topic, Float32MultiArray)(
+                Float32MultiArray(data=numbers.astype(np.float32))
+            )
         is_seen = self._stage.bus.has_readers(self._image_topic)
         if not is_seen and not self._stage.bus.has_readers(self._info_topic):
             return

@@ -14,6 +14,7 @@ from ...schema.source_line import line_of
 from ...terminal import print_warnings
 from ...world import TIMESTEP
 from ..foreign_code import announce, refuse_code, refused
+from ..named_plugins import named_plugins
 from ..program import load_program
 from ..stand_ins import warn_of_stand_ins
 from ..tables import read_plugins
@@ -146,7 +147,10 @@ def _read_files(request: PlanRequest, arguments: Mapping[str, str], wrong: AllEr
         plugins, tables = read_plugins(request.plugins)
     with wrong.kept():
         path = benchmark_file(request.benchmark, data_path)
-        spec = None if tables is None else benchmark_of(path, plugins, tables)
+        if tables is not None:
+            if named := named_plugins(path, request):
+                plugins, tables = read_plugins([*request.plugins, *named])
+            spec = benchmark_of(path, plugins, tables)
     with wrong.kept():
         scene = scene_of(request.scene, path, spec, data_path, arguments)
     return _Files(plugins=plugins, tables=tables, benchmark=spec, scene=scene)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...geometry import Array, Pose
-from ...numerics.linear import product
+from ...numerics.linear import cross, dot, length, product
 from ...world import Box
 from ..parts import Part
 from ..scenery.scenery import Scenery
@@ -44,10 +44,11 @@ def oriented_boxes(scenery: Scenery, frame_from_world: Pose) -> dict[str, Orient
 
 def _box(scenery: Scenery, parts: list[Part]) -> OrientedBox:
     """Return the box in W around some parts."""
-    left, _, right = np.linalg.svd(scenery.world_from_mesh(parts[0])[:3, :3])
-    rotation = product(left, right)  # the rotation nearest to a matrix with a scale in it
-    if np.linalg.det(rotation) < 0.0:
-        rotation = product(left, np.diag([1.0, 1.0, -1.0]) @ right)
+    x, y, _ = scenery.world_from_mesh(parts[0])[:3, :3].T  # its columns, with a scale in them
+    x = x / length(x)
+    y = y - dot(x, y) * x
+    y = y / length(y)
+    rotation = np.stack([x, y, cross(x, y)], axis=1)
     corners = np.concatenate([scenery.corners(part) for part in parts])  # (8 n, 3) [m]
     along = product(corners, rotation)
     low, high = along.min(axis=0), along.max(axis=0)

@@ -1,0 +1,61 @@
+"""The plot of a result of one level: a row for each column, with a point for each repeat."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from ...results.result import Result
+from .curves import Curve, curves_of, label_of
+from .drawing import FEWEST_FOR_BOX
+from .style import INK, PALETTE, plain, styled_figure, write_note
+
+NOTE = "dots: repeats; circle: mean with its 95 % interval; boxes: quartiles and median"
+
+
+def one_level_plot(result: Result) -> Figure | None:
+    """Draw the values of all repeats, a row for each column; None where no column has values."""
+    columns = result.of_kind("score") + result.of_kind("measure")
+    found = [(column, curves_of(result, column.name)) for column in columns]
+    drawn = [(column, curves[0]) for column, curves in found if curves and curves[0].values[0]]
+    if not drawn:
+        return None
+    with styled_figure((6.4, 0.5 + 0.62 * len(drawn))) as figure:
+        grid = figure.subplots(len(drawn), 1, squeeze=False).ravel()
+        for axes, (column, curve) in zip(grid, drawn, strict=True):
+            _draw(axes, curve)
+            axes.set_ylabel(
+                plain(label_of(result, column)), rotation=0, ha="right", va="center", labelpad=8
+            )
+        write_note(figure, NOTE)
+    return figure
+
+
+def _draw(axes: Axes, curve: Curve) -> None:
+    """Draw the repeats of one column along x."""
+    values, colour = curve.values[0], PALETTE[0]
+    if len(values) >= FEWEST_FOR_BOX:
+        line = {"color": colour, "linewidth": 0.8, "alpha": 0.8}
+        axes.boxplot(
+            [values],
+            positions=[-0.35],
+            widths=0.4,
+            orientation="horizontal",
+            showfliers=False,
+            manage_ticks=False,
+            boxprops=line,
+            whiskerprops=line,
+            capprops=line,
+            medianprops={"color": INK, "linewidth": 1.0},
+        )
+    axes.plot(values, [0.3] * len(values), "o", color=colour, markersize=3.2, alpha=0.55, mew=0)
+    low, high = curve.low[0], curve.high[0]
+    if low == low and high == high:  # neither is NaN
+        axes.plot([low, high], [-0.05, -0.05], color=PALETTE[1], linewidth=1.4)
+    axes.plot(curve.mean[:1], [-0.05], "o", color=PALETTE[1], markersize=4, markerfacecolor="white")
+    axes.set(ylim=(-0.75, 0.65), yticks=[])
+    axes.margins(x=0.08)
+    axes.spines["left"].set_visible(False)
+    axes.xaxis.set_major_locator(MaxNLocator(7))
+    axes.tick_params(labelsize=7)

@@ -1,0 +1,84 @@
+"""The path that a body should follow, by points or a file: ``<u:path>``.
+
+.. code-block:: xml
+
+    <u:path> <u:points> 0 0 4  2 0 4  2 1 4 </u:points> </u:path>
+    <u:path> <u:file>survey.csv</u:file> </u:path>
+
+The file has a column for each of x, y and z [m], named in its first line; other columns are not
+read. It is searched in the folder of the benchmark.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import AssetError
+from ..geometry import Array
+from ..messages import Path, PoseStamped
+from ..schema import Numbers, Spec, element
+from .number_table import read_numbers
+
+MAX_POINTS = 100_000
+"""The greatest number of points."""
+FARTHEST = 1e6
+"""The greatest coordinate [m]."""
+COLUMNS = ("x", "y", "z")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReferencePathSpec(Spec):
+    """A ``<u:path>`` element."""
+
+    points: Numbers = element(namespaced=True, default=())
+    """x, y and z of each point, one after the other [m]."""
+    file: str | None = element(namespaced=True, default=None)
+    """A CSV file with the columns x, y and z [m], instead of the points."""
+
+    def errors(self) -> Sequence[str]:
+        """Return what is wrong with the points, or with the choice between points and file."""
+        if (self.file is not None) == bool(self.points):
+            return ["<u:path> needs either <u:points> or <u:file>"]
+        if len(self.points) % 3:
+            return [
+                f"<u:points> in <u:path> has {len(self.points)} numbers; expected x y z of each "
+                "point"
+            ]
+        if any(not abs(number) <= FARTHEST for number in self.points):
+            return [f"<u:points> in <u:path> has a number beyond {FARTHEST:g} m"]
+        return []
+
+    def read(self, benchmark: str) -> Array:
+        """Return the points, (n, 3) [m].
+
+        Args:
+            benchmark: the benchmark file, in whose folder the file of points is searched.
+
+        Raises:
+            AssetNotFound: the file is not there.
+            AssetError: it has no points, or something other than finite numbers.
+        """
+        if self.file is None:
+            return np.array(self.points, dtype=np.float64).reshape(-1, 3)
+        table = read_numbers(self.file, benchmark, at_most=MAX_POINTS)
+        points = table.columns(COLUMNS)
+        if not len(points):
+            raise AssetError(f"{self.file}: has no point.", name=self.file)
+        if not (np.abs(points) <= FARTHEST).all():
+            raise AssetError(
+                f"{self.file}: expected finite numbers up to {FARTHEST:g} m.", name=self.file
+            )
+        return points
+
+
+def path_message(points: Array) -> Path:
+    """Return points (n, 3) [m] as a message."""
+    poses = []
+    for x, y, z in points.tolist():
+        pose = PoseStamped()
+        pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = x, y, z
+        poses.append(pose)
+    return Path(poses=poses)

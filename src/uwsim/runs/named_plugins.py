@@ -1,0 +1,67 @@
+"""The plugins that a benchmark file names (``u:plugin``): found, announced, or refused."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..errors import AssetNotFound, BadSetting, BenchmarkError
+from ..files.input_files import hash_of
+from ..schema import NAMESPACE, Diagnostics, parse
+
+if TYPE_CHECKING:
+    from .planning.plan_request import PlanRequest
+
+ATTRIBUTE = f"{{{NAMESPACE}}}plugin"
+
+
+def plugin_names(benchmark: Path) -> tuple[str, ...]:
+    """Return the plugins that a benchmark file names; none where it is not XML."""
+    try:
+        root = parse(benchmark, error=BenchmarkError).root
+    except (BenchmarkError, OSError):
+        return ()  # whoever reads the file reports it
+    return tuple(str(root.get(ATTRIBUTE, "")).split())
+
+
+def named_plugins(benchmark: Path, request: PlanRequest) -> list[Path]:
+    """Return the plugins that a benchmark file names and that are not given as options already.
+
+    Raises:
+        BadSetting: code is refused.
+        BenchmarkError: a plugin is not found, or is outside the folders searched.
+    """
+    from .foreign_code import announce, refused
+
+    names, given = plugin_names(benchmark), request.plugins
+    if names and request.no_code:
+        raise refused(names[0], str(benchmark))
+    hashes = {hash_of(path) for path in given if path.is_file()}
+    found = []
+    for name in names:
+        path = _found(name, benchmark, request.data_path)
+        if (digest := hash_of(path)) not in hashes:
+            hashes.add(digest)
+            announce(name, str(benchmark), place=path)
+            found.append(path)
+    return found
+
+
+def _found(name: str, benchmark: Path, data_path: Sequence[Path]) -> Path:
+    """Find a plugin; BenchmarkError with the line of the benchmark where it is nowhere."""
+    from ..assets.find import find
+
+    try:
+        path = find(name, named_by=benchmark.parent, data_path=tuple(data_path))
+        if path is not None and path.suffix == ".py":
+            return path
+        why = "it is not in the folder of the file, nor in those of --data-path"
+        if path is not None:
+            why = "it is not a Python file (.py)"
+    except (AssetNotFound, BadSetting) as error:
+        why = str(error)
+    diagnostics = Diagnostics(benchmark)
+    root = parse(benchmark, error=BenchmarkError).root
+    diagnostics.error(root, f"u:plugin names {name[:100]!r}: {why}")
+    raise BenchmarkError(diagnostics.all())
