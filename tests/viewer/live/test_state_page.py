@@ -122,7 +122,7 @@ def test_the_state_is_that_of_the_vehicle_whichever_way_its_z_axis_points(
         found = state(page)
         page.context.close()
     assert number(found["depth"]) == pytest.approx(2.75)
-    assert number(found["heading"]) == pytest.approx(heading, abs=0.51)
+    assert number(found["heading"]) == pytest.approx(heading, abs=0.06)
     assert number(found["roll"]) == pytest.approx(roll, abs=0.06)
     assert number(found["pitch"]) == pytest.approx(pitch, abs=0.06)
     for joint, angle in zip(live.joint_names, np.degrees(live.joints), strict=True):

@@ -147,7 +147,7 @@ function rangeOf(names?: string[], isShare?: boolean): uPlot.Range.MinMax | uPlo
   if (isShare) return [0, 1];
   return (_, low, high) => {
     if (low === null || high === null) return [0, 1];
-    const flat = high - low < 1e-9 * Math.max(Math.abs(low), Math.abs(high), 1e-3);
+    const flat = high - low < 1e-5 * Math.max(Math.abs(low), Math.abs(high), 1e-6); // float32 is no finer
     if (flat && low >= 0) return [0, high > 0 ? 2 * high : 1];
     const edge = flat ? Math.max(0.5, 0.1 * Math.abs(high)) : 0.08 * (high - low);
     return [low - edge, high + edge];

@@ -107,7 +107,7 @@ export class Hud {
 /** A value with as many digits as its unit needs. */
 export function textOf(value: number | null, unit: string): string {
   if (value === null) return "–";
-  const digits = { deg: Math.abs(value) < 100 ? 1 : 0, m: 2, "m/s": 2, N: 1, "%": 0 }[unit] ?? 2;
+  const digits = { deg: 1, m: 2, "m/s": 2, N: 1, "%": 0 }[unit] ?? 2;
   const text = value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1");
   const sign = UNITS[unit] ?? ` ${unit}`;
   return `${text.replace("-", "−")}${sign}`;

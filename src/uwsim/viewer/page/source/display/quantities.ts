@@ -95,7 +95,7 @@ export class Quantities {
     const heading = Math.atan2(base[0], base[4]) * DEGREES; // W: x east, y north
     const found: Quantity[] = [
       { name: "depth", unit: "m", value: this.head.water.surface_height - z },
-      { name: "heading", unit: "deg", value: (heading + 360) % 360 },
+      { name: "heading", unit: "deg", value: (Math.round(10 * (heading + 360)) / 10) % 360 },
       { name: "roll", unit: "deg", value: Math.atan2(way * base[9], way * base[10]) * DEGREES },
       { name: "pitch", unit: "deg", value: Math.asin(Math.max(-1, Math.min(1, base[8]))) * DEGREES },
       { name: "speed", unit: "m/s", value: player.speed(vehicle.body, moment.time) },
