@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import dataclasses
 from typing import Any
 
 import numpy as np
@@ -7,7 +8,9 @@ import pytest
 
 import uwsim
 from uwsim.geometry import Pose
+from uwsim.simulation import Simulation
 from uwsim.simulation.tracked_bodies import TrackedBodies
+from uwsim.simulation.views import FIELD, focus_of, orbit_view
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob, numbers
 
@@ -79,12 +82,42 @@ def test_lamps_projectors_and_vehicles_are_described(scene: str, key: str, n: in
     assert len(head[key]) >= n
 
 
-def test_the_first_view_is_that_of_the_camera_of_the_file(described: Any) -> None:
+def test_the_view_of_the_file_is_that_of_its_camera(described: Any) -> None:
     head, _, simulation = described
-    camera = simulation.world.scene.camera
-    first = pose(head["view"]["pose"])
-    assert head["view"]["fovy"] == pytest.approx(np.radians(camera.fov))
+    camera, view = simulation.world.scene.camera, head["file_view"]
+    first = pose(view["pose"])
+    assert view["fovy"] == pytest.approx(np.radians(camera.fov))
     assert first.position == pytest.approx(camera.position)
-    assert head["view"]["at"] == pytest.approx(camera.look_at, abs=1e-6)
+    assert view["at"] == pytest.approx(camera.look_at, abs=1e-6)
     ahead = np.subtract(camera.look_at, camera.position)
     assert -first.rotation[:, 2] == pytest.approx(ahead / np.linalg.norm(ahead), abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        "currents-scene",
+        pytest.param("cirs", marks=pytest.mark.slow),
+        pytest.param("remus-scene", marks=pytest.mark.slow),
+        pytest.param("two-vehicles-scene", marks=pytest.mark.slow),
+    ],
+)
+def test_the_first_view_is_the_orbit_of_a_render_and_has_vehicle_and_task_in_it(scene: str) -> None:
+    with uwsim.load(scene) as simulation:
+        view = scene_head(simulation, scene, Blob())["view"]
+        orbit, corners = orbit_view(simulation, (960, 720)), focus_of(simulation).corners
+    first = pose(view["pose"])
+    assert np.abs(first.matrix - orbit.world_from_camera.matrix).max() < 1e-6
+    assert view["fovy"] == pytest.approx(FIELD)
+    ahead = np.subtract(view["at"], first.position)  # the page looks there from the same place
+    assert -first.rotation[:, 2] == pytest.approx(ahead / np.linalg.norm(ahead), abs=1e-6)
+    pixels = orbit.intrinsics.project(first.inverse().transform(corners))
+    assert (pixels >= 0.0).all()
+    assert (pixels <= (960, 720)).all()
+
+
+def test_a_scene_without_a_camera_has_no_view_of_the_file(described: Any) -> None:
+    _, _, simulation = described
+    scene = dataclasses.replace(simulation.world.scene, camera=None)
+    with Simulation(scene) as plain:
+        assert scene_head(plain, "scene", Blob())["file_view"] is None

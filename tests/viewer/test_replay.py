@@ -5,15 +5,18 @@ from html import unescape
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from tests.short_benchmark import run, write_benchmark
 from tests.short_trial import DATA
 from uwsim.errors import ResultError
 from uwsim.results.log import load_log
+from uwsim.tracks import TrackLevel
 from uwsim.viewer.document import FOLDER, document
-from uwsim.viewer.pack import from_text, numbers, unpacked
-from uwsim.viewer.replay import Replay
+from uwsim.viewer.pack import Blob, from_text, numbers, unpacked
+from uwsim.viewer.recorded import RecordedLevel, _level
+from uwsim.viewer.replay import Replay, _curve, _measures
 
 
 @pytest.fixture(scope="module")
@@ -38,12 +41,47 @@ def test_levels_and_curves_are_those_of_the_result(stored: Path, page: str) -> N
     (trial,) = head["trials"]
     assert [level["values"] for level in trial["levels"]] == [{"fog": f} for f in (0.0, 0.4, 0.8)]
     assert trial["levels"][0]["status"] == "ok"
-    (curve,) = trial["curves"]
+    curve, *further = trial["curves"]
+    corners = ("nw", "ne", "se", "sw")
+    names = [f"corners.{corner}_{axis}" for corner in corners for axis in "xy"]
+    assert [each["name"] for each in further] == names
     assert (curve["name"], curve["unit"]) == ("corners", "px")
     values = numbers(curve["values"], data)
     logged = [sample[2] for sample in load_log(stored / "measure-corners.csv").samples]
     found = values[~(values != values)].tolist()
     assert found == pytest.approx([v for v in logged if v is not None], rel=1e-6)
+
+
+def level(began: float, row: dict[str, Any]) -> RecordedLevel:
+    about = {"status": "ok", "missing": {}, **row}
+    values = {"fog": began}
+    return _level(about, TrackLevel(values=values, began=began, duration=1.0, status="ok"))
+
+
+def test_curves_have_the_further_columns_of_a_log_with_names_of_phases_and_ranges() -> None:
+    header = ["value", "height [m]", "load [1]", "phase [1]", "nothing [N]"]
+    row = {
+        "measures": {"held": (1.0, "1"), "depth": (3.0, "m")},
+        "logs": {
+            "held": [[0.0, 0.0, 0.1, 1.5, 0.0, None], [0.5, 1.0, None, 0.5, 2.0, None]],
+            "depth": [[0.0, 0.2], [0.5, 0.4]],
+        },
+        "log_headers": {"held": header, "depth": ["value"]},
+        "details": {
+            "held.phase": [2.0, "1"],
+            "held.time.look": [0.4, "s"],
+            "held.time.take": [0.1, "s"],
+        },
+    }
+    blob = Blob()
+    levels = [level(0.0, row), level(5.0, row)]
+    curves = {name: _curve(name, levels, blob) for name in _measures(levels)}
+    assert list(curves) == ["held", "held.height", "held.load", "held.phase", "depth"]
+    assert curves["held.phase"]["names"] == ["look", "take"]
+    assert [name for name, each in curves.items() if each["is_share"]] == ["held"]
+    assert [each["names"] for name, each in curves.items() if name != "held.phase"] == [[]] * 4
+    height = numbers(curves["held.height"]["values"], blob.data)
+    assert height.tolist() == pytest.approx([0.1, np.nan, np.nan, 0.1, np.nan], nan_ok=True)
 
 
 def test_the_page_loads_nothing_and_may_not(page: str) -> None:

@@ -40,7 +40,9 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
     sand        [{body, mesh, columns: [along x, along y], corner: 3, cell, reach, bite}]   heaps:
                   vertex i * (along y) + j of the mesh is the top of column i, j; `reach` and `bite`
                   as of a tool (below)
-    view        {pose, fovy, at: 3}   from where one looks at first, and at what
+    view        {pose, fovy, at: 3}   from where one looks at first, and at what: the placement of
+                  ``uwsim render --view orbit``
+    file_view   null or the same: the ``<camera>`` of the scene file
     water       {fog, fog_colour, colour, attenuation, surface_height, clip, light_rate,
                  follows_light, sun, shadows}    clip: the fog of the original, by clip-space z;
                  follows_light: whether water and fog are scaled by the light rate
@@ -51,7 +53,9 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
                   poses: {body: pose} of bodies that this seed puts elsewhere at step 0
 
     levels      [{label, status, why, start, end, values: {fog: ...}}]  [s of simulation time]
-    curves      [{name, unit, times: ref u4 [0.1 ms], values: ref f4}]  NaN: nothing was measured
+    curves      [{name, unit, times: ref u4 [0.1 ms], values: ref f4,
+                  names: [of the values 1, 2, ...; or none], is_share: whether 0..1 is its range}]
+                  NaN: nothing was measured
 
 ``pose`` of a body is where it is at step 0; a body that is not in a track stays there.
 
@@ -102,11 +106,19 @@ uint32 step, float64 time [s]::
 and text messages, JSON::
 
     {"type": "state", "paused": false, "speed": 1.0, "pilot": false, "resets": false,
-     "mapping": {"w": "+surge", ...}, "sticks": [true, true], "vehicle": 0, "why": ""}
-                        the vehicle that is piloted, keys and sticks (left, right) that move
-                        something, and why no vehicle can be steered
+     "mapping": {"w": "+surge", ...}, "reserved": ["w", ...], "sticks": ["yaw", "heave", "", ""],
+     "names": {"joint1": "Slew", ...}, "vehicle": 0, "why": ""}
+                        the vehicle that is piloted, keys and axes of the sticks (left x, y,
+                        right x, y) that move something, names of the joints and thrusters, and
+                        why no vehicle can be steered
     {"type": "levels", "levels": [...]}                        as above, all so far
     {"type": "samples", "samples": [[name, unit, time, value or null], ...]}    for the curves
+    {"type": "readings", "time": 1.2, "readings": [[name, unit, value or null], ...]}
+                        of the piloted vehicle: joint/NAME, contact force, force/NAME,
+                        battery/NAME, real-time factor
+    {"type": "topics", "topics": [[name, type], ...]}          all that there are
+    {"type": "topic", "name": "imu", "time": 1.2, "fields": [[path, number, text or null], ...],
+     "is_cut": false}   numbers and texts of the newest message of a topic
     {"type": "markers", "markers": [{"name", "at": 3, "colour": "#rrggbb", "lines": [[3, ...]]}]}
                                        all that programs have spawned, as lines in W
     {"type": "end", "why": "..."}
@@ -116,6 +128,7 @@ Page to server, JSON text of at most 4 kB::
     {"type": "control", "action": "pause" | "play" | "step" | "speed" | "reset", "speed": 2.0}
     {"type": "images", "cameras": ["bowtech1"], "rate": 10, "width": 200}
                                  which JPEGs it wants, and how wide it shows them (without: whole)
+    {"type": "topics", "names": ["imu"]}                     of which it wants messages, 16 at most
     {"type": "view", "camera": "bowtech1" or null, "pose": [7], "width": 640, "height": 480,
      "fovy": 0.87}                                             without WebGL: draw kind 3 so
     {"type": "input", "keys": ["w"], "axes": [0.0, ...], "buttons": [0.0, ...],
@@ -188,7 +201,8 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
         "frames": list(_frames(world, bodies)),
         "vehicles": list(_vehicles(world, bodies)),
         "sand": sand,
-        "view": _first_view(simulation),
+        "view": _orbit(simulation),
+        "file_view": _file_view(simulation),
         "water": {
             "fog": water.fog,
             "fog_colour": list(water.fog_colour),
@@ -394,16 +408,26 @@ def _vehicles(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
         }
 
 
-def _first_view(simulation: Simulation) -> Json:
-    """The viewer's camera of the file, or else a view around the vehicles."""
+def _orbit(simulation: Simulation) -> Json:
+    """The view around vehicles and what is near them, which `uwsim render` has, too."""
+    eye, middle = orbit_view(simulation, SIZE).world_from_camera, focus_of(simulation).middle
+    return _view(eye, FIELD, float(np.dot(eye.position - middle, eye.rotation[:, 2])))
+
+
+def _file_view(simulation: Simulation) -> Json | None:
+    """The viewer's camera of the file; None where it has none."""
     camera = simulation.world.scene.camera
-    view, fovy, at = orbit_view(simulation, SIZE), FIELD, focus_of(simulation).middle
-    if camera is not None and camera.position != camera.look_at:
-        view, fovy = viewer_view(simulation, camera, SIZE), math.radians(camera.fov)
-        eye = view.world_from_camera
-        away = length(np.subtract(camera.position, camera.look_at))
-        at = eye.position - away * eye.rotation[:, 2]
-    return {"pose": _row(view.world_from_camera), "fovy": fovy, "at": at.tolist()}
+    if camera is None or camera.position == camera.look_at:
+        return None
+    eye = viewer_view(simulation, camera, SIZE).world_from_camera
+    away = length(np.subtract(camera.position, camera.look_at))
+    return _view(eye, math.radians(camera.fov), away)
+
+
+def _view(world_from_camera: Pose, fovy: float, away: float) -> Json:
+    """A view whose centre is ``away`` [m] ahead of the eye."""
+    at = world_from_camera.position - away * world_from_camera.rotation[:, 2]
+    return {"pose": _row(world_from_camera), "fovy": fovy, "at": at.tolist()}
 
 
 def _mounted(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:

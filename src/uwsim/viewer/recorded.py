@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -28,6 +28,9 @@ from ..verify.recorded_plan import (
 )
 from ..world import TIMESTEP
 
+PHASE, TIME_IN = "phase", "time."
+"""Column of a log with the number of a phase, and how the details with the time in each begin."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Curve:
@@ -41,6 +44,15 @@ class Curve:
     """Since the simulation began, (n,) [s]."""
     values: Array
     """(n,); NaN: there was nothing to measure."""
+    names: tuple[str, ...] = ()
+    """Of the values 1, 2, ..., where they number something, as phases; else empty."""
+
+    @property
+    def is_share(self) -> bool:
+        """Whether its values have the unit 1 and lie between 0 and 1, as those of a share."""
+        seen = self.values[np.isfinite(self.values)]
+        has_unit = self.unit == "1" and not self.names
+        return has_unit and bool(((seen >= 0.0) & (seen <= 1.0)).all())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -226,7 +238,7 @@ def _level(row: journal.Record, began: TrackLevel) -> RecordedLevel:
             if samples
         ),
         details=tuple(
-            _detail(name, column, place, row["logs"][name], began.began)
+            _detail(row, name, (column, place), began.began)
             for name, columns in row["log_headers"].items()
             for place, column in enumerate(columns[1:], start=2)
             if row["logs"].get(name)
@@ -234,12 +246,19 @@ def _level(row: journal.Record, began: TrackLevel) -> RecordedLevel:
     )
 
 
-def _detail(
-    measure: str, column: str, place: int, samples: list[list[float | None]], began: float
-) -> Curve:
-    """The curve of a further column of a log, named as ``height [m]``."""
-    name, _, unit = column.partition(" [")
-    return _curve(f"{measure}.{name}", unit.rstrip("]"), samples, began, place)
+def _detail(row: journal.Record, measure: str, column: tuple[str, int], began: float) -> Curve:
+    """The curve of a further column of a log: its heading, as ``height [m]``, and its place."""
+    name, _, unit = column[0].partition(" [")
+    curve = _curve(f"{measure}.{name}", unit.rstrip("]"), row["logs"][measure], began, column[1])
+    return replace(curve, names=_phases(row, measure)) if name == PHASE else curve
+
+
+def _phases(row: journal.Record, measure: str) -> tuple[str, ...]:
+    """Names of the phases of a measure, in order: it has the time in each of them."""
+    start = f"{measure}.{TIME_IN}"
+    return tuple(
+        name.removeprefix(start) for name in row.get("details", {}) if name.startswith(start)
+    )
 
 
 def _curve(

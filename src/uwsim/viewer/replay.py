@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +18,7 @@ from ..verify.recorded_plan import FileOverrides
 from .document import document
 from .head import body_poses, scene_head
 from .pack import Blob, packed
-from .recorded import RecordedLevel, RecordedTrial, levels_without_motion
+from .recorded import Curve, RecordedLevel, RecordedTrial, levels_without_motion
 
 Json = dict[str, Any]
 SUFFIXES = (".html", ".htm")
@@ -181,13 +181,26 @@ def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
 
 
 def _measures(levels: Sequence[RecordedLevel]) -> list[str]:
-    """Names of the measures with a log, in their order."""
-    return list(dict.fromkeys(c.measure for level in levels for c in level.curves))
+    """Names of the curves: of measures with a log, then of the further columns of each log.
+
+    Those that have no value in any level are left out.
+    """
+    return list(dict.fromkeys(curve.measure for curve in _seen(levels)))
+
+
+def _seen(levels: Sequence[RecordedLevel]) -> Iterator[Curve]:
+    """The curves with a value, those of a measure before the columns of its log."""
+    for measure in dict.fromkeys(c.measure for level in levels for c in level.curves):
+        for level in levels:
+            for curve in (*level.curves, *level.details):
+                is_of_measure = curve.measure == measure or curve.measure.startswith(f"{measure}.")
+                if is_of_measure and np.isfinite(curve.values).any():
+                    yield curve
 
 
 def _curve(name: str, levels: Sequence[RecordedLevel], blob: Blob) -> Json:
     """The samples of a measure through all levels, with a gap where time passes between two."""
-    found = [c for level in levels for c in level.curves if c.measure == name]
+    found = [c for level in levels for c in (*level.curves, *level.details) if c.measure == name]
     times, values = [found[0].times], [found[0].values]
     for curve in found[1:]:
         gap = times[-1][-1] + GAP
@@ -199,6 +212,8 @@ def _curve(name: str, levels: Sequence[RecordedLevel], blob: Blob) -> Json:
     return {
         "name": name,
         "unit": found[0].unit,
+        "names": list(next((c.names for c in found if c.names), ())),
+        "is_share": all(c.is_share for c in found),
         "times": blob.add(np.rint(np.concatenate(times) * TICKS).astype("<u4")),
         "values": blob.add(np.concatenate(values).astype("<f4")),
     }

@@ -23,6 +23,7 @@ from tests.synthetic_results import (
     visibility,
 )
 from uwsim.analysis.report import render, write_report
+from uwsim.analysis.report.page import rounded
 from uwsim.cli import main
 from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
@@ -439,7 +440,39 @@ def test_cards_have_three_digits_and_nothing_is_zero(tmp_path: Path) -> None:
     rows[23] = (rows[23][0], 1.7, *rows[23][2:5], -2083.2, *rows[23][6:])
     text = page_of(replace(base, rows=tuple(rows)), tmp_path).text
     assert "0.00 to 1.70 px" in text
-    assert "36.4 to −2083 px" in text
+    assert "36.4 to −2080 px" in text
+
+
+@pytest.mark.parametrize(
+    ("value", "against", "text"),
+    [
+        (1.0, 1.0, "1"),
+        (3.0, 0.0, "3"),
+        (0.0, 3.0, "0"),
+        (3.0, 0.5, "3.00"),
+        (5538.48, 9831.2, "5540"),
+        (-2083.2, 36.4, "−2080"),
+        (12345.0, 7.0, "12345"),
+        (0.13827, 2.16, "0.138"),
+        (2.06e-05, 1.7, "0.00"),
+        (1.1583, 1.1583, "1.16"),
+        (2.5e9, 1.0, "2.5e+09"),
+    ],
+)
+def test_a_number_on_a_card_has_three_digits_and_a_count_no_decimals(
+    value: float, against: float, text: str
+) -> None:
+    assert rounded(value, against) == text
+
+
+def test_a_measure_that_is_the_same_at_both_ends_is_one_number(tmp_path: Path) -> None:
+    base = visibility()
+    kinds = [column.name for column in base.columns]
+    at = kinds.index("centroid")
+    rows = tuple((*row[:at], None if row[at] is None else 1.0, *row[at + 1 :]) for row in base.rows)
+    source = page_of(replace(base, rows=rows), tmp_path).source
+    card = source.split('<div class="label">centroid</div>')[1]
+    assert card.split('<div class="value">')[1].startswith("1 px<")
 
 
 def test_the_prediction_is_given_only_where_fog_is_swept(tmp_path: Path) -> None:

@@ -242,6 +242,8 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
     view = LiveView(server, speed=0.0)
     with socket_of(server) as socket:
         socket.send(json.dumps({"type": "images", "cameras": ["bowtech1"]}))
+        topics = ["cornersTopic", "autoInit", "uwsim/camera1", "no such topic"]
+        socket.send(json.dumps({"type": "topics", "names": topics}))
         run_all([bench_of(benchmark, tmp_path / "with")], SerialExecutor(view))
         view.end("over")
         heard: list[Any] = []
@@ -259,6 +261,7 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
         motion["signals"]
     )
     texts = [json.loads(data) for data in heard if isinstance(data, str)]
+    assert {"readings", "topics"} <= {text["type"] for text in texts}
     levels = [text["levels"] for text in texts if text["type"] == "levels"][-1]
     assert [level["label"] for level in levels] == ["fog 0", "fog 0.4", "fog 0.8"]
 

@@ -52,6 +52,8 @@ def page_of(browser: Any, server: LiveServer, height: int = 768) -> Any:
     page.set_default_timeout(LIMIT)
     page.goto(server.url)
     page.wait_for_function("window.uwsim !== undefined && uwsim.page.link.pilot.isOn")
+    page.wait_for_function("uwsim.page.player.trails.length > 0 && uwsim.page.drawn !== ''")
+    page.evaluate("uwsim.page.draw()")
     return page
 
 

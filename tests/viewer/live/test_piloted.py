@@ -64,7 +64,7 @@ def test_a_scene_without_interfaces_says_what_it_lacks_once(
         piloted = piloted_of(simulation.world, parameters)
         assert piloted.axes == frozenset()
         assert piloted.keys(PilotMapping()) == {}
-        assert piloted.sticks(PilotMapping()) == [False, False]
+        assert piloted.sticks(PilotMapping()) == ["", "", "", ""]
         view = LiveView(Desk(), mapping=PilotMapping())  # type: ignore[arg-type]
         for _ in range(2):  # trials
             view.open(simulation, "scene", parameters)
@@ -86,6 +86,17 @@ def test_a_scene_without_interfaces_says_what_it_lacks_once(
 def test_axes_are_those_that_the_vehicle_has(scene: str, axes: set[str]) -> None:
     with uwsim.load(scene) as simulation:
         piloted = piloted_of(simulation.world, pilot_topics(simulation))
+        joints = [
+            name
+            for vehicle in simulation.world.vehicles[:1]
+            for name in simulation.world.vehicle(vehicle).joint_names
+        ]
+        thrusters = list(simulation.world.vehicle(simulation.world.vehicles[0]).thrusters)
+    named = {axis: name for axis, name in piloted.names.items() if axis[:5] != "thrus"}
+    wanted = dict(zip(("joint1", "joint2", "joint3", "joint4", "jaw"), joints, strict=False))
+    assert named == (wanted if "joint1" in axes else {})
+    assert all(name in thrusters for axis, name in piloted.names.items() if axis[:5] == "thrus")
+    assert ("thruster1" in piloted.names) is ("thruster1" in piloted.axes)
     assert {axis for axis in piloted.axes if scene != "grasp-scene" or axis[:5] != "thrus"} == axes
 
 

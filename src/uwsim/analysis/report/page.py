@@ -25,7 +25,7 @@ from ...results.per_level import LevelInterval, per_level, rows_by_level
 from ...results.provenance import load_provenance
 from ...results.result import Result
 from ...results.result_file import file_of, load
-from ...results.table import number_text, sensible_decimals, unit_of
+from ...results.table import BIG, number_text, sensible_decimals, unit_of
 from ..plots import (
     LEVEL_WORDS,
     MAX_INSIDE,
@@ -211,16 +211,16 @@ def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
     star = result.fact("f_star")
     if star is not None and is_fog_swept(result):
         note = "fog at which the patch's ZNCC should fall to its threshold"
-        value = f"{star[0]:.3f}{_space(star[1])}"
+        value = f"{rounded(star[0], star[0])}{_space(star[1])}"
         cards.append(Card(label="loss predicted at f*", value=value, note=note))
     for column in result.of_kind("score") + result.of_kind("measure"):
         known = [e for e in per_level(result, column.name) if e.interval.mean is not None]
         if not known:
             continue
         first, last = known[0], known[-1]
-        value, at = _mean_text(first, last), ""
+        value, other, at = _mean_text(first, last), _mean_text(last, first), ""
         if len(known) > 1:
-            value += f" to {_mean_text(last, first)}"
+            value += f" to {other}" if value != other else ""
             at = f"at {named_level(result, first.level)} and {named_level(result, last.level)}"
         unit = _space(unit_of(result, column))
         cards.append(Card(label=column.name, value=value + unit, note=at))
@@ -228,11 +228,22 @@ def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
 
 
 def _mean_text(entry: LevelInterval, other: LevelInterval) -> str:
-    """A mean in three digits; in those of the other one where it is nothing against that."""
-    value, against = entry.interval.mean or 0.0, other.interval.mean or 0.0
+    """The mean of a level, beside that of another one."""
+    return rounded(entry.interval.mean or 0.0, other.interval.mean or 0.0)
+
+
+def rounded(value: float, against: float) -> str:
+    """Return a number in three digits; in those of another one where it is nothing against that.
+
+    Whole numbers beside whole numbers, as counts, have no decimals.
+    """
+    if value == round(value) and against == round(against) and max(abs(value), abs(against)) < BIG:
+        return f"{value:.0f}".replace("-", "−")
     measure = against if abs(value) < 1e-3 * abs(against) else value
     decimals = sensible_decimals([measure])
     shown = 0.0 if abs(value) < 0.5 * 10**-decimals and measure is not value else value
+    if 1e3 <= abs(shown) < BIG:
+        shown = float(f"{shown:.3g}")
     return number_text(shown, decimals).replace("-", "−")
 
 

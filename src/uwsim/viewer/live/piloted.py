@@ -23,15 +23,16 @@ class Piloted:
     """Those that do something, of `uwsim.algorithms.pilot.AXES`."""
     why: str
     """Why no vehicle can be steered; empty where one can be."""
+    names: Mapping[str, str]
+    """Axis -> name of what it moves in the files of the vehicle: of joints and thrusters."""
 
     def keys(self, mapping: PilotMapping) -> dict[str, str]:
         """Return the keys that do something, with their axes."""
         return {key: does for key, does in mapping.keys.items() if self._moves(does)}
 
-    def sticks(self, mapping: PilotMapping) -> list[bool]:
-        """Return whether the left and the right stick on the screen do something."""
-        each = [self._moves(does) for does in mapping.sticks]
-        return [any(each[:2]), any(each[2:])]
+    def sticks(self, mapping: PilotMapping) -> list[str]:
+        """Return what the sticks on the screen move: left x, left y, right x, right y; or empty."""
+        return [does if self._moves(does) else "" for does in mapping.sticks]
 
     def _moves(self, does: str) -> bool:
         return any(target.lstrip("+-") in self.axes for target in does.split())
@@ -42,14 +43,16 @@ def piloted_of(world: SceneStage, parameters: Mapping[str, float | str]) -> Pilo
     given = {name: str(value) for name, value in parameters.items()}
     topics = {given[name] for name in STEERING if given.get(name)}
     axes: set[str] = set()
+    names: dict[str, str] = {}
     if given.get("twist_topic") or given.get("odom_topic"):
         axes.update(TWIST_AXES)
     if given.get("thrusters_topic"):
         axes.update(THRUSTER_AXES[: int(float(given.get("n_thrusters", 0)))])
     if given.get("joints_topic"):
-        n_joints = len(given.get("joints", "").split()[:N_JOINTS])
-        axes.update(f"joint{k}" for k in range(1, n_joints + 1))
-        axes.update(["jaw"] if given.get("jaw", "").strip() else [])
+        joints = enumerate(given.get("joints", "").split()[:N_JOINTS], start=1)
+        names.update({f"joint{number}": name for number, name in joints})
+        names.update({"jaw": jaw} if (jaw := given.get("jaw", "").strip()) else {})
+        axes.update(names)
     if given.get("lamp_topics", "").strip():
         axes.add("lamps")
     why = ""
@@ -66,4 +69,9 @@ def piloted_of(world: SceneStage, parameters: Mapping[str, float | str]) -> Pilo
         if getattr(spec, "topic", None) in topics
         and (name := getattr(spec, "vehicle_name", None)) in world.vehicles
     ]
-    return Piloted(vehicle=next(iter(steered), 0), axes=frozenset(axes), why=why)
+    vehicle = next(iter(steered), 0)
+    if world.vehicles:
+        thrusters = world.vehicle(world.vehicles[vehicle]).thrusters
+        named = zip(THRUSTER_AXES, thrusters, strict=False)
+        names.update({axis: name for axis, name in named if axis in axes})
+    return Piloted(vehicle=vehicle, axes=frozenset(axes), why=why, names=names)

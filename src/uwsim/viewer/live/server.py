@@ -33,6 +33,8 @@ MAX_MESSAGE = 4096
 MAX_MESSAGES = 120
 """Of a viewer in a second."""
 MAX_VIEWERS = 16
+MAX_WANTED = 16
+"""Of cameras, and of topics, that a viewer gets."""
 KEPT = 256
 """Messages of viewers that wait for the simulation."""
 BUFFER = 64 * 1024
@@ -260,8 +262,7 @@ class LiveServer:
                 why = "too many messages" if message is not None else "no such message"
                 await viewer.socket.close(1008, why)
                 return
-            if message["type"] == "images":
-                viewer.wanted = _wanted(message, viewer.wanted)
+            viewer.wanted = _wanted(message, viewer.wanted)
             with self._lock:
                 self._messages.append((viewer.number, message))
 
@@ -276,11 +277,14 @@ def _port_of(server: Server) -> int:
 
 
 def _wanted(message: Message, before: frozenset[str]) -> frozenset[str]:
-    cameras = message.get("cameras")
-    if not isinstance(cameras, list):
-        return before
-    views = {channel for channel in before if channel == "?view"}
-    return frozenset({f"?image/{name}" for name in cameras[:16] if isinstance(name, str)} | views)
+    """Return the optional channels that a viewer wants after a message."""
+    for kind, key, prefix in (("images", "cameras", "?image/"), ("topics", "names", "?topic/")):
+        names = message.get(key)
+        if message["type"] == kind and isinstance(names, list):
+            kept = {channel for channel in before if not channel.startswith(prefix)}
+            chosen = {f"{prefix}{name}" for name in names[:MAX_WANTED] if isinstance(name, str)}
+            return frozenset(kept | chosen)
+    return before
 
 
 def _message(text: str | bytes) -> Message | None:

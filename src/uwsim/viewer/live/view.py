@@ -34,8 +34,10 @@ from ...simulation.views import FIELD, view_from_pose
 from ...terminal import warn
 from .clock import NAP, Clock
 from .head import head_of
+from .heard_topics import HeardTopics
 from .mapping import PilotMapping, merged
 from .piloted import piloted_of
+from .readings import Readings
 from .server import LiveServer, Message
 
 RATE = 30.0
@@ -46,6 +48,8 @@ MOVED = ("state", "scenery", "devices", "_vehicles")
 """What of a world goes back to its beginning at a reset."""
 IMAGE_RATE = 10.0
 """Images a second of the wall clock [Hz]."""
+READING_RATE = 5.0
+"""Sets of readings, and messages of each topic, a second of the wall clock [Hz]."""
 SAMPLE_RATE = 2.0
 """Batches of samples a second of the wall clock [Hz]."""
 PATIENCE = 1.0
@@ -96,13 +100,17 @@ class LiveView:
         self._markers: dict[str, Marker] = {}  # those sent last
         self._sand: list[int] = []  # versions of the heaps sent last
         self._n_batches = 0
-        self._due = {"row": 0.0, "images": 0.0, "samples": 0.0}
+        self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
+        self._readings: Readings | None = None
+        self._topics: HeardTopics | None = None
         self._views: dict[int, Message] = {}
         self._widths: dict[int, int] = {}  # of images, of viewers who have said one [px]
         self._mapping, self._waits = mapping, waits
         self._piloted: dict[str, Any] = {  # what pilots move, as pages are told
-            **{"vehicle": 0, "why": "", "sticks": [mapping is not None] * 2},
+            **{"vehicle": 0, "why": "", "names": {}},
+            "sticks": ["", "", "", ""] if mapping is None else list(mapping.sticks),
             "mapping": {} if mapping is None else dict(mapping.keys),
+            "reserved": [] if mapping is None else sorted(mapping.keys),
         }
         self._resets, self._first = resets, b""
         self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
@@ -127,6 +135,8 @@ class LiveView:
         self._sand = [heap.version for heap in simulation.world.scenery.heaps]
         self._first = packed(state_of(simulation.world, MOVED)) if self._resets else b""
         self._due = dict.fromkeys(self._due, 0.0)
+        self._readings = Readings(simulation, self._piloted["vehicle"])
+        self._topics = HeardTopics(simulation.bus, lambda: simulation.time, self._wall)
         self._server.forget(lambda channel: channel != "state")
         head = head_of(simulation, title, self._state)
         self._server.publish("head", HEADER.pack(0, 0, 0, 0, 0.0) + head)
@@ -147,10 +157,11 @@ class LiveView:
         piloted = piloted_of(simulation.world, parameters)
         if piloted.why and piloted.why != self._piloted["why"]:
             warn(piloted.why)
-        self._piloted = {
+        self._piloted |= {
             "vehicle": piloted.vehicle,
             "sticks": piloted.sticks(mapping),
             "why": piloted.why,
+            "names": piloted.names,
             "mapping": piloted.keys(mapping),
         }
 
@@ -190,6 +201,9 @@ class LiveView:
 
     def close(self) -> None:
         """The simulation is about to be closed."""
+        if self._topics is not None:
+            self._topics.close()
+        self._readings, self._topics = None, None
         self._simulation, self._state, self._measures = None, None, ()
 
     def end(self, why: str) -> None:
@@ -222,6 +236,8 @@ class LiveView:
             self._send_samples()
             self._send_markers()
             self._send_sand()
+        if self._is_due("readings", now, READING_RATE):
+            self._send_readings(now)
         if self._is_due("images", now, IMAGE_RATE):
             self._send_images()
             self._send_views()
@@ -260,6 +276,19 @@ class LiveView:
             gone = f"samples/{self._n_batches - N_BATCHES}"
             self._server.forget(lambda channel: channel == gone)
             self._n_batches += 1
+
+    def _send_readings(self, now: float) -> None:
+        """Send the state of the piloted vehicle, and news of topics that pages ask for."""
+        assert self._simulation is not None
+        assert self._readings is not None
+        assert self._topics is not None
+        found = self._readings.take(now, is_paused=self._clock.is_paused)
+        message = {"type": "readings", "time": self._simulation.time, "readings": found}
+        self._server.publish("readings", json.dumps(message))
+        if (topics := self._topics.list_changed()) is not None:
+            self._server.publish("topics", topics)
+        for channel, news in self._topics.news(self._server.wanted()).items():
+            self._server.publish(channel, news)
 
     def _send_markers(self) -> None:
         """Send the markers that programs have spawned, when they have changed."""

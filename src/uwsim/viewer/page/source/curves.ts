@@ -3,7 +3,10 @@ import uPlot from "uplot";
 import type { Samples } from "./player";
 
 const HEIGHT = 96;
-const COLOURS = ["#3b9eff", "#ff9f43", "#2fc47f", "#c678ff", "#ff6b81", "#22c3cf"];
+const UNFOLDED = 8; // charts that are open from the beginning
+const COLOURS = [ // readable on light and dark, and of different lightness to those who see few hues
+  "#2f8fef", "#e8820c", "#1fa367", "#a45ee5", "#e5484d", "#12a5b8", "#b58900", "#d6409f", "#6e7fd9", "#7a8b3a",
+];
 
 /** The value of the last sample at or before a time; null: nothing was measured. */
 export function valueAt(curve: Samples, time: number): number | null {
@@ -21,7 +24,7 @@ interface Chart {
   plot: uPlot;
   cursor: HTMLElement;
   value: HTMLElement;
-  drawn: number;
+  drawn: number | undefined; // time of the last sample
 }
 
 export class Curves {
@@ -40,11 +43,6 @@ export class Curves {
     for (const { plot } of this.charts) plot.destroy();
     this.place.replaceChildren();
     this.charts = curves.map((curve, i) => this.chart(curve, i));
-    if (curves.length) return;
-    const none = document.createElement("p");
-    none.className = "none";
-    none.textContent = "No measure has a log.";
-    this.place.append(none);
   }
 
   /** Draw all charts again, in the colours of now. */
@@ -55,12 +53,14 @@ export class Curves {
   /** Move the cursor; new samples of a live run are drawn, too. */
   show(time: number, curves: Samples[]): void {
     this.time = time;
-    if (curves.length !== this.charts.length) this.set(curves);
+    const isSame = curves.length === this.charts.length && curves.every((each, i) => each === this.charts[i].curve);
+    if (!isSame) this.set(curves);
     for (const chart of this.charts) {
       const value = valueAt(chart.curve, time);
-      chart.value.textContent = value === null ? "–" : `${number(value)} ${chart.curve.unit}`;
-      if (chart.drawn !== chart.curve.times.length) {
-        chart.drawn = chart.curve.times.length;
+      chart.value.textContent = valueText(chart.curve, value);
+      const newest = chart.curve.times.at(-1);
+      if (chart.drawn !== newest) {
+        chart.drawn = newest;
         chart.plot.setData([chart.curve.times, chart.curve.values]);
       }
       this.point(chart);
@@ -77,24 +77,31 @@ export class Curves {
   private chart(curve: Samples, number: number): Chart {
     const figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
-    const name = document.createElement("span");
+    const name = document.createElement("button");
     const value = document.createElement("output");
-    name.textContent = curve.name;
+    name.textContent = curve.name.replaceAll("_", " ");
+    name.title = `${curve.name}: fold or unfold`;
+    const fold = (isFolded: boolean): void => {
+      figure.classList.toggle("folded", isFolded);
+      name.setAttribute("aria-expanded", String(!isFolded));
+    };
+    name.addEventListener("click", () => fold(!figure.classList.contains("folded")));
+    fold(number >= UNFOLDED);
     name.style.setProperty("--mark", COLOURS[number % COLOURS.length]);
     caption.append(name, value);
     figure.append(caption);
     this.place.append(figure);
     const plot = new uPlot(
-      this.options(COLOURS[number % COLOURS.length]), [curve.times, curve.values], figure,
+      this.options(curve, COLOURS[number % COLOURS.length]), [curve.times, curve.values], figure,
     );
     plot.over.addEventListener("click", (event) => this.seek(plot.posToVal(event.offsetX, "x")));
     const cursor = document.createElement("i");
     cursor.className = "cursor";
     plot.over.append(cursor);
-    return { curve, plot, cursor, value, drawn: curve.times.length };
+    return { curve, plot, cursor, value, drawn: curve.times.at(-1) };
   }
 
-  private options(colour: string): uPlot.Options {
+  private options({ names, isShare }: Samples, colour: string): uPlot.Options {
     const style = (name: string) => getComputedStyle(this.place).getPropertyValue(name).trim();
     const axis = (): uPlot.Axis => ({
       stroke: () => style("--soft"),
@@ -107,9 +114,21 @@ export class Curves {
       height: HEIGHT,
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
-      scales: { x: { time: false } },
-      axes: [{ ...axis(), size: 20, gap: 2 }, { ...axis(), size: 44, gap: 2, space: 12 }],
-      series: [{}, { stroke: colour, width: 1.5, points: { show: false }, spanGaps: false }],
+      scales: { x: { time: false }, y: { range: rangeOf(names, isShare) } },
+      axes: [
+        { ...axis(), size: 20, gap: 2 },
+        { ...axis(), size: 44, gap: 2, space: 12, values: (_, all, __, ___, step) => all.map((each) => tick(each, step)), ...(names?.length ? { incrs: [1, 2, 5, 10] } : {}) },
+      ],
+      series: [
+        {},
+        {
+          stroke: colour,
+          width: 1.5,
+          spanGaps: false,
+          paths: names?.length ? uPlot.paths.stepped!({ align: 1 }) : undefined,
+          points: { show: true, size: 4, fill: colour, filter: alone },
+        },
+      ],
     };
   }
 
@@ -120,6 +139,39 @@ export class Curves {
       this.point(chart);
     }
   }
+}
+
+/** The ends of the axis: 0 and 1 of a share, all numbers of what has names; else those of the values. */
+function rangeOf(names?: string[], isShare?: boolean): uPlot.Range.MinMax | uPlot.Scale.Range {
+  if (names?.length) return [0, names.length];
+  if (isShare) return [0, 1];
+  return (_, low, high) => {
+    if (low === null || high === null) return [0, 1];
+    const flat = high - low < 1e-5 * Math.max(Math.abs(low), Math.abs(high), 1e-6); // float32 is no finer
+    if (flat && low >= 0) return [0, high > 0 ? 2 * high : 1];
+    const edge = flat ? Math.max(0.5, 0.1 * Math.abs(high)) : 0.08 * (high - low);
+    return [low - edge, high + edge];
+  };
+}
+
+/** A number at an axis. */
+function tick(value: number, step: number): string {
+  const digits = [0, 1, 2, 3, 4, 5].find((n) => Math.abs(step * 10 ** n - Math.round(step * 10 ** n)) < 1e-6) ?? 9;
+  if (Math.abs(value) >= 1e5 || digits > 5) return value === 0 ? "0" : value.toExponential(1);
+  return String(Number(value.toFixed(digits)));
+}
+
+/** Samples between two gaps, which no line leads to: they are drawn as dots. */
+function alone(plot: uPlot, series: number): number[] {
+  const values = plot.data[series] as (number | null)[];
+  const isGap = (i: number): boolean => values[i] === null || values[i] === undefined;
+  return [...values.keys()].filter((i) => !isGap(i) && isGap(i - 1) && isGap(i + 1));
+}
+
+function valueText({ unit, names }: Samples, value: number | null): string {
+  if (value === null) return "–";
+  if (names?.length) return names[value - 1] ?? "none yet";
+  return `${number(value)} ${unit === "1" ? "" : unit}`.trim();
 }
 
 function number(value: number): string {

@@ -71,6 +71,13 @@ export interface Heap {
   bite: number;
 }
 
+/** From where one looks, and at what. */
+export interface Place {
+  pose: number[];
+  fovy: number;
+  at: number[];
+}
+
 export interface Water {
   fog: number;
   fog_colour: number[];
@@ -98,6 +105,8 @@ export interface Curve {
   unit: string;
   times: Ref;
   values: Ref;
+  names: string[];
+  is_share: boolean;
 }
 
 export interface Trial {
@@ -138,7 +147,8 @@ export interface Head {
   frames: { name: string; body: string | null; pose: number[] }[];
   vehicles: { name: string; body: string; thrusters: string[]; joints: string[] }[];
   sand: Heap[];
-  view: { pose: number[]; fovy: number; at: number[] };
+  view: Place;
+  file_view: Place | null;
   water: Water;
   suns: Record<string, { direction: number[]; colour: number[] }>;
   ambient: number;

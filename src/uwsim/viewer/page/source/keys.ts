@@ -13,7 +13,7 @@ export class Keyboard {
     document.addEventListener("keydown", (event) => this.press(event));
     view.addEventListener("keydown", (event) => this.turn(event));
     view.addEventListener("pointerdown", (event) => {
-      if ((event.target as Element).closest("#pilot")) return;
+      if ((event.target as Element).closest("button, .stick")) return;
       view.setPointerCapture(event.pointerId);
       const shifts = event.button !== 0 || event.shiftKey;
       this.dragged = { x: event.clientX, y: event.clientY, shifts };
@@ -67,8 +67,8 @@ export class Keyboard {
     if (event.key === " " && target instanceof HTMLButtonElement) return;
     if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // they scroll it
     if (page.link?.takes(event)) return;
-    // while somebody pilots, the page's own letters are typed with Shift
-    const key = page.link?.pilot.isOn && event.shiftKey ? event.key.toLowerCase() : event.key;
+    // with Shift, too: where somebody pilots, a letter alone may be the pilot's
+    const key = event.shiftKey ? event.key.toLowerCase() : event.key;
     const act = this.actions()[key];
     if (!act) return;
     event.preventDefault();
@@ -103,6 +103,8 @@ export class Keyboard {
       b: () => page.show("chase"),
       v: () => page.show("camera"),
       m: () => page.show("map"),
+      p: () => page.show("file"),
+      z: () => page.toggle("state"),
       h: () => page.views.home(),
       k: () => page.views.hold(),
       r: () => page.reset(),
@@ -111,10 +113,7 @@ export class Keyboard {
       "-": () => page.views.zoom(1.1),
       x: () => page.toggle("clear"),
       c: () => page.toggle("pictures"),
-      f: () => {
-        page.switches.labels = !page.switches.frames;
-        page.toggle("frames");
-      },
+      f: () => page.toggle("frames"),
       l: () => page.toggle("labels"),
       t: () => page.toggle("trails"),
       y: () => page.clearTrails(),
@@ -145,6 +144,7 @@ export class Keyboard {
       ],
       View: [
         { keys: "o b v m", does: "orbit, behind the vehicle, next camera, map from above" },
+        ...(page.pack.head.file_view ? [{ keys: "p", does: "the camera of the scene file" }] : []),
         { keys: "k", does: "orbit goes along with the vehicle, or stays" },
         { keys: "arrows, drag", does: "turn; with Shift or the right button: move" },
         { keys: "+ -, wheel", does: "nearer, farther" },
@@ -154,6 +154,7 @@ export class Keyboard {
       ],
       Shown: [
         { keys: "c", does: "images of the cameras" },
+        { keys: "z", does: "state of the vehicle; a click on a number draws its curve" },
         { keys: "f l", does: "frames, names" },
         { keys: "t y", does: "trails; begin them anew" },
         { keys: "s", does: "beams and fans of sonars" },

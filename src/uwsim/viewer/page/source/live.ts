@@ -6,7 +6,9 @@ import type { Page } from "./main";
 import { unpack, type Pack } from "./pack";
 import type { Stream } from "./player";
 import { element } from "./panels";
-import { Pilot } from "./pilot";
+import { Pilot, type PilotState } from "./pilot";
+import type { Reading } from "./display/quantities";
+import { Topics, type TopicMessage } from "./display/topics";
 import type { Sight } from "./views";
 
 const HEADER = 16;
@@ -15,11 +17,13 @@ const MAX_WIDTH = 640; // of an image that the server draws
 
 type Message =
   | {
-      type: "state"; paused: boolean; speed: number; resets: boolean; pilot: boolean;
-      vehicle: number; why: string; sticks: boolean[]; mapping: Record<string, string>;
-    }
+      type: "state"; paused: boolean; speed: number; resets: boolean; vehicle: number;
+    } & PilotState
   | { type: "levels"; levels: Level[] }
   | { type: "samples"; samples: [string, string, number, number | null][] }
+  | { type: "readings"; time: number; readings: Reading[] }
+  | { type: "topics"; topics: [string, string][] }
+  | TopicMessage
   | { type: "markers"; markers: Marker[] }
   | { type: "end"; why: string };
 
@@ -28,6 +32,7 @@ export class Link {
     this.send(message);
     if (isNews) this.page?.picture.hurry();
   });
+  readonly topics = new Topics((names) => this.send({ type: "topics", names }));
   private page: Page | null = null;
   private stream: Stream | null = null;
   private asked = "";
@@ -106,11 +111,14 @@ export class Link {
     if (message.type === "state") {
       page.isTold(message.paused, message.speed);
       this.resets = message.resets;
-      this.pilot.enable(message.pilot, message.mapping, message.sticks, message.why);
+      this.pilot.enable(message);
       page.views.follow(message.vehicle);
       page.keyboard.help();
     } else if (message.type === "levels") stream.setLevels(message.levels);
     else if (message.type === "samples") for (const each of message.samples) stream.sample(...each);
+    else if (message.type === "readings") stream.version += Number(page.quantities.hear(message.readings));
+    else if (message.type === "topics") this.topics.list(message.topics);
+    else if (message.type === "topic") this.topics.hear(message);
     else if (message.type === "markers") stream.spawn(message.markers);
     else if (message.type === "end") this.end(message.why);
   }

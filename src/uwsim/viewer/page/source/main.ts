@@ -3,24 +3,28 @@ import { Curves } from "./curves";
 import { Keyboard } from "./keys";
 import { connect, type Link } from "./live";
 import { fromText, unpack, type Pack } from "./pack";
-import { element, indexAt, isUnseen, LevelList, make, Thrusters, toggleHelp } from "./panels";
+import { element, indexAt, isUnseen, LevelList, Thrusters, toggleHelp } from "./panels";
 import { graphics, Picture, type Switches } from "./picture";
 import { Replay, Stream, type Player } from "./player";
+import { Hud } from "./display/hud";
+import { Quantities } from "./display/quantities";
+import { Rays } from "./display/rays";
+import { addSwitches, addViews, markToolbar, type Switch } from "./display/toolbar";
 import { expose } from "./testing";
 import { MODES, Views, type Mode } from "./views";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
-const NAMES: Record<Mode, string> = { orbit: "Orbit", chase: "Chase", camera: "Camera", map: "Map" };
-
 export class Page {
   time = 0;
   isPlaying = false;
   speed = 1;
   readonly switches: Switches = {
-    clear: true, pictures: true, frames: false, labels: false, trails: true, sonars: true, sun: "",
+    clear: true, pictures: true, state: true, frames: false, labels: false, trails: true, sonars: true, sun: "",
     since: 0,
   };
   private readonly curves = new Curves(element("curves"), (time) => this.seek(time));
+  readonly quantities: Quantities;
+  private readonly hud: Hud;
   private readonly levels: LevelList;
   private readonly thrusters: Thrusters;
   readonly keyboard: Keyboard;
@@ -34,7 +38,10 @@ export class Page {
     readonly picture: Picture,
     readonly views: Views,
     readonly link: Link | null,
+    rays: Rays,
   ) {
+    this.quantities = new Quantities(pack.head, rays);
+    this.hud = new Hud(this.quantities, player, (time) => this.seek(time), () => this.draw());
     this.levels = new LevelList(player, (index) => void this.go(index));
     this.thrusters = new Thrusters(pack.head);
     this.keyboard = new Keyboard(this);
@@ -113,15 +120,22 @@ export class Page {
   }
 
   show(mode: Mode): void {
-    if (mode === "camera" && !this.pack.head.cameras.length) return;
+    if (!this.modes().includes(mode)) return;
     if (mode === "camera" && this.views.mode === "camera")
       this.views.camera = (this.views.camera + 1) % this.pack.head.cameras.length;
     this.views.mode = mode;
     this.refresh();
   }
 
-  toggle(name: "clear" | "pictures" | "frames" | "labels" | "trails" | "sonars"): void {
+  /** The views that this scene has. */
+  private modes(): Mode[] {
+    const { cameras, file_view } = this.pack.head;
+    return MODES.filter((mode) => (mode !== "camera" || cameras.length) && (mode !== "file" || file_view));
+  }
+
+  toggle(name: Switch): void {
     this.switches[name] = !this.switches[name];
+    if (name === "frames") this.switches.labels = this.switches.frames;
     this.link?.subscribe(this.switches.pictures);
     this.refresh();
   }
@@ -136,16 +150,23 @@ export class Page {
     const root = document.documentElement;
     root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
     this.curves.redraw();
+    this.hud.repaint();
+    this.link?.topics.repaint();
   }
 
   draw(): void {
     if (this.player.isLive) this.time = this.player.end;
     const moment = this.player.moment(this.time);
+    this.hud.show(moment, this.views.vehicle, this.switches.state);
     const sight = this.picture.draw(this.player, moment, this.views, this.switches);
     if (sight) this.link?.ask(sight);
     this.levels.show(this.time);
     this.curves.show(this.time, this.player.curves);
+    element("curves-box").hidden = !this.player.curves.length;
+    this.link?.topics.show(this.time);
     this.thrusters.show(moment);
+    const sections = [...document.querySelectorAll<HTMLElement>("aside > section")];
+    document.body.classList.toggle("bare", sections.every(({ hidden }) => hidden));
     element<HTMLInputElement>("time").value = String(this.time);
     element("clock").textContent = this.player.isLive
       ? `${this.time.toFixed(2)} s`
@@ -170,55 +191,14 @@ export class Page {
     }
   }
 
-  private refresh(): void {
-    const { mode, camera } = this.views;
-    element("modes").querySelectorAll("button").forEach((button) => {
-      button.setAttribute("aria-checked", String(button.dataset.mode === mode));
-    });
-    element("switches").querySelectorAll("button").forEach((button) => {
-      const name = button.dataset.switch as keyof Switches;
-      button.setAttribute("aria-pressed", String(this.switches[name]));
-    });
-    const choice = element<HTMLSelectElement>("camera");
-    choice.hidden = mode !== "camera" || this.pack.head.cameras.length < 2;
-    choice.value = String(camera);
+  refresh(): void {
+    markToolbar(this);
     this.draw();
   }
 
   private build(): void {
-    for (const mode of MODES) {
-      if (mode === "camera" && !this.pack.head.cameras.length) continue;
-      const button = make("button", NAMES[mode]);
-      button.dataset.mode = mode;
-      button.setAttribute("role", "radio");
-      button.addEventListener("click", () => this.show(mode));
-      element("modes").append(button);
-    }
-    const switches = [
-      ["clear", "Clear water", "Without fog, as an observer would like it (x)"],
-      ["pictures", "Cameras", "Images of the cameras (c)"],
-      ["frames", "Frames", "Coordinate frames with their names (f)"],
-      ["trails", "Trails", "Where bodies have been (t)"],
-      ["sonars", "Sonars", "Beams and fans (s)"],
-    ] as const;
-    for (const [name, text, title] of switches) {
-      if (name === "sonars" && !this.pack.head.sensors.length) continue;
-      if (name === "pictures" && !this.pack.head.cameras.length) continue;
-      const button = make("button", text);
-      button.dataset.switch = name;
-      button.title = title;
-      button.addEventListener("click", () => {
-        if (name === "frames") this.switches.labels = !this.switches.frames;
-        this.toggle(name);
-      });
-      element("switches").append(button);
-    }
-    const cameras = element<HTMLSelectElement>("camera");
-    this.pack.head.cameras.forEach(({ name }, i) => cameras.append(new Option(name, String(i))));
-    cameras.addEventListener("change", () => {
-      this.views.camera = Number(cameras.value);
-      this.refresh();
-    });
+    addViews(this, this.modes(), this.pack.head.cameras.map(({ name }) => name));
+    addSwitches(this);
     const speeds = element<HTMLSelectElement>("speed");
     speeds.append(...this.speeds().map(option));
     speeds.addEventListener("change", () => this.setSpeed(Number(speeds.value)));
@@ -250,7 +230,8 @@ async function begin(): Promise<void> {
     const pack = link ? link.pack : await unpack(fromText(data!.textContent ?? ""));
     const picture = await Picture.make(gl, pack);
     const player: Player = link ? new Stream(pack.head) : new Replay(pack);
-    const page = new Page(pack, player, picture, new Views(pack.head, picture.models), link);
+    const rays = new Rays(pack);
+    const page = new Page(pack, player, picture, new Views(pack.head, picture.models, rays), link, rays);
     page.note = gl || link ? "" : "This browser has no WebGL 2: levels and curves alone are shown.";
     message.textContent = page.note;
     link?.begin(page, player as Stream);

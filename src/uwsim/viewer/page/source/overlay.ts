@@ -22,8 +22,12 @@ export interface Marker {
 const AXES = ["#ff5a4f", "#45d96b", "#4aa3ff"];
 const CLOSE = 0.02; // [m] ahead of the camera
 
+const LETTERS = 11; // height [px]
+const PLACES = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5]; // of a label, lines below and above its point
+
 /** Draws in W on a part of a canvas. */
 class Pen {
+  private readonly taken: number[][] = []; // boxes of labels: left, top, right, bottom [px]
   private readonly cameraFromWorld: Matrix;
 
   constructor(
@@ -63,13 +67,42 @@ class Pen {
     const at = this.place(point);
     if (!at) return;
     const { context } = this;
-    context.font = "11px system-ui, sans-serif";
+    context.font = `${LETTERS}px system-ui, sans-serif`;
+    const free = this.free(at, context.measureText(text).width);
+    if (!free) return;
+    const [x, y] = free;
+    if (Math.abs(y - at[1]) > 2 * LETTERS) this.leader(at, [x - 2, y - LETTERS / 3], colour);
     context.lineWidth = 3;
     context.setLineDash([]);
     context.strokeStyle = "rgba(0, 12, 24, 0.75)";
-    context.strokeText(text, at[0] + 5, at[1] - 5);
+    context.strokeText(text, x, y);
     context.fillStyle = colour;
-    context.fillText(text, at[0] + 5, at[1] - 5);
+    context.fillText(text, x, y);
+  }
+
+  /** Where a label of some width near a point covers no other; null where there is no room. */
+  private free([x, y]: [number, number], width: number): [number, number] | null {
+    for (const line of PLACES)
+      for (const left of [x + 5, x - 5 - width]) {
+        const base = y - 5 + line * (LETTERS + 3);
+        const box = [left - 2, base - LETTERS, left + width + 2, base + 3];
+        if (this.taken.some((b) => box[0] < b[2] && box[2] > b[0] && box[1] < b[3] && box[3] > b[1])) continue;
+        this.taken.push(box);
+        return [left, base];
+      }
+    return null;
+  }
+
+  /** A thin line from a point to its label. */
+  private leader(from: [number, number], to: [number, number], colour: string): void {
+    const { context } = this;
+    context.strokeStyle = colour;
+    context.lineWidth = 0.75;
+    context.setLineDash([]);
+    context.beginPath();
+    context.moveTo(...from);
+    context.lineTo(...to);
+    context.stroke();
   }
 
   dot(point: ArrayLike<number>, colour: string, radius: number): void {
@@ -165,7 +198,7 @@ function drawSensor(pen: Pen, sensor: Sensor, place: Matrix, moment: Moment): vo
 function drawCurrent(pen: Pen, vehicle: string, base: Matrix, moment: Moment): void {
   const flow = ["x", "y", "z"].map((axis) => moment.signal(`water/${vehicle}/${axis}`) ?? 0);
   const speed = Math.hypot(...flow);
-  if (speed < 1e-3) return;
+  if (speed < 5e-3) return;
   const from = plus(origin(base), [0, 0, 0.55]);
   const to = plus(from, flow, (0.5 + 2 * speed) / speed);
   const aside = [-flow[1] / speed, flow[0] / speed, 0];

@@ -126,7 +126,7 @@ export class Thrusters {
       const share = 50 * Math.min(1, Math.abs(now));
       bar.style.left = `${now < 0 ? 50 - share : 50}%`;
       bar.style.width = `${share}%`;
-      value.textContent = `${(100 * now).toFixed(0)} %`;
+      value.textContent = `${Math.round(100 * now) || 0} %`;
     }
     element("thrusters-box").hidden = !any;
   }

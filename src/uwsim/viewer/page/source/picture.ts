@@ -6,6 +6,7 @@ import { drawOverlay, drawQuads, type Shown } from "./overlay";
 import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
 import type { Moment, Player } from "./player";
+import { drawCompass } from "./display/compass";
 import { isSoftware, Renderer } from "./renderer";
 import { inside, type Sight, type Views } from "./views";
 import type { Lens } from "./geometry";
@@ -18,6 +19,8 @@ const LONGEST_REST = 100; // between two images that software draws [ms]
 export interface Switches extends Shown {
   clear: boolean;
   pictures: boolean;
+  /** The head-up display. */
+  state: boolean;
   sun: string;
   /** Trails begin at this point. */
   since: number;
@@ -85,8 +88,7 @@ export class Picture {
     for (const camera of head.cameras) {
       const frame = make("figure");
       frame.append(make("figcaption", `${camera.name} · redrawn, no noise`));
-      frame.style.height = `${PICTURE_HEIGHT}px`;
-      frame.style.width = `${(PICTURE_HEIGHT * camera.width) / camera.height}px`;
+      frame.style.aspectRatio = `${camera.width} / ${camera.height}`;
       element("pictures").append(frame);
       this.frames.push(frame);
     }
@@ -122,6 +124,10 @@ export class Picture {
     context.clearRect(0, 0, w, h);
     drawOverlay(context, worldFromCamera, sight.lens, head, models, player, moment, switches, switches.since);
     if (sight.camera) drawQuads(context, sight.camera, sight.lens, 0, 0, moment);
+    if (views.mode === "map") {
+      const hud = element("hud");
+      drawCompass(context, sight.lens, views.height, hud.offsetTop + hud.offsetHeight);
+    }
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === sight.camera));
     this.drawPictures(context, water, lamps, moment, switches, ratio, h);
     this.pace?.begin();

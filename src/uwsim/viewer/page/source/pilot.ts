@@ -3,7 +3,14 @@ import { element, make } from "./panels";
 
 const REPEAT = 100; // [ms] between messages while anything is held
 const POLL = 33; // [ms] between looks at the gamepad
-const STICKS = ["Turn and heave", "Surge and sway"];
+const SIDES = ["left", "right"];
+/** What axes do, for more and for less of them. */
+const WORDS: Record<string, [string, string]> = {
+  surge: ["forward", "back"], sway: ["right", "left"], heave: ["up", "down"], yaw: ["turn right", "left"],
+  roll: ["roll right", "left"], pitch: ["pitch up", "down"], lamps: ["lamps brighter", "darker"],
+};
+const ON_STICKS: Record<string, string> = { yaw: "turn", sway: "left / right" };
+const QUIET = 6000; // after the first input the line of keys is gone [ms]
 
 interface Input {
   keys: string[];
@@ -12,10 +19,22 @@ interface Input {
   sticks: number[];
 }
 
+/** What a running simulation says of its piloting. */
+export interface PilotState {
+  pilot: boolean;
+  mapping: Record<string, string>;
+  reserved: string[];
+  sticks: string[];
+  names: Record<string, string>;
+  why: string;
+}
+
 export class Pilot {
   isOn = false;
   private mapping: Record<string, string> = {};
   private why = ""; // nothing can be steered
+  private names: Record<string, string> = {}; // axis -> name of the joint or thruster it moves
+  private reserved = new Set<string>(); // letters that are the pilot's, whatever the vehicle has
   private shown = "";
   private readonly held = new Set<string>();
   private readonly sticks = [0, 0, 0, 0];
@@ -34,35 +53,49 @@ export class Pilot {
     setInterval(() => this.look(), POLL);
   }
 
-  /** Which keys and sticks, left and right, do something; and why no vehicle can be steered. */
-  enable(on: boolean, mapping: Record<string, string>, sticks: boolean[], why: string): void {
-    this.mapping = on ? mapping : {};
-    this.why = why;
-    this.isOn = on;
-    const shown = JSON.stringify([on, sticks, why]);
+  /** Take what a simulation says of its piloting. */
+  enable(state: PilotState): void {
+    this.isOn = state.pilot;
+    this.mapping = state.pilot ? state.mapping : {};
+    this.reserved = new Set(state.reserved);
+    [this.names, this.why] = [state.names, state.why];
+    const shown = JSON.stringify([state.pilot, state.sticks, state.names, state.why]);
     if (shown === this.shown) return; // a stick may be held
     this.shown = shown;
-    const parts = sticks.map((does, i) => does && this.stick(2 * i, STICKS[i])).filter((part) => part !== false);
-    element("pilot").replaceChildren(...parts, ...(why ? [make("p", why)] : []));
-    element("pilot").hidden = !on;
+    const sticks = SIDES.map((side, i) => this.stick(side, 2 * i, state.sticks.slice(2 * i, 2 * i + 2)));
+    const parts = [...sticks.filter((part) => part !== null), this.why ? make("p", this.why, "why") : this.line()];
+    element("pilot").replaceChildren(...parts.filter((part) => part !== null));
+    element("pilot").hidden = !state.pilot;
   }
 
-  /** Whether a letter is the pilot's, so that the page's own needs Shift. */
+  /** Whether a letter is the pilot's, so that the page's own needs Shift; the same for all vehicles. */
   has(key: string): boolean {
-    return this.isOn && key in this.mapping;
+    return this.isOn && this.reserved.has(key);
   }
 
   takes(event: KeyboardEvent): boolean {
     const key = event.key.toLowerCase();
     if (event.shiftKey || !this.has(key)) return false;
     event.preventDefault();
+    if (!(key in this.mapping)) return true; // this vehicle has nothing that it moves
     this.held.add(key);
     this.look();
+    this.hideLine();
     return true;
   }
 
   help(): { keys: string; does: string }[] {
-    const pairs = new Map<string, string[]>(); // axes -> the keys for more and for less of them
+    const pairs = this.pairs();
+    if (!pairs.length) return [{ keys: "–", does: this.why || "nobody pilots this simulation" }];
+    const rows = pairs.map(({ axes, more, less }) => ({
+      keys: `${more || "–"}  ${less || "–"}`, does: `${this.named(axes)} +, −`,
+    }));
+    return [...rows, { keys: "Shift", does: "with a letter: the page's own key" }];
+  }
+
+  /** What keys move, each with the keys for more and for less of it. */
+  private pairs(): { axes: string; more: string; less: string }[] {
+    const pairs = new Map<string, string[]>();
     for (const [key, does] of Object.entries(this.mapping)) {
       if (!does.trim()) continue;
       const [axes, way] = unsigned(does);
@@ -70,9 +103,44 @@ export class Pilot {
       pair[way] += (pair[way] && ", ") + key;
       pairs.set(axes, pair);
     }
-    if (!pairs.size) return [{ keys: "–", does: this.why || "nobody pilots this simulation" }];
-    const rows = [...pairs].map(([does, [more, less]]) => ({ keys: `${more || "–"}  ${less || "–"}`, does: `${does} +, −` }));
-    return [...rows, { keys: "Shift", does: "with a letter: the page's own key" }];
+    return [...pairs].map(([axes, [more, less]]) => ({ axes, more, less }));
+  }
+
+  /** Axes, with the names of joints and thrusters as in the files. */
+  private named(axes: string): string {
+    return axes.split(" ").map((axis) => {
+      const name = this.names[axis.replace("-", "")];
+      return name ? axis.replace(/[a-z]+\d*/, name) : axis;
+    }).join(" ");
+  }
+
+  /** The keys in a line, until somebody has begun to pilot. */
+  private line(): HTMLElement | null {
+    const pairs = this.pairs();
+    if (!pairs.length) return null;
+    const line = make("div", "", "keyline");
+    for (const { axes, more, less } of pairs) {
+      const part = make("span");
+      const words = WORDS[axes]?.join(" / ") ?? this.named(axes);
+      for (const key of [more, less]) if (key) part.append(make("kbd", key.toUpperCase()));
+      part.append(` ${words}`);
+      line.append(part);
+    }
+    const rest = make("span");
+    rest.append(make("kbd", "?"), " all keys");
+    const close = make("button", "×");
+    close.setAttribute("aria-label", "Hide the line of keys");
+    close.addEventListener("click", () => line.remove());
+    line.append(rest, close);
+    return line;
+  }
+
+  private hideLine(): void {
+    const line = element("pilot").querySelector(".keyline");
+    if (line && !line.classList.contains("leaves")) {
+      line.classList.add("leaves");
+      setTimeout(() => line.remove(), QUIET);
+    }
   }
 
   private input(): Input {
@@ -98,10 +166,18 @@ export class Pilot {
     this.send({ type: "input", ...input }, isNews);
   }
 
-  private stick(first: number, label: string): HTMLElement {
+  /** A stick with its label; null where it moves nothing. */
+  private stick(side: string, first: number, axes: string[]): HTMLElement | null {
+    if (!axes.some((does) => does.trim())) return null;
+    const [box, label] = [make("div", "", `thumb ${side}`), make("div", "", "label")];
+    const signs = ["↔", "↕"];
+    axes.forEach((does, i) => {
+      if (does.trim()) label.prepend(make("span", `${signs[i]} ${this.stickWords(does)}`));
+    });
     const [pad, knob] = [make("div", "", "stick"), make("i")];
-    pad.title = label;
+    pad.title = label.innerText;
     pad.append(knob);
+    box.append(label, pad);
     const set = (x: number, y: number): void => {
       const length = Math.max(1, Math.hypot(x, y));
       this.sticks[first] = x / length;
@@ -121,7 +197,12 @@ export class Pilot {
     });
     pad.addEventListener("pointermove", move);
     for (const name of ["pointerup", "pointercancel"]) pad.addEventListener(name, () => set(0, 0));
-    return pad;
+    return box;
+  }
+
+  private stickWords(does: string): string {
+    const [axes] = unsigned(does);
+    return ON_STICKS[axes] ?? WORDS[axes]?.join(" / ") ?? this.named(axes);
   }
 }
 

@@ -10,6 +10,10 @@ export interface Samples {
   unit: string;
   times: number[];
   values: (number | null)[];
+  /** Of the values 1, 2, ..., as of phases. */
+  names?: string[];
+  /** Whether its range is 0 to 1. */
+  isShare?: boolean;
 }
 
 /** Poses and signals at one time. */
@@ -58,6 +62,8 @@ export interface Player {
   /** Grows when something came that no time says. */
   readonly version: number;
   moment(time: number): Moment;
+  /** How fast the origin of a body moves [m/s]; null where it is not known. */
+  speed(body: string, time: number): number | null;
   /** Where a body was, from the beginning until a time, a few times a second. */
   trail(body: string, until: number): number[][];
   /** What programs have spawned by a time. */
@@ -68,6 +74,8 @@ export interface Player {
 }
 
 const TRAIL_RATE = 6; // [Hz]
+const SPAN = 0.2; // over which a speed is taken [s]
+const FASTEST = 30; // [m/s]
 const TICKS = 1e4; // of the times of curves, in a second
 
 export class Replay implements Player {
@@ -102,9 +110,11 @@ export class Replay implements Player {
     this.curves = [];
     if (!chosen) return;
     this.title = chosen.title;
-    this.curves = chosen.curves.map(({ name, unit, times, values }) => ({
+    this.curves = chosen.curves.map(({ name, unit, times, values, names, is_share }) => ({
       name,
       unit,
+      names,
+      isShare: is_share,
       times: Array.from(this.pack.numbers(times), (tick) => tick / TICKS),
       values: Array.from(this.pack.numbers(values), (v) => (Number.isNaN(v) ? null : v)),
     }));
@@ -115,6 +125,16 @@ export class Replay implements Player {
   moment(time: number): Moment {
     const placed = this.pack.head.trials?.[this.trial]?.poses;
     return new Moment(time, this.motion?.head ?? null, this.motion?.at(time) ?? null, placed);
+  }
+
+  speed(body: string, time: number): number | null {
+    const motion = this.motion;
+    const index = motion?.head.bodies.indexOf(body) ?? -1;
+    if (!motion || index < 0) return null;
+    const last = motion.head.start + (motion.head.n - 1) / motion.head.rate;
+    const until = Math.min(last, Math.max(time, motion.head.start + SPAN));
+    const ends = [until - SPAN, until].map((each) => Array.from(motion.at(each)!.slice(7 * index, 7 * index + 3)));
+    return speedOf(ends[0], ends[1], SPAN);
   }
 
   markers(time: number): Marker[] {
@@ -154,6 +174,12 @@ export class Replay implements Player {
   }
 }
 
+/** Speed between two places; null where something was put elsewhere. */
+function speedOf(from: number[], to: number[], seconds: number): number | null {
+  const speed = Math.hypot(...to.map((value, i) => value - from[i])) / seconds;
+  return seconds > 0 && speed < FASTEST ? speed : null;
+}
+
 /** Places and curves while a simulation runs; `live.ts` fills it. */
 export class Stream implements Player {
   readonly isLive = true;
@@ -168,6 +194,7 @@ export class Stream implements Player {
   private spawned: Marker[] = [];
   private readonly heights = new Map<number, Float32Array>();
   private row: ArrayLike<number> | null = null;
+  private readonly recent: { time: number; row: ArrayLike<number> }[] = []; // of the last SPAN
   private readonly trails: { time: number; row: ArrayLike<number> }[] = [];
 
   constructor(private readonly head: Head) {
@@ -176,11 +203,22 @@ export class Stream implements Player {
 
   push(time: number, row: ArrayLike<number>): void {
     const last = this.trails.at(-1);
-    if (time < this.end) this.trails.length = 0;
+    if (time === this.end) this.version += 1; // as after a reset in a pause
+    if (time < this.end) this.trails.length = this.recent.length = 0;
     if (!last || time - last.time >= 1 / TRAIL_RATE) this.trails.push({ time, row });
     if (this.trails.length > 20000) this.trails.splice(0, 10000);
+    this.recent.push({ time, row });
+    while (this.recent.length > 2 && this.recent[1].time <= time - SPAN) this.recent.shift();
     this.row = row;
     this.end = time;
+  }
+
+  speed(body: string): number | null {
+    const index = this.head.motion?.bodies.indexOf(body) ?? -1;
+    const [first, last] = [this.recent[0], this.recent.at(-1)];
+    if (index < 0 || !first || !last || last.time <= first.time) return null;
+    const ends = [first, last].map(({ row }) => [0, 1, 2].map((i) => row[7 * index + i]));
+    return speedOf(ends[0], ends[1], last.time - first.time);
   }
 
   sample(name: string, unit: string, time: number, value: number | null): void {

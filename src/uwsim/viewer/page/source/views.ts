@@ -1,12 +1,15 @@
 // Where the page looks from: around a point, behind a vehicle, from a camera, from above.
-import type { Camera, Head } from "./head";
+import type { Camera, Head, Place } from "./head";
 import {
   fromPose, lensOf, looking, origin, plus, transform, unit, type Lens, type Matrix,
 } from "./geometry";
 import type { Models } from "./models";
+import type { Rays } from "./display/rays";
 
-export type Mode = "orbit" | "chase" | "camera" | "map";
-export const MODES: Mode[] = ["orbit", "chase", "camera", "map"];
+export type Mode = "orbit" | "chase" | "camera" | "map" | "file";
+export const MODES: Mode[] = ["orbit", "chase", "camera", "map", "file"];
+const CLEARANCE = 0.9; // of the way to what hides the vehicle from the chase view [1]
+const CLOSEST = 0.4; // of that view [m]
 
 export interface Sight {
   worldFromCamera: Matrix;
@@ -20,21 +23,22 @@ export class Views {
   camera = 0;
   /** Grows whenever the view was turned or moved. */
   version = 0;
-  private vehicle = 0; // that it goes along with
+  /** Number of the vehicle that it goes along with. */
+  vehicle = 0;
   private held: number[] | null = null; // way of the vehicle beyond which the orbit does not go
-  private azimuth = 0;
-  private elevation = 0.4;
-  private distance = 5;
-  private target: number[]; // as if the vehicle were where it began
+  private orbit: Around; // as if the vehicle were where it began
+  private file: Around | null = null; // the view of the scene file
   private turn = 0; // of the chase view, off the stern
-  private height = 12;
+  /** Of the eye above what the map shows [m]. */
+  height = 12;
   private readonly shift = [0, 0]; // of the map
 
   constructor(
     private readonly head: Head,
     private readonly models: Models,
+    private readonly rays: Rays,
   ) {
-    this.target = head.view.at;
+    this.orbit = aroundOf(head.view);
     this.home();
   }
 
@@ -55,19 +59,16 @@ export class Views {
   home(): void {
     this.version += 1;
     this.held = null;
-    const place = fromPose(this.head.view.pose);
-    const away = plus(origin(place), this.head.view.at, -1);
-    this.target = [...this.head.view.at];
-    this.distance = Math.hypot(...away);
-    this.azimuth = Math.atan2(away[1], away[0]);
-    this.elevation = Math.asin(away[2] / this.distance);
+    this.orbit = aroundOf(this.head.view);
+    this.file = this.head.file_view && aroundOf(this.head.file_view);
     this.turn = 0;
     this.shift.fill(0);
-    this.height = Math.max(6, 2 * this.distance);
+    this.height = Math.max(6, 2 * this.orbit.distance);
   }
 
   sight(width: number, height: number): Sight {
-    const lens = lensOf(width, height, this.head.view.fovy);
+    const { view, file_view } = this.head;
+    const lens = lensOf(width, height, (this.mode === "file" && file_view ? file_view : view).fovy);
     const camera = this.mode === "camera" ? this.head.cameras[this.camera] : undefined;
     if (camera) {
       const own = inside(camera, width, height);
@@ -80,8 +81,9 @@ export class Views {
     } else if (this.mode === "chase" && this.base()) {
       const ahead = this.base()!;
       const heading = Math.atan2(ahead[4], ahead[0]) + Math.PI + this.turn;
-      place = this.around(this.centre(), heading, Math.max(0.15, this.elevation));
-    } else place = this.around(plus(this.target, this.held ?? this.way()), this.azimuth, this.elevation);
+      place = this.behind(heading, Math.max(0.15, this.orbit.elevation));
+    } else if (this.mode === "file" && this.file) place = around(this.file);
+    else place = around({ ...this.orbit, target: plus(this.orbit.target, this.held ?? this.way()) });
     return { worldFromCamera: place, lens, observer: true, camera: null };
   }
 
@@ -90,14 +92,15 @@ export class Views {
     this.version += 1;
     if (this.mode === "map" || shifts) return this.move(dx, dy);
     if (this.mode === "chase") this.turn -= 4 * dx;
-    else this.azimuth -= 4 * dx;
-    this.elevation = Math.min(1.55, Math.max(-1.55, this.elevation + 3 * dy));
+    else this.turned().azimuth -= 4 * dx;
+    const turned = this.turned();
+    turned.elevation = clamp(turned.elevation + 3 * dy, -1.55, 1.55);
   }
 
   zoom(factor: number): void {
     this.version += 1;
     if (this.mode === "map") this.height = clamp(this.height * factor, 0.5, 2000);
-    else this.distance = clamp(this.distance * factor, 0.1, 2000);
+    else this.turned().distance = clamp(this.turned().distance * factor, 0.1, 2000);
   }
 
   private move(dx: number, dy: number): void {
@@ -107,16 +110,32 @@ export class Views {
       this.shift[1] += dy * span;
       return;
     }
-    const m = this.around(this.target, this.azimuth, this.elevation);
-    const span = this.distance;
-    this.target = plus(this.target, [m[0], m[4], m[8]], -dx * span);
-    this.target = plus(this.target, [m[1], m[5], m[9]], dy * span);
+    const turned = this.turned();
+    const m = around(turned);
+    turned.target = plus(turned.target, [m[0], m[4], m[8]], -dx * turned.distance);
+    turned.target = plus(turned.target, [m[1], m[5], m[9]], dy * turned.distance);
   }
 
-  private around(target: ArrayLike<number>, azimuth: number, elevation: number): Matrix {
-    const [c, s] = [Math.cos(elevation), Math.sin(elevation)];
-    const out = unit([c * Math.cos(azimuth), c * Math.sin(azimuth), s]);
-    return looking(plus(target, out, this.distance), target);
+  /** What a drag turns: the view of the file, or that of orbit and chase. */
+  private turned(): Around {
+    return this.mode === "file" && this.file ? this.file : this.orbit;
+  }
+
+  /** The view from behind the vehicle, nearer where something else is between. */
+  private behind(azimuth: number, elevation: number): Matrix {
+    const target = this.centre();
+    const { distance } = this.orbit;
+    const free = around({ target, azimuth, elevation, distance });
+    const vehicle = this.head.vehicles[this.vehicle].name;
+    const place = (body: string): Matrix => this.models.body(body);
+    const aside = 0.05 * distance;
+    const shares = [[0, 0], [aside, 0], [-aside, 0], [0, aside], [0, -aside]].map(([x, y]) =>
+      this.rays.cast(target, transform(free, [x, y, 0]), place, (body) => body.vehicle === vehicle),
+    );
+    const share = Math.min(...shares);
+    if (share >= 1) return free;
+    const nearer = Math.max(Math.min(CLOSEST, distance), CLEARANCE * share * distance);
+    return around({ target, azimuth, elevation, distance: nearer });
   }
 
   private base(): Matrix | null {
@@ -135,6 +154,31 @@ export class Views {
     const base = this.base();
     return base ? transform(base, [0, 0, 0]) : this.head.view.at;
   }
+}
+
+/** A view around a point. */
+interface Around {
+  target: number[];
+  azimuth: number;
+  elevation: number;
+  distance: number;
+}
+
+function aroundOf(view: Place): Around {
+  const away = plus(origin(fromPose(view.pose)), view.at, -1);
+  const distance = Math.hypot(...away);
+  return {
+    target: [...view.at],
+    azimuth: Math.atan2(away[1], away[0]),
+    elevation: Math.asin(away[2] / distance),
+    distance,
+  };
+}
+
+function around({ target, azimuth, elevation, distance }: Around): Matrix {
+  const [c, s] = [Math.cos(elevation), Math.sin(elevation)];
+  const out = unit([c * Math.cos(azimuth), c * Math.sin(azimuth), s]);
+  return looking(plus(target, out, distance), target);
 }
 
 /** The camera's pinhole on an image of another size, all of it in there. */

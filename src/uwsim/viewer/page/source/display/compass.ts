@@ -1,0 +1,44 @@
+// What a map needs: north, and a scale.
+import type { Lens } from "../geometry";
+
+const LONGEST = 130; // scale [px]
+const LEFT = 18; // edge of both [px]
+
+/** Draw both into the upper left of a view from above, `depth` metres below the eye. */
+export function drawCompass(context: CanvasRenderingContext2D, lens: Lens, depth: number, top: number): void {
+  const [x, y] = [LEFT + 10, top + 22];
+  const metres = roundedDown((LONGEST * depth) / lens.fx);
+  const length = (metres * lens.fx) / depth;
+  context.save();
+  context.setLineDash([]);
+  context.shadowColor = "rgba(0, 12, 24, 0.9)";
+  context.shadowBlur = 3;
+  context.fillStyle = context.strokeStyle = "#ffffff";
+  context.textAlign = "center";
+  context.font = "600 13px system-ui, sans-serif";
+  context.fillText("N", x, y);
+  context.beginPath();
+  context.moveTo(x, y + 6);
+  context.lineTo(x + 8, y + 28);
+  context.lineTo(x, y + 23);
+  context.lineTo(x - 8, y + 28);
+  context.closePath();
+  context.fill();
+  const [left, base] = [LEFT, y + 58];
+  context.lineWidth = 2;
+  context.beginPath();
+  context.moveTo(left, base - 6);
+  context.lineTo(left, base);
+  context.lineTo(left + length, base);
+  context.lineTo(left + length, base - 6);
+  context.stroke();
+  context.fillText(metres < 1 ? `${Math.round(100 * metres)} cm` : `${metres} m`, left + length / 2, base - 8);
+  context.restore();
+}
+
+/** The greatest of 1, 2 and 5 times a power of ten that is not above a number. */
+function roundedDown(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value));
+  const digit = [5, 2, 1].find((each) => each * power <= value * (1 + 1e-9)) ?? 1;
+  return Number((digit * power).toPrecision(1));
+}

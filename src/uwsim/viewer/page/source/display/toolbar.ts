@@ -1,0 +1,67 @@
+// The buttons at the top: from where one looks, and what is shown.
+import type { Page } from "../main";
+import { element, make } from "../panels";
+import type { Mode } from "../views";
+
+const VIEWS: Record<Mode, [name: string, title: string]> = {
+  orbit: ["Orbit", "Around the vehicle (o)"],
+  chase: ["Chase", "From behind the vehicle (b)"],
+  camera: ["Camera", "As a camera sees it (v)"],
+  map: ["Map", "From above, north up (m)"],
+  file: ["File", "From the <camera> of the scene file (p)"],
+};
+const SWITCHES = {
+  clear: ["Clear water", "Without fog, as an observer would like it (x)"],
+  state: ["State", "Depth, heading, joints and more; a click on a number draws its curve (z)"],
+  pictures: ["Cameras", "Images of the cameras (c)"],
+  frames: ["Frames", "Coordinate frames with their names (f)"],
+  trails: ["Trails", "Where bodies have been (t)"],
+  sonars: ["Sonars", "Beams and fans (s)"],
+};
+export type Switch = keyof typeof SWITCHES | "labels";
+
+/** Add a button for each view, and the list of the cameras. */
+export function addViews(page: Page, modes: Mode[], cameras: string[]): void {
+  for (const mode of modes) {
+    const [name, title] = VIEWS[mode];
+    const button = make("button", name);
+    button.title = title;
+    button.dataset.mode = mode;
+    button.setAttribute("role", "radio");
+    button.addEventListener("click", () => page.show(mode));
+    element("modes").append(button);
+  }
+  const choice = element<HTMLSelectElement>("camera");
+  cameras.forEach((name, i) => choice.append(new Option(name, String(i))));
+  choice.addEventListener("change", () => {
+    page.views.camera = Number(choice.value);
+    page.refresh();
+  });
+}
+
+/** Add a button for each thing that may be shown or hidden, of those that the scene has. */
+export function addSwitches(page: Page): void {
+  const { sensors, cameras, vehicles } = page.pack.head;
+  const counts: Record<string, number> = {
+    sonars: sensors.length, pictures: cameras.length, state: vehicles.length,
+  };
+  for (const [name, [text, title]] of Object.entries(SWITCHES)) {
+    if (counts[name] === 0) continue;
+    const button = make("button", text);
+    button.dataset.switch = name;
+    button.title = title;
+    button.addEventListener("click", () => page.toggle(name as Switch));
+    element("switches").append(button);
+  }
+}
+
+/** Mark what is on. */
+export function markToolbar({ views, switches, pack }: Page): void {
+  for (const button of element("modes").querySelectorAll("button"))
+    button.setAttribute("aria-checked", String(button.dataset.mode === views.mode));
+  for (const button of element("switches").querySelectorAll("button"))
+    button.setAttribute("aria-pressed", String(switches[button.dataset.switch as Switch]));
+  const choice = element<HTMLSelectElement>("camera");
+  choice.hidden = views.mode !== "camera" || pack.head.cameras.length < 2;
+  choice.value = String(views.camera);
+}

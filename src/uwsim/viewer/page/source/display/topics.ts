@@ -1,0 +1,137 @@
+// Topics of a running simulation on request: the values of the newest message, and their curves.
+import { Curves } from "../curves";
+import { element, make } from "../panels";
+import type { Samples } from "../player";
+
+const LONGEST = 3000; // samples of a curve
+const MOST = 16; // topics at once, as the server has it
+
+export interface TopicMessage {
+  type: "topic";
+  name: string;
+  time: number;
+  fields: [path: string, value: number | string | null][];
+  is_cut: boolean;
+}
+
+export class Topics {
+  private readonly cards = new Map<string, Card>();
+  private types: Record<string, string> = {};
+
+  /** `ask` tells the simulation which topics are wanted. */
+  constructor(private readonly ask: (names: string[]) => void) {
+    const choice = element<HTMLSelectElement>("topic");
+    choice.addEventListener("change", () => {
+      this.add(choice.value);
+      choice.value = "";
+    });
+  }
+
+  /** Take the names and types of all topics. */
+  list(topics: [name: string, type: string][]): void {
+    this.types = Object.fromEntries(topics);
+    const choice = element<HTMLSelectElement>("topic");
+    const options = topics.map(([name, type]) => new Option(`${name}  (${type.replace("/msg/", "/")})`, name));
+    choice.replaceChildren(new Option("Show a topic…", ""), ...options);
+    element("topics-box").hidden = !topics.length;
+  }
+
+  hear(message: TopicMessage): void {
+    this.cards.get(message.name)?.hear(message);
+  }
+
+  /** Draw the curves of all topics that are shown. */
+  show(time: number): void {
+    for (const card of this.cards.values()) card.show(time);
+  }
+
+  repaint(): void {
+    for (const card of this.cards.values()) card.curves.redraw();
+  }
+
+  add(name: string): void {
+    if (!name || this.cards.has(name) || this.cards.size >= MOST) return;
+    const card = new Card(name, this.types[name] ?? "", () => {
+      this.cards.delete(name);
+      this.ask([...this.cards.keys()]);
+    });
+    this.cards.set(name, card);
+    element("topics").append(card.box);
+    this.ask([...this.cards.keys()]);
+  }
+}
+
+class Card {
+  readonly box = make("div", "", "topic");
+  readonly curves: Curves;
+  private readonly rows = new Map<string, { row: HTMLElement; value: HTMLElement }>();
+  private readonly samples = new Map<string, Samples>();
+  private readonly chosen = new Set<string>();
+  private readonly table = make("div", "", "fields");
+  private readonly note = make("p", "No message yet. A topic that no program reads may be silent.", "none");
+
+  constructor(name: string, type: string, close: () => void) {
+    const [head, button, plots] = [make("h3"), make("button", "×"), make("div")];
+    button.title = `Hide ${name}`;
+    button.setAttribute("aria-label", button.title);
+    button.addEventListener("click", () => {
+      this.box.remove();
+      close();
+    });
+    const title = make("span", name);
+    title.title = type;
+    head.append(title, button);
+    this.box.append(head, this.note, this.table, plots);
+    this.curves = new Curves(plots, () => {});
+  }
+
+  hear({ time, fields, is_cut }: TopicMessage): void {
+    this.note.textContent = is_cut ? "The first fields of the message:" : "";
+    this.note.hidden = !is_cut;
+    for (const [path, value] of fields) {
+      const isFirst = this.samples.size === 0;
+      if (typeof value === "number") this.keep(path, time, value);
+      if (isFirst && this.samples.size) this.chosen.add(path);
+      const row = this.rows.get(path) ?? this.row(path, typeof value === "number");
+      row.value.textContent = typeof value === "number" ? String(Number(value.toPrecision(6))) : (value ?? "–");
+    }
+    this.mark();
+  }
+
+  show(time: number): void {
+    const chosen = [...this.samples].filter(([path]) => this.chosen.has(path));
+    this.curves.show(time, chosen.map(([, samples]) => samples));
+  }
+
+  private keep(path: string, time: number, value: number): void {
+    let samples = this.samples.get(path);
+    if (!samples) this.samples.set(path, (samples = { name: path, unit: "", times: [], values: [] }));
+    if (time <= (samples.times.at(-1) ?? -1)) return;
+    samples.times.push(time);
+    samples.values.push(value);
+    if (samples.times.length <= LONGEST) return;
+    samples.times.splice(0, LONGEST / 2);
+    samples.values.splice(0, LONGEST / 2);
+  }
+
+  private row(path: string, isNumber: boolean): { row: HTMLElement; value: HTMLElement } {
+    const [row, value] = [make(isNumber ? "button" : "div", "", "field"), make("output")];
+    row.append(make("span", path), value);
+    if (isNumber) {
+      row.title = "Show or hide its curve";
+      row.addEventListener("click", () => {
+        if (!this.chosen.delete(path)) this.chosen.add(path);
+        this.mark();
+      });
+    }
+    this.table.append(row);
+    const made = { row, value };
+    this.rows.set(path, made);
+    return made;
+  }
+
+  private mark(): void {
+    for (const [path, { row }] of this.rows)
+      if (row instanceof HTMLButtonElement) row.setAttribute("aria-pressed", String(this.chosen.has(path)));
+  }
+}
