@@ -53,7 +53,7 @@ from ..errors import BadMessage, RunFailed, UwsimError
 from ..message_fields import size_of
 from ..messages.services import Service
 from .admission import Admission
-from .clock_topic import ClockTopic
+from .clock_topic import COARSE_PERIOD, ClockTopic
 from .later_answers import LaterAnswers, pass_on
 from .log import Log
 from .queues import LatestQueue
@@ -91,6 +91,9 @@ class Bridge(ABC):
     """Whether messages from outside are sent out, too: where those outside do not reach each
     other."""
 
+    clock_period: ClassVar[float] = COARSE_PERIOD
+    """Shortest simulation time between two messages on ``/clock`` [s]."""
+
     must_meet: ClassVar[bool] = False
     """Whether messages are lost before both ends of a topic know each other."""
 
@@ -117,7 +120,11 @@ class Bridge(ABC):
         """Messages that have come from outside so far, by topic."""
         self.n_sent = 0
         """Messages that were handed to those outside so far."""
-        self.clock_topic = ClockTopic(clock, self._publish_clock, self._clock_is_read)
+        self.n_called = 0
+        """Services of the outside that the simulation has called so far."""
+        self.clock_topic = ClockTopic(
+            clock, self._publish_clock, self._clock_is_read, period=self.clock_period
+        )
         """The time outside."""
         self.later = LaterAnswers(bus.services)
         """Services whose responses come at a later step."""
@@ -400,6 +407,7 @@ class Bridge(ABC):
             RunFailed: there is none.
         """
         future = self.call_outside(name, request)
+        self.n_called += 1
         future.add_done_callback(lambda _: self.wake())
         if not self.wait_for(future.done, CALL_LIMIT):
             raise RunFailed(f"Service /{name}: no response within {CALL_LIMIT:g} s of wall time.")

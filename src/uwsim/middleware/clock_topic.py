@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
-CLOCK_PERIOD = 0.01
-"""Simulation time from one message on ``/clock`` to the next, at least [s]."""
+COARSE_PERIOD = 0.01
+"""Shortest simulation time between two messages on ``/clock``, for web clients, and for nodes
+whose outputs are waited for [s]."""
+ROS_PERIOD = 0.001
+"""The same for nodes of ROS [s]: every step, unless steps are shorter.
+
+A node's ``sleep`` and timers end with a message on ``/clock``; with longer periods, a loop of 1 ms
+would take as long as they are.
+"""
 
 
 class ClockTopic:
@@ -15,18 +23,29 @@ class ClockTopic:
         time: returns the simulation time [s].
         publish: sends it, if anybody reads it.
         is_read: whether anybody outside does; True where a transport cannot tell.
+        period: shortest simulation time between two messages [s].
     """
 
     def __init__(
-        self, time: Callable[[], float], publish: Callable[[], None], is_read: Callable[[], bool]
+        self,
+        time: Callable[[], float],
+        publish: Callable[[], None],
+        is_read: Callable[[], bool],
+        *,
+        period: float,
     ) -> None:
         self._time, self._publish, self._is_read = time, publish, is_read
-        self._next = 0.0
+        self._period = period
+        self._last = -math.inf
 
     @property
     def is_due(self) -> bool:
         """Whether it is time for the next message, also because time went back."""
-        return not self._next - CLOCK_PERIOD <= self._time() + 1e-9 < self._next
+        return self.has_passed(self._period)
+
+    def has_passed(self, period: float) -> bool:
+        """Whether the last message is ``period`` [s] old or more, or from later than now."""
+        return not self._last <= self._time() + 1e-9 < self._last + period
 
     @property
     def is_read(self) -> bool:
@@ -35,9 +54,9 @@ class ClockTopic:
 
     def send(self) -> None:
         """Tell the time."""
-        self._next = self._time() + CLOCK_PERIOD
+        self._last = self._time()
         self._publish()
 
     def send_at_next_step(self) -> None:
         """Have the time told at the next step boundary: somebody has come. Any thread."""
-        self._next = 0.0
+        self._last = -math.inf

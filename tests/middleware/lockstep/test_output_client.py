@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
+from threading import Thread
+from time import sleep
 
 import numpy as np
 import pytest
@@ -120,6 +123,118 @@ def test_each_message_of_an_input_has_its_output_in_the_same_step() -> None:
     for value in (1.0, 2.0):
         sea.say(Float64(data=value))
     assert sea.step() == [1.0, 2.0]
+
+
+def two_outputs(*, limit: float = 60.0) -> Sea:
+    """A sea in which a command and a status follow each depth."""
+    outputs = [OutputSpec(topic=topic, follows="depth") for topic in ("cmd", "status")]
+    sea = Sea(limit=limit)
+    sea.bus.inbox("status", Float64)
+    spec = replace(sea.client._spec, outputs=tuple(outputs))
+    sea.client = OutputClient(sea.outside, spec, timestep=TIMESTEP)
+    return sea
+
+
+def answer_on(sea: Sea, *topics: str) -> Callable[[object], None]:
+    def answer(message: object) -> None:
+        for topic in topics:
+            sea.outside.put(topic, message)
+
+    return answer
+
+
+def test_two_outputs_follow_one_input() -> None:
+    sea = two_outputs(limit=0.5)
+    sea.start()
+    sea.outside.on_message = answer_on(sea, "cmd", "status")
+    for value in (1.0, 2.0, 3.0):
+        sea.say(Float64(data=value))
+        assert sea.step() == [value]
+    assert (sea.outside.n_arrived["cmd"], sea.outside.n_arrived["status"]) == (3, 3)
+
+
+def test_of_two_outputs_the_one_that_is_missing_is_named() -> None:
+    sea = two_outputs(limit=0.02)
+    sea.start()
+    sea.outside.on_message = answer_on(sea, "cmd", "status")
+    sea.say(Float64(data=1.0))
+    sea.step()
+    sea.outside.on_message = answer_on(sea, "cmd")
+    sea.say(Float64(data=2.0))
+    with pytest.raises(ClientLost, match="did not publish on /status"):
+        sea.step()
+
+
+@pytest.mark.parametrize("n_silent", [1, 7])
+def test_a_node_that_answers_nothing_until_it_is_initialised_is_waited_for_from_then_on(
+    n_silent: int,
+) -> None:
+    sea = two_outputs(limit=5.0)
+    sea.start()
+    for value in range(n_silent):
+        sea.say(Float64(data=float(value)))
+        assert sea.step() == []
+    sea.outside.n_called += 1  # autoInit
+    sea.outside.on_message = answer_on(sea, "cmd", "status")
+    for value in (10.0, 11.0):
+        sea.say(Float64(data=value))
+        assert sea.step() == [value]
+    late = Thread(target=lambda: (sleep(0.05), answer_on(sea, "cmd", "status")(Float64(data=12.0))))
+    sea.outside.on_message = lambda message: late.start()
+    sea.say(Float64(data=12.0))
+    assert sea.step() == [12.0]
+    late.join()
+
+
+def test_an_initialised_node_that_answers_nothing_ends_the_run() -> None:
+    sea = two_outputs(limit=0.02)
+    sea.start()
+    sea.say(Float64(data=1.0))
+    sea.step()
+    sea.outside.n_called += 1
+    sea.say(Float64(data=2.0))
+    with pytest.raises(ClientLost, match="did not publish on /cmd"):
+        sea.step()
+
+
+def test_a_node_that_never_answers_ends_the_run() -> None:
+    sea = Sea(OutputSpec(topic="cmd", follows="depth"), limit=0.01)
+    sea.start()
+
+    def run_on() -> None:
+        for _ in range(100):
+            sea.say(Float64(data=1.0))
+            sea.step()
+
+    with pytest.raises(ClientLost, match="did not publish on /cmd"):
+        run_on()
+
+
+def test_a_slow_first_answer_delays_no_later_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(output_client, "FIRST_S", 0.1)
+    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    sea.start()
+    sea.say(Float64(data=1.0))
+    assert sea.step() == []
+    node = Thread(
+        target=lambda: [(sleep(0.03), sea.outside.put("cmd", Float64(data=x))) for x in (1.0, 2.0)]
+    )
+    sea.outside.on_message = lambda message: node.start()
+    sea.say(Float64(data=2.0))
+    assert sea.step() == [1.0, 2.0]
+    node.join()
+    sea.outside.on_message = answer_on(sea, "cmd")
+    sea.say(Float64(data=3.0))
+    assert sea.step() == [3.0]
+
+
+def test_more_answers_than_inputs_end_the_run() -> None:
+    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    sea.start()
+    sea.outside.on_message = answer_on(sea, "cmd", "cmd")
+    sea.say(Float64(data=1.0))
+    with pytest.raises(ClientLost, match="2 messages on /cmd"):
+        sea.step()
 
 
 def test_what_came_while_time_stood_is_not_taken_for_what_is_due() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.middleware.ros1.nodes import Graph
+from tests.middleware.ros1.nodes import TIMESTEP, Graph
 from tests.waiting import until
 from uwsim.errors import UwsimError
 from uwsim.messages import (
@@ -99,6 +99,26 @@ def test_the_clock_begins_at_one_second(graph: Graph) -> None:
     graph.ready()
     until(lambda: sim.n_connected("/clock") and found, graph.step)
     assert found[0].clock.sec >= 1
+
+
+def test_the_clock_comes_at_every_step_while_it_is_read(graph: Graph) -> None:
+    """The loop of a node with a period of one step is not slowed down by the clock."""
+    sim, other = graph.node(), graph.node("/other")
+    found = heard_by(other, "clock", message_class("rosgraph_msgs/Clock"))
+    graph.ready()
+    until(lambda: sim.n_connected("/clock") and found, graph.step)
+    first = sim.bus.step
+    for _ in range(25):
+        graph.step()
+    until(lambda: _step_of(found[-1]) >= sim.bus.step, other.step)
+    steps = [_step_of(message) for message in found]
+    assert steps[-25:] == list(range(first + 1, first + 26))
+
+
+def _step_of(message: Any) -> int:
+    """The step at which a message of ``/clock`` was sent."""
+    time = message.clock.sec - 1 + message.clock.nanosec * 1e-9
+    return round(time / TIMESTEP)
 
 
 def test_a_service_is_called_from_outside(graph: Graph) -> None:

@@ -6,6 +6,9 @@ other in ROS): what was published is sent and has time to arrive, then ``/clock`
 simulation time stands until the outputs that were declared for this step are there. They are put
 on the bus in the same step.
 
+An output that follows an input is due from its first message on: trackers of the original's kind
+publish nothing until they are initialised.
+
 That what was sent has arrived is not known of such a node, only likely: over ROS its results are
 marked as not guaranteed.
 """
@@ -13,6 +16,7 @@ marked as not guaranteed.
 from __future__ import annotations
 
 import math
+import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -20,6 +24,7 @@ from functools import partial
 from ...bus import Bus, Node
 from ...errors import BadSetting, ClientLost, NeverStarted, did_you_mean
 from ..bridge import Bridge
+from ..clock_topic import COARSE_PERIOD
 from .outside_program import OutsideProgram
 from .spec import ClientSpec, OutputSpec
 
@@ -27,7 +32,8 @@ STAND_S = 1.0
 """How long time stands when both ends of all topics are there, until the node is ready [s of wall
 time]."""
 FIRST_S = 0.2
-"""How long what comes with the first message of an output may take [s of wall time]."""
+"""How long what comes with the first message of an output may take, and how long a node that is not
+initialised yet may take to answer [s of wall time]."""
 GLANCE_S = 0.05
 """How often ``/clock`` is sent while a node has not come yet [s of wall time]."""
 
@@ -46,8 +52,11 @@ class OutputClient(OutsideProgram):
         self._timestep = timestep
         self._n_given: Counter[str] = Counter()  # messages of the topics that outputs follow
         self._before: Counter[str] = Counter()  # outputs that came while time stood at the start
+        self._unanswered: Counter[str] = Counter()  # inputs that an output has not followed
         self._due = {output.topic: 0 for output in spec.outputs}
         self._begun: set[str] = set()  # outputs of which one was due already
+        self._waited: dict[str, float] = dict.fromkeys(self._due, 0.0)  # for first ones [s of wall]
+        self._n_called = 0  # calls of services outside before the start
         self._n_sent = 0
 
     def start(self, node: Node) -> None:
@@ -58,8 +67,12 @@ class OutputClient(OutsideProgram):
         """
         self._node = node
         bridge, spec = self._bridge, self._spec
+        check_outputs(spec.outputs, bridge.bus)
         for output in spec.outputs:
             self._read(output)
+        for topic in dict.fromkeys(o.follows for o in spec.outputs if o.follows is not None):
+            node.subscribe(topic, object, self._counter(topic))
+        self._n_called = bridge.n_called
         bridge.step()
         if not self._stand(spec.limit, until=lambda: not self._missing()):
             raise NeverStarted(
@@ -80,18 +93,11 @@ class OutputClient(OutsideProgram):
         return False
 
     def _read(self, output: OutputSpec) -> None:
-        """Read an output, and count what it follows.
-
-        Raises:
-            BadSetting: nobody here has to do with one of the topics.
-        """
+        """Read an output, so that transports do so all the time."""
         bus = self._bridge.bus
-        check_outputs([output], bus)
         ends = bus.ends(output.topic)
         assert ends is not None
-        bus.subscribe(output.topic, ends.type, _nothing)  # so that transports read it all the time
-        if output.follows is not None:
-            self._node.subscribe(output.follows, object, self._counter(output.follows))
+        bus.subscribe(output.topic, ends.type, _nothing)
 
     def _counter(self, topic: str) -> Callable[[object], None]:
         def count(message: object) -> None:
@@ -114,24 +120,30 @@ class OutputClient(OutsideProgram):
         """Tell the time, and wait for the outputs that are due."""
         bridge = self._bridge
         due = {output.topic: self._n_due(output) for output in self._spec.outputs}
-        if due == self._due and not bridge.clock_topic.is_due:
+        if due == self._due and not bridge.clock_topic.has_passed(COARSE_PERIOD):
             return
-        self._due = due
+        before, self._due = self._due, due
         if bridge.n_sent > self._n_sent and self._spec.settling:
             bridge.wait_for(_never, self._spec.settling)
         self._n_sent = bridge.n_sent
         bridge.clock_topic.send()
-        for topic, n in due.items():
-            if not bridge.wait_for(partial(self._has_arrived, topic, n), self._spec.limit):
-                raise ClientLost(
-                    f"Client {self.name!r} did not publish on /{topic} what was due at "
-                    f"{self._node.now:g} s within {self._spec.limit:g} s of wall time "
-                    "(--client-limit): the run is invalid."
-                )
-            if n > 0 and topic not in self._begun:
+        for output in self._spec.outputs:
+            topic, n = output.topic, due[output.topic]
+            if output.follows is not None and topic not in self._begun:
+                self._await_first(topic, n, has_input=n > before[topic])
+            elif not bridge.wait_for(partial(self._has_arrived, topic, n), self._spec.limit):
+                raise self._lost(topic)
+            elif n > 0 and topic not in self._begun:
                 self._begin(topic, n)
             self._refuse_more(topic, n)
         bridge.step()
+
+    def _lost(self, topic: str) -> ClientLost:
+        return ClientLost(
+            f"Client {self.name!r} did not publish on /{topic} what was due at "
+            f"{self._node.now:g} s within {self._spec.limit:g} s of wall time "
+            "(--client-limit): the run is invalid."
+        )
 
     def _begin(self, topic: str, n_due: int) -> None:
         """Take for due all that comes with the first of an output.
@@ -142,10 +154,47 @@ class OutputClient(OutsideProgram):
         self._bridge.wait_for(_never, FIRST_S)
         self._before[topic] = self._bridge.n_arrived[topic] - n_due
 
+    def _await_first(self, topic: str, n_given: int, *, has_input: bool) -> None:
+        """Wait for the first message of an output that follows an input.
+
+        A node may begin to answer only when it is initialised, as the original's trackers by their
+        service ``autoInit``: until a service of the node is called, each input is waited for a
+        short time only, and from then on as long as for any output.
+
+        Args:
+            topic: of the output.
+            n_given: inputs so far.
+            has_input: whether one of them came since the last barrier.
+
+        Raises:
+            ClientLost: there is still no answer, and the limit has passed.
+        """
+        bridge, limit = self._bridge, self._spec.limit
+        is_called = bridge.n_called > self._n_called
+        if has_input:
+            left = limit if is_called else min(FIRST_S, limit - self._waited[topic])
+            began = time.monotonic()
+            bridge.wait_for(partial(self._has_arrived, topic, 1), left)
+            self._waited[topic] += time.monotonic() - began
+        if self._has_arrived(topic, 1):
+            self._begin_to_follow(topic, n_given)
+        elif has_input and (is_called or self._waited[topic] >= limit):
+            raise self._lost(topic)
+
+    def _begin_to_follow(self, topic: str, n_given: int) -> None:
+        """Take in what is answered now; inputs that remain without an answer never have one."""
+        self._begun.add(topic)
+        bridge, start = self._bridge, self._before[topic]
+        while (n := bridge.n_arrived[topic] - start) < n_given:
+            if not bridge.wait_for(partial(self._has_arrived, topic, n + 1), FIRST_S):
+                break
+        self._unanswered[topic] = max(0, n_given - n)
+        self._before[topic] -= self._unanswered[topic]
+
     def _refuse_more(self, topic: str, n_due: int) -> None:
         """Refuse outputs that are not due; raises ClientLost."""
         n = self._bridge.n_arrived[topic] - self._before[topic]
-        if n > n_due:
+        if n > n_due + self._unanswered[topic]:
             raise ClientLost(
                 f"Client {self.name!r} has published {n} messages on /{topic} by "
                 f"{self._node.now:g} s, where {n_due} are due: the run is invalid. Does it go by "

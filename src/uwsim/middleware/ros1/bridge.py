@@ -21,6 +21,7 @@ from ...bus import Bus, TopicEnds
 from ...errors import BadSetting, UwsimError
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge
+from ..clock_topic import ROS_PERIOD
 from ..lockstep.topics import TICK
 from ..log import Log
 from ..stamps import clock_time
@@ -67,6 +68,7 @@ class Ros1Bridge(Bridge):
     """
 
     must_meet = sees_leaving = True
+    clock_period = ROS_PERIOD
 
     def __init__(
         self,
@@ -172,8 +174,9 @@ class Ros1Bridge(Bridge):
             publication.send(message)
 
     def _publish_clock(self) -> None:
-        """Publish the time."""
-        self._clock.send(self._clock.kind.message(clock=clock_time(self.clock())))
+        """Publish the time, if anybody reads it."""
+        if self._clock_is_read():
+            self._clock.send(self._clock.kind.message(clock=clock_time(self.clock())))
 
     def _clock_is_read(self) -> bool:
         """Whether anybody has subscribed to ``/clock``."""

@@ -17,6 +17,7 @@ from ...errors import BadMessage, UwsimError
 from ...message_fields import size_of
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge
+from ..clock_topic import ROS_PERIOD
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
 from ..queues import MAX_ITEMS, LatestQueue
@@ -41,6 +42,7 @@ class Ros2(Bridge):
     """
 
     must_meet = invites = True
+    clock_period = ROS_PERIOD
 
     def __init__(self, bus: Bus, clock: Callable[[], float], node: Ros2Node, log: Log) -> None:
         super().__init__(bus, clock, log)
