@@ -35,17 +35,14 @@ class ClockTopic:
         period: float,
     ) -> None:
         self._time, self._publish, self._is_read = time, publish, is_read
-        self._period = period
+        self.period = period
+        """Shortest simulation time between two messages [s]."""
         self._last = -math.inf
 
     @property
     def is_due(self) -> bool:
         """Whether it is time for the next message, also because time went back."""
-        return self.has_passed(self._period)
-
-    def has_passed(self, period: float) -> bool:
-        """Whether the last message is ``period`` [s] old or more, or from later than now."""
-        return not self._last <= self._time() + 1e-9 < self._last + period
+        return not self._last <= self._time() + 1e-9 < self._last + self.period
 
     @property
     def is_read(self) -> bool:

@@ -68,6 +68,7 @@ class OutputClient(OutsideProgram):
         self._node = node
         bridge, spec = self._bridge, self._spec
         check_outputs(spec.outputs, bridge.bus)
+        bridge.clock_topic.period = COARSE_PERIOD  # each message waits for what was sent before it
         for output in spec.outputs:
             self._read(output)
         for topic in dict.fromkeys(o.follows for o in spec.outputs if o.follows is not None):
@@ -120,7 +121,7 @@ class OutputClient(OutsideProgram):
         """Tell the time, and wait for the outputs that are due."""
         bridge = self._bridge
         due = {output.topic: self._n_due(output) for output in self._spec.outputs}
-        if due == self._due and not bridge.clock_topic.has_passed(COARSE_PERIOD):
+        if due == self._due and not bridge.clock_topic.is_due:
             return
         before, self._due = self._due, due
         if bridge.n_sent > self._n_sent and self._spec.settling:
