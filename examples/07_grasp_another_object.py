@@ -32,7 +32,7 @@ class GraspValve(Grasp):
 
 if __name__ == "__main__":
     phases = []
-    with uwsim.load(SCENE, seed=1, timestep=0.005) as simulation:
+    with uwsim.load(SCENE, seed=2, timestep=0.005) as simulation:
         start = simulation.pose("valve").position[2]
         simulation.bus.subscribe("phase", String, lambda message: phases.append(message.data))
         simulation.attach(GraspValve())

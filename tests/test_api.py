@@ -181,7 +181,7 @@ def test_seeds_that_are_not_consecutive_are_refused() -> None:
 
 def test_check_gives_the_errors_of_files(tmp_path: Path) -> None:
     bad = tmp_path / "bad.xml"
-    bad.write_text("<UWSimScene><oceanState><windx>fast</windx></oceanState></UWSimScene>")
+    bad.write_text("<UWSimScene><nedOrigin><lat>north</lat></nedOrigin></UWSimScene>")
     errors = uwsim.check(str(bad))
     assert any(diagnostic.severity == "error" and diagnostic.line == 1 for diagnostic in errors)
 

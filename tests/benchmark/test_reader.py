@@ -457,7 +457,7 @@ def test_a_path_without_a_topic_is_a_warning(file: Path) -> None:
     path = f"<pathFollowing><name>p</name><target>girona500</target>{GATE}</pathFollowing>"
     file.write_text(text(path, function="<function>p</function>"))
     warnings = [diagnostic.message for diagnostic in check_benchmark(file)[0]]
-    assert "<pathFollowing> without <topic> has no path, and no value" in warnings
+    assert "<pathFollowing> without <topic> and <u:path> has no path, and no value" in warnings
 
 
 def test_a_benchmark_that_nothing_ends_is_a_warning(file: Path) -> None:

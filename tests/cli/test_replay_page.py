@@ -64,7 +64,8 @@ def test_a_level_without_motion_is_listed_and_warned_of(
     assert "units/00001.motion" in levels[1]["why"]
     assert head["trials"][1]["motion"] is None
     names = [[curve["name"] for curve in trial["curves"]] for trial in head["trials"]]
-    assert names == [["corners"]] * 3
+    assert [each[0] for each in names] == ["corners"] * 3
+    assert {"corners.nw_x", "corners.sw_y"} <= set(names[1])
 
 
 def test_a_film_says_that_a_level_is_left_out(

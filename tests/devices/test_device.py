@@ -38,7 +38,8 @@ class FakeState:
 def vehicle_on(state: FakeState) -> SceneVehicle:
     spec = VehicleSpec(name="v", file="v.urdf", position=(1.0, 2.0, 3.0))
     robot = SimpleNamespace(movable=())
-    return SceneVehicle(0, MountFrames(spec, robot, Pose.identity()), state)  # type: ignore[arg-type]
+    frames = MountFrames(spec, robot, Pose.identity())  # type: ignore[arg-type]
+    return SceneVehicle(0, frames, state, lambda: 0)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", DEVICES)

@@ -10,9 +10,10 @@ import pytest
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage
 from uwsim.messages import Empty, EmptyResponse, Twist
-from uwsim.middleware.bridge import AT_ONCE, MAX_REQUESTS, Bridge
+from uwsim.middleware.bridge import Bridge
 from uwsim.middleware.json_encoding import from_json
 from uwsim.middleware.log import Log
+from uwsim.middleware.waiting_calls import AT_ONCE, MAX_CALLS
 from uwsim.middleware.web.session import MAX_KEYS, read_frame
 from uwsim.middleware.work_budget import WorkBudget
 
@@ -73,7 +74,7 @@ def test_a_flood_of_calls_is_spread_over_the_steps() -> None:
         began = time.thread_time()
         bridge.step()
         assert time.thread_time() - began < 0.5  # 2 s for all of them
-        assert AT_ONCE < MAX_REQUESTS
+        assert AT_ONCE < MAX_CALLS
         assert 1 <= answered < 100
         while not all(future.done() for future in futures[:answered]):
             bridge.step()

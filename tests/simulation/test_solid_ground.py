@@ -110,7 +110,7 @@ DESERT = ObjectSpec(
     "scenery",
     [
         DESERT,
-        replace(DESERT, file="terrain/seafloor/terrain_noship.osg", position=(0.0, 0.0, -11.5),
+        replace(DESERT, file="terrain/seafloor/terrain_noship.osg", position=(0.0, 0.0, -11.0),
                 orientation=(3.1415927, 0.0, 0.0)),
         replace(DESERT, file="terrain/islands/islands.osg", position=(0.0, 0.0, 3.0),
                 orientation=(0.0, 0.0, 0.0)),

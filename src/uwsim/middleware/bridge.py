@@ -58,14 +58,8 @@ from .later_answers import LaterAnswers, pass_on
 from .log import Log
 from .queues import LatestQueue
 from .shown import known_services, known_topics
-from .work_budget import WorkBudget
+from .waiting_calls import AT_ONCE, MAX_CALLS, Call, WaitingCalls
 
-MAX_REQUESTS = 1000
-CALL_SHARE, CALL_BURST = 0.02, 0.05
-"""Share of the wall time in which a flood of calls is answered, and the time at once [s]."""
-AT_ONCE = 10
-"""Calls that are answered together while the simulation waits; more are a flood when it runs."""
-"""Calls of services that may wait for the end of a step."""
 CALL_LIMIT = 60.0
 """How long a call of a service that is offered outside may take [s of wall time]."""
 LATCHED = ("tf_static", "robot_description", "scene")
@@ -109,8 +103,7 @@ class Bridge(ABC):
         self._has_news = False
         self._wants: list[tuple[str, int]] = []
         self._incoming: dict[str, LatestQueue[tuple[object, str]]] = {}
-        self._requests: list[tuple[str, object, Future[object]]] = []
-        self._calls = WorkBudget(CALL_SHARE, CALL_BURST)
+        self._calls = WaitingCalls()
         self._offers: list[tuple[str, Service | None]] = []
         self._is_urgent = False  # something waits that is done also while the simulation waits
         self._woken = threading.Event()
@@ -256,10 +249,9 @@ class Bridge(ABC):
                 future.set_exception(UwsimError(f"Service {name!r}: {NOT_ADMITTED}"))
             elif self._is_closed:
                 future.set_exception(UwsimError(CLOSED))
-            elif len(self._requests) >= MAX_REQUESTS:
-                future.set_exception(UwsimError(f"More than {MAX_REQUESTS} calls are waiting."))
+            elif not self._calls.add((name, request, future)):
+                future.set_exception(UwsimError(f"More than {MAX_CALLS} calls are waiting."))
             else:
-                self._requests.append((name, request, future))
                 self._has_news = self._is_urgent = True
         self._woken.set()
         return future
@@ -313,7 +305,7 @@ class Bridge(ABC):
         """Leave the bus; calls that wait fail. Transports close their sockets, then call this."""
         with self._lock:
             self._is_closed = True
-            requests, self._requests = self._requests, []
+            requests = self._calls.take()
             self._incoming.clear()
         for _, _, future in requests:
             future.set_exception(UwsimError(CLOSED))
@@ -348,9 +340,9 @@ class Bridge(ABC):
             self.on_services(services)
 
     def _exchange(self) -> None:
-        self._serve(MAX_REQUESTS if self.admission is not None else None)
+        self._serve(MAX_CALLS if self.admission is not None else None)
         with self._lock:
-            self._has_news = bool(self._requests)
+            self._has_news = bool(self._calls)
             incoming, self._incoming = self._incoming, {}
         for topic in sorted(incoming):
             for message, by in incoming[topic].take():
@@ -359,15 +351,9 @@ class Bridge(ABC):
         self._own.clear()
 
     def _serve(self, limit: int | None) -> None:
-        """Follow those outside who read or offer services, and answer their calls.
-
-        Args:
-            limit: of the calls that are answered now; None: all, or those that the budget allows
-                where more than `AT_ONCE` wait, so that a flood does not stop the simulation.
-        """
+        """Follow those outside who read or offer services, and answer calls (`WaitingCalls`)."""
         with self._lock:
             wants, self._wants = self._wants, []
-            requests, self._requests = self._requests, []
             offers, self._offers = self._offers, []
             self._is_urgent = False
         for topic, n in wants:
@@ -375,17 +361,9 @@ class Bridge(ABC):
             self._follow_demand(topic)
         for name, service in offers:
             self._follow_offer(name, service)
-        n_answered, is_flood = 0, limit is None and len(requests) > AT_ONCE
-        for name, request, future in requests:
-            if n_answered == limit or (is_flood and self._calls.delay > 0.0):
-                break
-            began = time.thread_time()
-            self._answer(name, request, future)
-            self._calls.spend(time.thread_time() - began)
-            n_answered += 1
-        if n_answered < len(requests):
+        self._calls.serve(self._answer, limit)
+        if self._calls:
             with self._lock:
-                self._requests = requests[n_answered:] + self._requests
                 self._has_news = self._is_urgent = True
 
     def _follow_offer(self, name: str, service: Service | None) -> None:
@@ -431,7 +409,8 @@ class Bridge(ABC):
             self.n_sent += 1
             self.send(topic, message)
 
-    def _answer(self, name: str, request: object, future: Future[object]) -> None:
+    def _answer(self, call: Call) -> None:
+        name, request, future = call
         if not future.set_running_or_notify_cancel():
             return
         if self.later.takes(name, request, future):

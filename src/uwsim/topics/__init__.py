@@ -44,11 +44,10 @@ from .depth_images import RangeCameraToPCLSpec, RangeImageSensorToROSImageSpec
 from .interface import InterfaceSpec
 from .multibeam_to_point_cloud import MultibeamToPointCloud2Spec
 from .pat_to_ros_odom import PATToROSOdomSpec
-from .ros_cmd_vel_to_pat import ROSCmdVelToPATSpec
 from .ros_joint_state_to_arm import ROSJointStateToArmSpec
 from .ros_odom_to_pat import ROSOdomToPATSpec
 from .ros_pose_to_pat import ROSPoseToPATSpec
-from .ros_twist_to_pat import ROSTwistToPATSpec
+from .ros_twist_to_pat import ROSCmdVelToPATSpec, ROSTwistToPATSpec
 from .segmentation_to_ros import SegmentationToROSSpec
 from .sensor_topic import (
     BatteryToROSSpec,

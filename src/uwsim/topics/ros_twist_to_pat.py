@@ -1,8 +1,19 @@
-"""ROSTwistToPAT: moves a vehicle by twists; a simulated one holds the last.
+"""ROSTwistToPAT, u:ROSCmdVelToPAT: move a vehicle by twists; a simulated one holds the last.
+
+.. code-block:: xml
+
+    <u:ROSCmdVelToPAT>
+      <topic>/cmd_vel</topic> <vehicleName>girona500</vehicleName>
+    </u:ROSCmdVelToPAT>
 
 A velocity moves a vehicle that is not simulated by the time since the velocity before it on its
 interface (nothing for the first, or after more than 1 s). Time is simulation time, where the
 original took the wall's.
+
+``cmd_vel``, as common teleoperation programs send it, is a Twist in the axes of REP 103: x forward,
+y to the left, z up. A vehicle whose z axis points down at the start, as those of UWSim do, has
+forward, right and down as its axes: y and z of both vectors change sign. Not modelled: that a
+vehicle stops when the program is silent; a simulated one holds the last twist.
 """
 
 from __future__ import annotations
@@ -16,12 +27,14 @@ import numpy as np
 
 from ..geometry import Pose, rotation_from_xyz
 from ..message_fields import odd_number
-from ..messages import Twist, TwistStamped
+from ..messages import Twist, TwistStamped, Vector3
 from ..vehicle import MAX_COMMAND, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 TWIST = tuple(f"twist.{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")
 """Numbers of a twist."""
+CMD_VEL = tuple(f"{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")
+"""Numbers of a Twist."""
 MAX_GAP = 1.0
 """After a longer silence a velocity moves nothing [s]."""
 
@@ -71,6 +84,51 @@ class TwistCommand(Interface):
         step = np.clip(numbers, -MAX_COMMAND, MAX_COMMAND) * time  # (6,) [m, rad]
         before_from_after = Pose(step[:3], rotation_from_xyz(*step[3:].tolist()))
         self._vehicle.place(self._vehicle.world_from_base @ before_from_after)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ROSCmdVelToPATSpec(VehicleTopicSpec):
+    """Moves a vehicle by geometry_msgs/Twist: x forward, y to the left, z up (REP 103).
+
+    It goes on for the time since the message before; nothing is held after more than 1 s.
+    """
+
+    subscribes: ClassVar[bool] = True
+
+    messages: ClassVar[Mapping[str, type]] = {"topic": Twist}
+
+    def bind(self, world: TopicWorld) -> CmdVelCommand:
+        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        vehicle = world.vehicle(self.vehicle_name)
+        z_points_up = vehicle.world_from_base.rotation[2, 2] > 0.0
+        command = CmdVelCommand(TwistCommand(vehicle, Gap(world)), 1.0 if z_points_up else -1.0)
+        world.bus.subscribe(
+            self.topic,
+            Twist,
+            lambda m: world.at_next_step(command.apply_command, m),
+            remark=lambda m: odd_number(m, CMD_VEL, MAX_COMMAND),
+        )
+        return command
+
+
+class CmdVelCommand(Interface):
+    """Moves a vehicle by twists in the axes of REP 103."""
+
+    STATE = ("_twist",)
+    """Attributes of its state, for snapshots."""
+
+    def __init__(self, twist: TwistCommand, sign: float) -> None:
+        self._twist, self._sign = twist, sign
+
+    def apply_command(self, twist: Twist) -> None:
+        """Apply a twist: forward, left, up."""
+        v, w, sign = twist.linear, twist.angular, self._sign
+        self._twist.obey(
+            Twist(
+                linear=Vector3(v.x, sign * v.y, sign * v.z),
+                angular=Vector3(w.x, sign * w.y, sign * w.z),
+            )
+        )
 
 
 class Gap:

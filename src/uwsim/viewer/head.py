@@ -149,7 +149,7 @@ from typing import Any
 import numpy as np
 
 from ..geometry import Pose
-from ..numerics.linear import length, product
+from ..numerics.linear import dot, length, product
 from ..rendering.water import AMBIENT, SPECULAR, SUN_COLOURS, SUN_DIRECTIONS
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import MountedSensor
@@ -411,7 +411,7 @@ def _vehicles(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
 def _orbit(simulation: Simulation) -> Json:
     """The view around vehicles and what is near them, which `uwsim render` has, too."""
     eye, middle = orbit_view(simulation, SIZE).world_from_camera, focus_of(simulation).middle
-    return _view(eye, FIELD, float(np.dot(eye.position - middle, eye.rotation[:, 2])))
+    return _view(eye, FIELD, dot(eye.position - middle, eye.rotation[:, 2]))
 
 
 def _file_view(simulation: Simulation) -> Json | None:

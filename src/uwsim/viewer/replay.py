@@ -64,8 +64,11 @@ class Replay:
         """Numbers of the trials whose motion is not there."""
         if not self._trials:
             raise ResultError(f"{directory}: no trial was chosen.")
+        self._seeds = sorted({trial.seed for trial in self._trials})
         self.title = self._trials[0].title
-        """Benchmark, algorithm and seed of the first trial."""
+        """Benchmark, algorithm and seed, or the number of seeds, of the trials."""
+        if (n_seeds := len(self._seeds)) > 1:
+            self.title = f"{self.title.rpartition(', ')[0]}, {n_seeds} seeds"
 
     def pack(self) -> bytes:
         """Return what the page shows (`head`)."""
@@ -73,6 +76,10 @@ class Replay:
         with _scene_of(first) as simulation:
             head = scene_head(simulation, self.title, blob)
         described = {trial.index: _trial(trial, blob) for trial in self._trials}
+        if len(self._seeds) > 1:
+            for trial in self._trials:
+                for level in described[trial.index]["levels"]:
+                    level["label"] = f"seed {trial.seed}: {level['label']}"
         at_first = {body["name"]: body["pose"] for body in head["bodies"]}
         placed = {seed: _moved(trial, at_first) for seed, trial in self._varied().items()}
         for trial in self._trials:

@@ -144,7 +144,8 @@ class FrameRepublisher:
         pose = root_from_target[1].inverse() @ root_from_source[1]
         last = request.sent.get(source)
         if last is not None and (request.angle > 0.0 or request.distance > 0.0):
-            step = last.inverse() @ pose
+            last_from_source = last.inverse()
+            step = last_from_source @ pose
             turn = 2.0 * math.acos(min(1.0, abs(float(step.quaternion[0]))))
             if length(step.position) < request.distance and turn < request.angle:
                 return None

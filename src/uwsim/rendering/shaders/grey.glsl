@@ -1,4 +1,5 @@
 // Provides: as_taken(colour), the colour of a pixel as its camera gives it.
+// Needs: nothing.
 // The switch GREY: int(0.2989 R) + int(0.5870 G) + int(0.1140 B) of 8-bit values, as grey.py has it. The page alone sets it.
 vec3 as_taken(vec3 colour) {
 #ifdef GREY

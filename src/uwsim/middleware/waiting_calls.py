@@ -1,0 +1,59 @@
+"""Calls of services from outside that wait for the simulation."""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future
+
+from .work_budget import WorkBudget
+
+MAX_CALLS = 1000
+"""Calls that may wait for the end of a step."""
+SHARE, BURST = 0.02, 0.05
+"""Share of the wall time in which a flood of calls is answered, and the time at once [s]."""
+AT_ONCE = 10
+"""Calls that are answered together while the simulation waits; more are a flood when it runs."""
+Call = tuple[str, object, "Future[object]"]
+"""The service, the request, and what gets the response."""
+
+
+class WaitingCalls:
+    """A queue of calls. Calls are added in any thread, and answered in that of the simulation."""
+
+    def __init__(self) -> None:
+        self._calls: deque[Call] = deque()
+        self._budget = WorkBudget(SHARE, BURST)
+
+    def __bool__(self) -> bool:
+        """Whether a call waits."""
+        return bool(self._calls)
+
+    def add(self, call: Call) -> bool:
+        """Add a call; returns False if too many wait."""
+        if len(self._calls) >= MAX_CALLS:
+            return False
+        self._calls.append(call)
+        return True
+
+    def take(self) -> list[Call]:
+        """Remove and return all calls, in their order."""
+        return [self._calls.popleft() for _ in range(len(self._calls))]
+
+    def serve(self, answer: Callable[[Call], None], limit: int | None) -> None:
+        """Answer calls in their order.
+
+        Args:
+            answer: called with each call.
+            limit: of the calls that are answered now; None: all, or those that the budget allows
+                where more than `AT_ONCE` wait, so that a flood does not stop the simulation.
+        """
+        n_waiting = len(self._calls)
+        is_flood = limit is None and n_waiting > AT_ONCE
+        for _ in range(n_waiting if limit is None else min(limit, n_waiting)):
+            if is_flood and self._budget.delay > 0.0:
+                return
+            began = time.thread_time()
+            answer(self._calls.popleft())
+            self._budget.spend(time.thread_time() - began)
