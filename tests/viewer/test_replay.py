@@ -136,5 +136,5 @@ def test_what_a_seed_puts_elsewhere_is_there(tmp_path: Path) -> None:
     assert second["poses"]["blackbox"] != at_first
     labels = [[level["label"] for level in trial["levels"]] for trial in head["trials"]]
     seeds = [label.partition(": ")[0] for trial in labels for label in trial]
-    assert list(dict.fromkeys(seeds)) == ["seed 0", "seed 1"]
+    assert list(dict.fromkeys(seeds)) == ["seed 1", "seed 2"]
     assert head["title"].endswith(", 2 seeds")
