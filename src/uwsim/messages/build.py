@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ..geometry import Pose
+from .geometry_msgs import Quaternion, Transform, TransformStamped, Vector3
 from .sensor_msgs import Image
 from .std_msgs import Float32MultiArray, Header, MultiArrayLayout, Time
 
@@ -46,29 +49,25 @@ def image(pixels: npt.NDArray[np.uint8], *, time: float, frame_id: str = "") -> 
 
 def depth_image(depth: npt.NDArray[np.float64], *, time: float, frame_id: str = "") -> Image:
     """Build a ``32FC1`` image, as in REP 118, from depths (h, w) [m]; row 0 is the top."""
-    height, width = depth.shape
-    return Image(
-        header=header(time, frame_id),
-        height=height,
-        width=width,
-        encoding="32FC1",
-        is_bigendian=0,
-        step=4 * width,
-        data=np.ascontiguousarray(depth, dtype="<f4").reshape(-1).view(np.uint8),
-    )
+    return _one_channel(depth, "32FC1", "<f4", header(time, frame_id))
 
 
 def label_image(labels: npt.NDArray[np.uint16], *, time: float, frame_id: str = "") -> Image:
     """Build a ``16UC1`` image from whole numbers (h, w); row 0 is the top."""
-    height, width = labels.shape
+    return _one_channel(labels, "16UC1", "<u2", header(time, frame_id))
+
+
+def _one_channel(values: npt.NDArray[Any], encoding: str, dtype: str, head: Header) -> Image:
+    """Build an image of one channel from values (h, w)."""
+    height, width = values.shape
     return Image(
-        header=header(time, frame_id),
+        header=head,
         height=height,
         width=width,
-        encoding="16UC1",
+        encoding=encoding,
         is_bigendian=0,
-        step=2 * width,
-        data=np.ascontiguousarray(labels, dtype="<u2").reshape(-1).view(np.uint8),
+        step=np.dtype(dtype).itemsize * width,
+        data=np.ascontiguousarray(values, dtype=dtype).reshape(-1).view(np.uint8),
     )
 
 
@@ -83,4 +82,17 @@ def floats(values: Sequence[float] | npt.NDArray[np.float64]) -> Float32MultiArr
     """Build a Float32MultiArray without a layout."""
     return Float32MultiArray(
         layout=MultiArrayLayout(dim=[], data_offset=0), data=np.asarray(values, dtype=np.float32)
+    )
+
+
+def transform(parent: str, child: str, parent_from_child: Pose, time: float) -> TransformStamped:
+    """Build a transform at ``time`` [s]; names without a leading slash, as tf2 requires."""
+    w, x, y, z = parent_from_child.quaternion.tolist()
+    px, py, pz = parent_from_child.position.tolist()
+    return TransformStamped(
+        header=header(time, parent.strip().lstrip("/")),
+        child_frame_id=child.strip().lstrip("/"),
+        transform=Transform(
+            translation=Vector3(x=px, y=py, z=pz), rotation=Quaternion(x=x, y=y, z=z, w=w)
+        ),
     )

@@ -8,7 +8,8 @@ from typing import ClassVar
 from ..devices.comms.comms_device import CommsDevice
 from ..errors import UnknownName
 from ..messages import Pose, TFMessage
-from .frames import TF, transform
+from ..messages.build import transform
+from .frames import TF
 from .interface import Interface, TopicWorld, sample_rate
 from .sensor_topic import SensorTopicSpec
 

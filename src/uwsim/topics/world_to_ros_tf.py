@@ -22,7 +22,8 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..messages import TFMessage
-from .frames import TF, Frame, transform
+from ..messages.build import transform
+from .frames import TF, Frame
 from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 

@@ -18,13 +18,12 @@ import numpy as np
 from ..errors import BadSetting, names_file
 from ..geometry import Array, Pose, rotation_from_quaternion
 from ..messages import Float64, MarkerArray, String, TFMessage
-from ..messages.build import NANOSECONDS
+from ..messages.build import NANOSECONDS, transform
 from ..middleware.types import wire_type
 from ..recording.mcap_file import McapFile
 from ..simulation import Simulation
 from ..simulation.parts import Part
 from ..simulation.tracked_bodies import TrackedBodies
-from ..topics.frames import transform
 from .film.puppets import Puppets
 from .recorded import RecordedTrial
 from .shapes import SCENE, shapes

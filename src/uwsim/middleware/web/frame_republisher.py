@@ -18,7 +18,8 @@ from typing import Any
 from ...errors import BadMessage
 from ...external_values import read_number, read_position, read_quaternion
 from ...geometry import Pose
-from ...messages import Quaternion, TFMessage, Transform, TransformStamped, Vector3, header
+from ...messages import TFMessage
+from ...messages.build import transform
 from ...numerics.linear import length
 
 SERVICE = "republish_tfs"
@@ -126,7 +127,7 @@ class FrameRepublisher:
                 continue
             request.due = time + request.period
             transforms = [
-                _transform(request.target, source, pose, time)
+                transform(request.target, source, pose, time)
                 for source in request.sources
                 if (pose := self._moved(request, source)) is not None
             ]
@@ -167,18 +168,6 @@ def feedback(goal: str) -> Callable[[dict[str, Any]], dict[str, Any]]:
     """Return a function that puts the fields of a TFMessage into the feedback for a goal."""
     status = {"goal_id": {"stamp": {"sec": 0, "nanosec": 0}, "id": goal}, "status": 1, "text": ""}
     return lambda fields: {"header": {}, "status": status, "feedback": fields}
-
-
-def _transform(parent: str, child: str, pose: Pose, time: float) -> TransformStamped:
-    """Build the transform of a frame ``child`` in ``parent``."""
-    w, x, y, z = pose.quaternion.tolist()
-    return TransformStamped(
-        header=header(time, parent),
-        child_frame_id=child,
-        transform=Transform(
-            translation=Vector3(*pose.position.tolist()), rotation=Quaternion(x=x, y=y, z=z, w=w)
-        ),
-    )
 
 
 def _frame(name: str) -> str:
