@@ -23,6 +23,18 @@ def _hear_ctrl_c() -> None:
 
 
 @pytest.fixture(scope="session", autouse=True)
+def _may_dump_core() -> Iterator[None]:
+    """A run of an external algorithm denies access to memory, of a test's process it does not.
+
+    A process that denies it leaves no core file, hence no native stacks of a crash.
+    """
+    with pytest.MonkeyPatch.context() as patch:
+        for module in ("uwsim.runs.sealed", "uwsim.runs.executors.executor"):
+            patch.setattr(f"{module}.deny_access_to_memory", lambda: None)
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
 def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     """Make an empty home directory; commands that tests start inherit it."""
     folder = tmp_path_factory.mktemp("home")

@@ -6,6 +6,7 @@ import ctypes
 import os
 import subprocess
 import sys
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar
@@ -14,6 +15,7 @@ import pytest
 
 from tests.cheat_trials import Holds, bench_of
 from tests.short_benchmark import write_benchmark
+from uwsim.results.seal import PR_SET_DUMPABLE, deny_access_to_memory
 from uwsim.runs.executors.executor import run_each
 from uwsim.runs.run import Run
 from uwsim.runs.sealed import is_foreign
@@ -35,6 +37,15 @@ class Looks(Holds):
         self.dumpable.append(ctypes.CDLL(None).prctl(IS_DUMPABLE, 0, 0, 0, 0))
         files = [path for path in self.folder.rglob("*") if path.is_file()]
         self.seen.append(b"\n".join(path.read_bytes() for path in files))
+
+
+@pytest.fixture(autouse=True)
+def _denies_access(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Runs deny access to the memory of this process, as outside of the tests."""
+    for module in ("uwsim.runs.sealed", "uwsim.runs.executors.executor"):
+        monkeypatch.setattr(f"{module}.deny_access_to_memory", deny_access_to_memory)
+    yield
+    ctypes.CDLL(None).prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)
 
 
 def played(tmp_path: Path) -> Run:
