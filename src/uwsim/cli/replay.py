@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import closing, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -323,9 +324,11 @@ def recorded(
 
 def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     """Write a film, showing progress; returns what was written."""
-    from ..viewer.film.film import Reel, record
+    from ..viewer.film.film import Reel, n_frames_of, record
+    from ..viewer.film.processes import DrawingProcesses, processes_for
 
-    reel = Reel(trials, spec)
+    n_frames = sum(n_frames_of(trial, spec) for trial in trials)
+    n = processes_for(n_frames)
     n_drawn = 0
 
     def drawn() -> None:
@@ -335,20 +338,21 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
 
     raise_from_now_on()
     try:
-        with progress("film", reel.n_frames, of="images") as on_frame:
-            record(reel, out, drawn)
-        seconds = reel.n_frames / spec.rate
+        with (
+            closing(DrawingProcesses(trials, spec, n)) if n > 1 else nullcontext() as processes,
+            closing(Reel(trials, spec)) as reel,
+            progress("film", n_frames, of="images") as on_frame,
+        ):
+            record(reel, out, drawn, processes.frames(n_frames) if processes else None)
         return (
-            f"{trials[0].title}: {reel.n_frames} images, {seconds:.1f} s, "
+            f"{trials[0].title}: {n_frames} images, {n_frames / spec.rate:.1f} s, "
             f"{spec.size[0]}x{spec.size[1]}; written: {out}"
         )
     except KeyboardInterrupt:
         if n_drawn:
             seconds = n_drawn / spec.rate
-            warn(f"{out}: has the first {n_drawn} of {reel.n_frames} images, {seconds:.1f} s")
+            warn(f"{out}: has the first {n_drawn} of {n_frames} images, {seconds:.1f} s")
         raise
-    finally:
-        reel.close()
 
 
 def even(size: tuple[int, int]) -> tuple[int, int]:

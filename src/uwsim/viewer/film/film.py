@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -79,16 +79,10 @@ class Film:
         self._trial = trial
         self.spec = spec
         """What it shows."""
-        last = trial.track.duration
-        self.start = 0.0 if spec.start is None else max(0.0, spec.start)
+        start, self._end = span_of(trial, spec)
+        self.start = start
         """Simulation time of the first image [s]."""
-        self._end = last if spec.end is None else min(spec.end, last)
-        if not self.start < self._end:
-            raise BadSetting(
-                f"Nothing to show from {self.start:g} s to {self._end:g} s: the trial is "
-                f"{last:g} s long."
-            )
-        self.n_frames = max(1, math.ceil((self._end - self.start) * spec.rate / spec.speed - 1e-6))
+        self.n_frames = n_frames_of(trial, spec)
         """Number of images."""
         _check_curves(trial, spec)
         self._puppets = Puppets(trial, simulation)
@@ -198,13 +192,18 @@ class Film:
         return image if (lens.width, lens.height) == size else centred(image, size)
 
     def _draw_inset(self, frame: Pixels, time: float) -> None:
-        """Draw a camera's image at the right of the strip; again only ten times a second."""
+        """Draw a camera's image at the right of the strip; it changes ten times a second.
+
+        It shows the camera's view of the last tenth of a second, whatever was drawn before: films
+        that several processes draw have the same bytes.
+        """
         assert self._camera is not None
         assert self._inset_size is not None
         width, height = self._inset_size
-        due = math.floor(time * 10.0 + 1e-6)
+        due = max(self.start, math.floor(time * 10.0 + 1e-6) / 10.0)
         if self._inset is None or self._inset[0] != due:
-            self._inset = due, self._seen(self._camera, self._inset_size, time)
+            self._puppets.put(due)
+            self._inset = due, self._seen(self._camera, self._inset_size, due)
         x, y = self.spec.size[0] - width - MARGIN, self._strip_top + MARGIN
         overlay.paste(frame, self._inset[1], x, y)
         name = self._camera
@@ -308,6 +307,14 @@ class Reel:
         for film in self._films:
             yield from film.frames()
 
+    def draw(self, number: int) -> Pixels:
+        """Draw an image by its number, 0 <= number < `n_frames`, (h, w, 3)."""
+        for film in self._films:
+            if number < film.n_frames:
+                break
+            number -= film.n_frames
+        return film.draw(film.time_of(number))
+
     def chapters(self) -> list[Chapter]:
         """Return the chapters of all."""
         found, before = [], 0.0
@@ -324,7 +331,34 @@ class Reel:
         self._simulation.close()
 
 
-def record(film: Film | Reel, path: Path, on_frame: Callable[[], object] = lambda: None) -> None:
+def span_of(trial: RecordedTrial, spec: FilmSpec) -> tuple[float, float]:
+    """Return the simulation times of the first image and of the end [s].
+
+    Raises:
+        BadSetting: nothing lies between them.
+    """
+    last = trial.track.duration
+    start = 0.0 if spec.start is None else max(0.0, spec.start)
+    end = last if spec.end is None else min(spec.end, last)
+    if not start < end:
+        raise BadSetting(
+            f"Nothing to show from {start:g} s to {end:g} s: the trial is {last:g} s long."
+        )
+    return start, end
+
+
+def n_frames_of(trial: RecordedTrial, spec: FilmSpec) -> int:
+    """Return how many images a film of a trial has; raises BadSetting as `span_of`."""
+    start, end = span_of(trial, spec)
+    return max(1, math.ceil((end - start) * spec.rate / spec.speed - 1e-6))
+
+
+def record(
+    film: Film | Reel,
+    path: Path,
+    on_frame: Callable[[], object] = lambda: None,
+    frames: Iterable[Pixels] | None = None,
+) -> None:
     """Draw a film and write it.
 
     After an interruption the file has the images that were drawn before it; after an error there is
@@ -334,11 +368,12 @@ def record(film: Film | Reel, path: Path, on_frame: Callable[[], object] = lambd
         film: the film.
         path: of the file; its suffix is one of `encoder.SUFFIXES`.
         on_frame: called after each image.
+        frames: its images, if something else draws them (`processes.DrawingProcesses`).
     """
     encoder = encoder_of(path, film.spec.size, film.spec.rate, film.chapters())
     is_to_keep = False
     try:
-        for frame in film.frames():
+        for frame in film.frames() if frames is None else frames:
             encoder.add(frame)
             on_frame()
         is_to_keep = True

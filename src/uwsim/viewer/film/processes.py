@@ -1,0 +1,136 @@
+"""Drawing the images of a film in several processes, each with its own graphics context."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import queue
+import threading
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from multiprocessing.connection import Connection
+
+import numpy as np
+
+from ...environment import environment
+from ...errors import RunFailed
+from ...runs.executors.executor import ENVIRONMENT
+from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_interrupts
+from ...runs.executors.worker import picklable
+from ...runs.own_process.process import how
+from ..recorded import RecordedTrial
+from .film import FilmSpec, Reel
+from .overlay import Pixels
+
+MOST = 16
+"""The most processes that draw one film: they feed one encoder."""
+FEWEST_IMAGES = 60
+"""Images that make up for the start of a process."""
+AHEAD = 4
+"""Images that a process draws before they are taken."""
+PATIENCE = 10.0
+"""How long a process may take to leave, before it is made to [s]."""
+
+
+def processes_for(n_frames: int) -> int:
+    """Return how many processes draw a film of so many images: one a core, 1 for a short film."""
+    return max(1, min(len(os.sched_getaffinity(0)), n_frames // FEWEST_IMAGES, MOST))
+
+
+class DrawingProcesses:
+    """Processes that draw the images of a film, process k of n the images k, k + n, k + 2 n, ...
+
+    They are started with ``spawn``, so the main module of a program that uses them is guarded by
+    ``if __name__ == "__main__"``.
+
+    Args:
+        trials: as of `Reel`.
+        spec: as of `Reel`.
+        n: how many processes.
+    """
+
+    def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec, n: int) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._size = spec.size
+        self._pipes: list[Connection] = []
+        self._parents: list[Connection] = []
+        self._processes = []
+        with environment(ENVIRONMENT):
+            for k in range(n):
+                pipe, theirs = context.Pipe(duplex=False)
+                watched, parent = context.Pipe(duplex=False)
+                process = context.Process(
+                    target=draw_every, args=(tuple(trials), spec, k, n, theirs, watched)
+                )
+                self._pipes.append(pipe)
+                self._parents.append(parent)
+                start_ignoring_interrupts(process)
+                self._processes.append(process)
+                for end in (theirs, watched):
+                    end.close()  # so that a pipe ends when the process at its other end does
+
+    def frames(self, n_frames: int) -> Iterator[Pixels]:
+        """Return the images in order, (h, w, 3) each.
+
+        Args:
+            n_frames: how many there are.
+
+        Raises:
+            RunFailed: a process has died.
+            UwsimError: what a process could not draw.
+        """
+        width, height = self._size
+        for number in range(n_frames):
+            at = number % len(self._pipes)
+            try:
+                received: bytes | Exception = self._pipes[at].recv()
+            except (EOFError, OSError):
+                self._processes[at].join(PATIENCE)
+                reason = how(self._processes[at].exitcode)
+                raise RunFailed(f"A process that draws the film has ended: {reason}.") from None
+            if isinstance(received, Exception):
+                raise received
+            yield np.frombuffer(received, np.uint8).reshape(height, width, 3)
+
+    def close(self) -> None:
+        """End the processes."""
+        for end in (*self._pipes, *self._parents):
+            end.close()
+        for process in self._processes:
+            process.kill()
+            process.join()
+            process.close()
+
+
+def draw_every(
+    trials: Sequence[RecordedTrial],
+    spec: FilmSpec,
+    first: int,
+    n: int,
+    pipe: Connection,
+    parent: Connection,
+) -> None:
+    """Draw every n-th image from ``first`` on, and send each; ends with the parent."""
+    exit_with_parent(parent)
+    drawn: queue.Queue[bytes | Exception | None] = queue.Queue(AHEAD)
+    sender = threading.Thread(target=_send, args=(drawn, pipe))
+    sender.start()
+    try:
+        reel = Reel(trials, spec)
+        try:
+            for number in range(first, reel.n_frames, n):
+                drawn.put(reel.draw(number).tobytes())
+        finally:
+            reel.close()
+    except Exception as error:
+        drawn.put(picklable(error))
+    finally:
+        drawn.put(None)
+        sender.join()
+
+
+def _send(drawn: queue.Queue[bytes | Exception | None], pipe: Connection) -> None:
+    """Send what is drawn while the next image is drawn."""
+    with suppress(OSError):  # the parent has gone
+        while (one := drawn.get()) is not None:
+            pipe.send(one)
