@@ -7,13 +7,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Literal, Self, get_args
 
-import cv2
-import numpy as np
-
 from ..bus import OBSERVER, Bus
 from ..errors import BadSetting, RunFailed, did_you_mean
-from ..messages import CompressedImage, Image, PointCloud2, pixels_of
+from ..messages import CompressedImage, Image, PointCloud2
 from ..messages.build import NANOSECONDS
+from ..messages.compressed import as_png
 from ..middleware.types import WireType, wire_type
 from .bag_file import BagFile
 from .mcap_file import McapFile
@@ -173,13 +171,3 @@ class Recorder:
         except RunFailed:
             if error is None:
                 raise
-
-
-def as_png(image: Image) -> CompressedImage:
-    """Return an ``rgb8`` or ``mono8`` image as PNG, without loss."""
-    pixels = pixels_of(image)
-    ordered = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
-    _, packed = cv2.imencode(".png", ordered)
-    return CompressedImage(
-        header=image.header, format=f"{image.encoding}; png compressed", data=packed.reshape(-1)
-    )

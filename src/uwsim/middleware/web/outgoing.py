@@ -11,15 +11,12 @@ from typing import Any
 import cv2
 import numpy as np
 
-from ...messages import CompressedImage, Image, pixels_of
 from ..encodings import to_cdr
 from ..json_encoding import to_json, to_plain
 from ..stamps import outward
 from .cbor import encode_cbor
 
 COMPRESSIONS = ("none", "png", "cbor", "cbor-raw")
-JPEG_QUALITY = 90
-"""The JPEG quality of compressed images, 0 to 100."""
 
 
 class Outgoing:
@@ -74,16 +71,6 @@ class Outgoing:
         fields = self._wrap(to_json(self._message))
         content = {"op": "publish", "topic": self._topic, "msg": fields}
         return json.dumps(content, separators=(",", ":"), allow_nan=False)
-
-
-def as_jpeg(image: Image) -> CompressedImage:
-    """Return an ``rgb8`` or ``mono8`` image as JPEG."""
-    pixels = pixels_of(image)
-    ordered = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
-    _, packed = cv2.imencode(".jpg", ordered, [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY])
-    return CompressedImage(
-        header=image.header, format=f"{image.encoding}; jpeg compressed", data=packed.reshape(-1)
-    )
 
 
 def packed_png(text: str) -> str:

@@ -24,6 +24,7 @@ from ...bus import Bus, TopicEnds
 from ...errors import BadSetting, UnknownName, UwsimError
 from ...message_fields import size_of
 from ...messages import CompressedImage, Image, TFMessage
+from ...messages.compressed import as_jpeg
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge
 from ..log import Log
@@ -32,7 +33,7 @@ from ..types import message_class, ros2_store, wire_type
 from ..work_budget import WorkBudget
 from .frame_republisher import FEEDBACK, SOURCES, FrameRepublisher, feedback
 from .options import WebOptions
-from .outgoing import Outgoing, as_jpeg
+from .outgoing import Outgoing
 from .session import Session, Subscription
 
 LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
