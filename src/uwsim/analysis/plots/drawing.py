@@ -159,19 +159,42 @@ def draw_repeats(axes: Axes, curve: Curve, look: Look, *, with_boxes: bool) -> N
         )  # fmt: skip
     boxed = [k for k, values in enumerate(curve.values) if len(values) >= FEWEST_FOR_BOX]
     if with_boxes and boxed:
-        line = {"color": look.colour, "linewidth": 0.7, "alpha": 0.8}
-        axes.boxplot(
-            [curve.values[k] for k in boxed],
-            positions=[curve.x[k] for k in boxed],
-            widths=width,
-            manage_ticks=False,
-            showfliers=False,
-            boxprops=line,
-            whiskerprops=line,
-            capprops=line,
-            medianprops={"color": INK, "linewidth": 1.0},
-            zorder=2.7,
-        )
+        places = [curve.x[k] for k in boxed]
+        draw_boxes(axes, [curve.values[k] for k in boxed], places, width, look.colour)
+
+
+def draw_boxes(
+    axes: Axes,
+    values: Sequence[Sequence[float]],
+    places: Sequence[float],
+    width: float,
+    colour: str,
+    **settings: Any,
+) -> None:
+    """Draw boxes of quartiles with medians and whiskers, behind points; without outliers.
+
+    Args:
+        axes: where.
+        values: those of each box.
+        places: of the boxes along the other axis.
+        width: of each.
+        colour: of their lines.
+        settings: others of Matplotlib.
+    """
+    line = {"color": colour, "linewidth": 0.7, "alpha": 0.8}
+    axes.boxplot(
+        values,
+        positions=places,
+        widths=width,
+        manage_ticks=False,
+        showfliers=False,
+        boxprops=line,
+        whiskerprops=line,
+        capprops=line,
+        medianprops={"color": INK, "linewidth": 1.0},
+        zorder=2.7,
+        **settings,
+    )
 
 
 def _box_width(levels: Iterable[float]) -> float:

@@ -8,8 +8,8 @@ from matplotlib.ticker import MaxNLocator
 
 from ...results.result import Result
 from .curves import Curve, curves_of, label_of
-from .drawing import FEWEST_FOR_BOX
-from .style import INK, PALETTE, plain, styled_figure, write_note
+from .drawing import FEWEST_FOR_BOX, draw_boxes
+from .style import PALETTE, plain, styled_figure, write_note
 
 NOTE = "dots: repeats; circle: mean with its 95 % interval; boxes: quartiles and median"
 
@@ -36,19 +36,7 @@ def _draw(axes: Axes, curve: Curve) -> None:
     """Draw the repeats of one column along x."""
     values, colour = curve.values[0], PALETTE[0]
     if len(values) >= FEWEST_FOR_BOX:
-        line = {"color": colour, "linewidth": 0.8, "alpha": 0.8}
-        axes.boxplot(
-            [values],
-            positions=[-0.35],
-            widths=0.4,
-            orientation="horizontal",
-            showfliers=False,
-            manage_ticks=False,
-            boxprops=line,
-            whiskerprops=line,
-            capprops=line,
-            medianprops={"color": INK, "linewidth": 1.0},
-        )
+        draw_boxes(axes, [values], [-0.35], 0.4, colour, orientation="horizontal")
     axes.plot(values, [0.3] * len(values), "o", color=colour, markersize=3.2, alpha=0.55, mew=0)
     low, high = curve.low[0], curve.high[0]
     if low == low and high == high:  # neither is NaN
