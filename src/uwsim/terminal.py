@@ -57,6 +57,11 @@ def legible(text: str) -> str:
     )
 
 
+def one_line(text: str) -> str:
+    """Escape all control characters, line ends too."""
+    return legible(text).replace("\n", "\\n")
+
+
 LONG = re.compile(rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{MAX_QUOTE_LENGTH + 1},}}""")
 """Quoted texts, and long words."""
 

@@ -7,7 +7,7 @@ import threading
 from collections import Counter, deque
 from collections.abc import Callable
 
-from ..terminal import printable
+from ..terminal import one_line, printable
 
 MAX_OF_A_KIND = 5
 """Lines of one kind that are printed; the next says that there are more."""
@@ -37,7 +37,11 @@ class Log:
         """The newest lines, for whoever shows them."""
 
     def say(self, line: str, *, kind: str = "") -> None:
-        """Report an event; of one ``kind`` (default: the line itself) only a few."""
+        """Report an event; of one ``kind`` (default: the line itself) only a few.
+
+        Line ends in what a peer has sent are escaped: it writes no lines of its own.
+        """
+        line = one_line(line)
         key = kind or line
         with self._lock:
             if key not in self._counts and len(self._counts) >= MAX_KINDS:
