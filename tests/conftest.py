@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+pytest_plugins = ["tests.crashed_processes"]
+
 settings.register_profile(
     "any computer", deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )

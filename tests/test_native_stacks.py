@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import resource
 import shutil
 import subprocess
@@ -13,6 +14,14 @@ import pytest
 ROOT = Path(__file__).parents[1]
 PATTERN = Path("/proc/sys/kernel/core_pattern")
 CRASH = "import ctypes\ndef test_crash(): ctypes.string_at(0)\ndef test_other(): pass\n"
+ONCE = """import ctypes, pathlib
+def test_crash():
+    seen = pathlib.Path("seen")
+    if not seen.exists():
+        seen.touch()
+        ctypes.string_at(0)
+def test_other(): pass
+"""
 MOST = resource.getrlimit(resource.RLIMIT_CORE)[1]
 
 
@@ -40,16 +49,38 @@ def test_a_crash_leaves_the_stacks_of_all_threads(tmp_path: Path) -> None:
     assert not list(tmp_path.glob("core*"))
 
 
+def run_tests(folder: Path, code: str) -> subprocess.CompletedProcess[str]:
+    """Run tests in a worker, with this folder as the only one."""
+    (folder / "test_crash.py").write_text(code)
+    options = ["--numprocesses", "1", "-p", "no:cacheprovider", "-p", "tests.crashed_processes"]
+    command = [sys.executable, "-m", "pytest", *options, str(folder)]
+    environment = os.environ | {"PYTHONPATH": str(ROOT)}
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=environment)
+    for core in folder.glob("core*"):
+        core.unlink()  # or a failure elsewhere would have it reported as its own
+    return done
+
+
 @pytest.mark.slow
-def test_a_worker_that_crashes_is_replaced_and_its_python_stack_printed(tmp_path: Path) -> None:
-    (tmp_path / "test_crash.py").write_text(CRASH)
-    command = [sys.executable, "-m", "pytest", "--numprocesses", "1", "-p", "no:cacheprovider"]
-    done = subprocess.run([*command, str(tmp_path)], cwd=tmp_path, capture_output=True, text=True)
+def test_a_worker_that_crashes_twice_is_replaced_and_its_python_stack_printed(
+    tmp_path: Path,
+) -> None:
+    done = run_tests(tmp_path, CRASH)
     assert done.returncode == 1
     assert "test_crash.py::test_crash" in done.stdout
     assert "crashed while running" in done.stdout
-    assert "1 failed, 1 passed" in done.stdout
+    assert "1 failed, 1 passed, 1 rerun" in done.stdout
+    assert done.stdout.count("CRASHED test_crash.py::test_crash") == 2
     assert "Segmentation fault" in done.stderr + done.stdout
     assert "in test_crash" in done.stderr + done.stdout
-    for core in tmp_path.glob("core*"):
-        core.unlink()  # or a failure elsewhere would have it reported as its own
+
+
+@pytest.mark.slow
+def test_a_test_that_crashes_its_process_once_is_run_again_and_named(tmp_path: Path) -> None:
+    done = run_tests(tmp_path, ONCE)
+    assert done.returncode == 0
+    assert "2 passed, 1 rerun" in done.stdout
+    assert done.stdout.count("CRASHED test_crash.py::test_crash") == 1
+    assert "Segmentation fault" in done.stderr + done.stdout
+    failed = run_tests(tmp_path, CRASH.replace("ctypes.string_at(0)", "assert not 1"))
+    assert "1 failed, 1 passed in" in failed.stdout  # what fails without a crash is not run again
