@@ -11,7 +11,7 @@ from .work_budget import WorkBudget
 
 MAX_CALLS = 1000
 """Calls that may wait for the end of a step."""
-SHARE, BURST = 0.02, 0.05
+SHARE, BURST = 0.01, 0.05
 """Share of the wall time in which a flood of calls is answered, and the time at once [s]."""
 AT_ONCE = 10
 """Calls that are answered together while the simulation waits; more are a flood when it runs."""

@@ -31,7 +31,7 @@ class OutQueue:
     """Frames in the order in which they came; any thread may put, the writer takes.
 
     Args:
-        wake: called when something came.
+        wake: called when something came and nothing waited.
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:
@@ -45,7 +45,7 @@ class OutQueue:
     def put(self, lane: Lane, item: Outgoing | str) -> int:
         """Put an item at the end; returns how many messages were dropped for it."""
         with self._lock:
-            before = self.n_dropped
+            before, was_empty = self.n_dropped, not self._order
             lane.items.append(item)
             self._order.append(lane)
             self._n_bytes += size_of(item)
@@ -56,7 +56,8 @@ class OutQueue:
                 self._order.remove(lane)  # its oldest place
                 self.n_dropped += 1
             dropped = self.n_dropped - before
-        self._wake()
+        if was_empty:  # else the writer takes it before it waits
+            self._wake()
         return dropped
 
     def take(self) -> tuple[Lane, Outgoing | str] | None:

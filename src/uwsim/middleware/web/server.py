@@ -46,6 +46,9 @@ CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
 """Share of the wall time in which frames of one client are read, and the time at once [s]."""
 ALL_SHARE, ALL_BURST = 0.04, 0.1
 """The same of all clients together, but those that a run in lock-step waits for."""
+REST = 0.1
+"""How long a client beyond its share is not read, besides what it has taken too much [s]: each time
+that the server wakes, the simulation waits for Python's lock."""
 FRAME_COST, MAX_COST = 5e-5, 0.05
 """Time that the WebSocket library takes for a frame, and the most that a frame counts [s]."""
 MAX_CLIENTS = 64
@@ -380,7 +383,7 @@ class WebBridge(Bridge):
                     own.spend(took)
                     self._work.spend(took)
                     if (delay := max(own.delay, self._work.delay)) > 0.0:
-                        await asyncio.sleep(delay)
+                        await asyncio.sleep(delay + REST)
         except ConnectionClosed:
             pass
         finally:

@@ -1,0 +1,179 @@
+"""What floods of a web client take from a run.
+
+Run ``python benchmarks/floods.py``. The scene of `currents` runs as fast as it can with its port
+open: with no client, and beside a program that floods it with 6 400 small frames a second, with
+calls of a service, or with frames of 700 000 keys. The program is a process of its own, which has
+its share of the last core; a process that computes and does not connect takes a whole core, for
+comparison. Runs with a flood and without take turns; medians are compared, by wall time and by CPU
+time of uwsim's own process, which other programs on the computer change less.
+
+Targets: 0.98 of the rate of the quiet run, and no more than 0.25 s of wall time between two
+messages on ``/clock``. One JSON on stdout.
+"""
+
+from __future__ import annotations
+
+import resource
+import subprocess
+import sys
+import time
+from statistics import median
+
+from measure import kept, main, reached
+
+import uwsim
+from uwsim.messages import Empty, EmptyResponse
+from uwsim.middleware.log import Log
+from uwsim.middleware.web.options import WebOptions
+from uwsim.middleware.web.server import WebBridge
+
+SCENE = "currents-scene"
+FLOOD = """
+import json, os, sys, threading, time
+from websockets.sync.client import connect
+
+kind, uri = sys.argv[1:]
+os.sched_setaffinity(0, [max(os.sched_getaffinity(0))])
+if kind == "busy":
+    print("here", flush=True)
+    while True:
+        sum(range(10_000))
+
+def drain():
+    for _ in socket:
+        pass
+
+with connect(uri, max_size=2**26, max_queue=None) as socket:
+    threading.Thread(target=drain, daemon=True).start()
+    socket.send(json.dumps({"op": "advertise", "topic": "/flood", "type": "std_msgs/Float64"}))
+    if kind == "frames":
+        frame = json.dumps({"op": "publish", "topic": "/flood", "msg": {"data": 0.5}})
+    elif kind == "calls":
+        frame = json.dumps({"op": "call_service", "service": "/flood", "args": {}})
+    else:
+        keys = {f"k{n}": 0 for n in range(700_000)}
+        frame = json.dumps({"op": "publish", "topic": "/flood", "msg": keys})
+    print("here", flush=True)
+    began, n = time.monotonic(), 0
+    while True:
+        socket.send(frame)
+        n += 1
+        if kind == "frames" and n % 64 == 0:
+            time.sleep(max(0.0, began + n / 6400.0 - time.monotonic()))
+"""
+"""The program that floods, on the last core; says when it begins. Frames come 64 at a time: a
+program that wakes for each of them takes a quarter of a core for that alone."""
+KINDS = {
+    "6400 frames a second": "frames",
+    "calls of a service": "calls",
+    "frames of 700 000 keys": "keys",
+    "a process that computes": "busy",
+}
+QUIET = "quiet"
+WARM_UP, LASTS = 1.0, 4.0
+"""Of a run [s of wall time]."""
+ROUNDS = 5
+RATE_TARGET, GAP_TARGET = 0.98, 0.25
+"""Of the rate of the quiet run, and between two messages on ``/clock`` [s]."""
+
+
+class Pauses:
+    """The longest wall time between two messages on ``/clock`` [s]."""
+
+    def __init__(self, bridge: WebBridge) -> None:
+        self._bridge = bridge
+        self.restart()
+
+    def restart(self) -> None:
+        """Forget what was longest."""
+        self._last, self.longest = time.perf_counter(), 0.0
+
+    def step(self) -> None:
+        """Have the bridge do its work, and note when it has sent the time."""
+        is_due = self._bridge.clock_topic.is_due
+        self._bridge.step()
+        if is_due:
+            now = time.perf_counter()
+            self._last, self.longest = now, max(self.longest, now - self._last)
+
+
+def run(kind: str | None) -> dict[str, float]:
+    """Run the scene beside a flood: simulation time per wall time, CPU shares, longest pause."""
+    with uwsim.load(SCENE) as simulation:
+        simulation.bus.services.serve("flood", Empty, lambda request: EmptyResponse())
+        log = Log("web", lambda line: None)
+        bridge = WebBridge(simulation.bus, lambda: simulation.time, WebOptions(port=0), log)
+        pauses = Pauses(bridge)
+        simulation.watch(pauses.step)
+        simulation.advance(0.1)
+        program = None
+        cpu_before, began_all = children_cpu(), time.perf_counter()
+        if kind is not None:
+            words = [sys.executable, "-c", FLOOD, kind, f"ws://127.0.0.1:{bridge.port}"]
+            program = subprocess.Popen(words, stdout=subprocess.PIPE)
+            assert program.stdout is not None
+            program.stdout.readline()
+            began_all = time.perf_counter()
+        advance_for(simulation, WARM_UP)
+        pauses.restart()
+        cpu, began, time_before = time.process_time(), time.perf_counter(), simulation.time
+        advance_for(simulation, LASTS)
+        wall = time.perf_counter() - began
+        found = {
+            "rate": (simulation.time - time_before) / wall,
+            "cpu_share": (time.process_time() - cpu) / wall,
+            "longest_gap_s": pauses.longest,
+        }
+        if program is not None:
+            program.kill()
+            program.communicate()
+            found["cpu_share_of_flood"] = (children_cpu() - cpu_before) / (
+                time.perf_counter() - began_all
+            )
+        bridge.close()
+        return found
+
+
+def advance_for(simulation: uwsim.Simulation, wall: float) -> None:
+    """Let simulation time go by for some wall time [s]."""
+    end = time.perf_counter() + wall
+    while time.perf_counter() < end:
+        simulation.advance(0.02)
+
+
+def children_cpu() -> float:
+    """CPU time of the child processes that have ended [s]."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def measure() -> dict[str, object]:
+    """Take turns, and compare the medians."""
+    runs: dict[str, list[dict[str, float]]] = {name: [] for name in (QUIET, *KINDS)}
+    run(None)  # warms up
+    for _ in range(ROUNDS):
+        for name in runs:
+            runs[name].append(run(KINDS.get(name)))
+    quiet = median(each["rate"] for each in runs[QUIET])
+    quiet_by_cpu = median(each["rate"] / each["cpu_share"] for each in runs[QUIET])
+    figures: dict[str, object] = {}
+    for name, found in runs.items():
+        gap = max(each["longest_gap_s"] for each in found)
+        figures[name] = {
+            "times_real_time": round(median(each["rate"] for each in found), 2),
+            "rate_to_quiet": reached(median(each["rate"] for each in found) / quiet, RATE_TARGET),
+            "rate_by_cpu_to_quiet": round(
+                median(each["rate"] / each["cpu_share"] for each in found) / quiet_by_cpu, 3
+            ),
+            "longest_gap_of_clock_s": kept(gap, GAP_TARGET),
+            **{
+                share: round(median(each[share] for each in found), 3)
+                for share in ("cpu_share", "cpu_share_of_flood")
+                if share in found[0]
+            },
+        }
+    return figures
+
+
+if __name__ == "__main__":
+    main(measure)
