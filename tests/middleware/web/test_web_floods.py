@@ -40,6 +40,7 @@ def test_a_flood_is_read_in_few_bursts(monkeypatch: pytest.MonkeyPatch) -> None:
     finally:
         bridge.close()
     assert 0 < len(rests) < n / 5
+    assert sum("sends faster than it is read" in line for line in bridge.log.lines) in range(1, 7)
 
 
 def test_frames_that_wait_behind_others_do_not_wake_the_writer_again() -> None:

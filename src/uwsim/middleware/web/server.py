@@ -383,6 +383,8 @@ class WebBridge(Bridge):
                     own.spend(took)
                     self._work.spend(took)
                     if (delay := max(own.delay, self._work.delay)) > 0.0:
+                        line = f"{name} sends faster than it is read; its frames wait"
+                        self.log.say(line, kind="faster than it is read")
                         await asyncio.sleep(delay + REST)
         except ConnectionClosed:
             pass
