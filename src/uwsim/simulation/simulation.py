@@ -179,7 +179,7 @@ class Simulation:
             or self._watchers
             or world.touch.is_laid
             or not world.state.is_dynamic
-            or world.state.grips.is_carrying
+            or world.state.moves_by_step
             or not world.water.is_uniform
             or (self._drifting and not world.water.is_still)
         ):
