@@ -27,9 +27,9 @@ from .engine_warnings import StepCheck
 from .grips import Grips
 from .hydrodynamics import VehicleHydrodynamics
 from .joint_wrench import JointWrench
+from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
 from .kinematics.placed_motion import PlacedMotion
-from .lift import Lift
 from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks

@@ -186,7 +186,7 @@ class Simulation:
             return 1
         dues = [delivery, world.schedule.due if world.network.is_idle else now]
         dues += [each.timer.due for each in self.images.values()]
-        dues += [node.next_tick for node in self._nodes]
+        dues += [world.below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self.time - self.timestep
         rests = [math.inf, *(device.rests_until(began) for device in world.devices)]
         free = (min(rests) - began) // self.timestep - 1
