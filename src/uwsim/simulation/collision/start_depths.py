@@ -3,7 +3,8 @@
 Ground is what stands fixed and can be touched, each thing of it looked at alone. Bodies that begin
 deeper than a share of their height are a mistake of the scene, of which `uwsim check` warns. Those
 whose origin is less than their own height below the surface are lifted when the run begins
-(`uwsim.physics.kinematics.lift`), unless the scene accepts their start. What is deeper stays where it is.
+(`uwsim.physics.kinematics.lift`), unless the scene accepts their start. What is deeper stays where
+it is.
 """
 
 from __future__ import annotations
