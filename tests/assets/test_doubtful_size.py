@@ -28,19 +28,34 @@ def test_a_hull_in_millimetres_is_warned_of_until_it_is_scaled(tmp_path: Path) -
     assert said(tmp_path, 'filename="hull.stl" scale="0.001 -0.001 0.001"') == []
 
 
-@pytest.mark.parametrize(("unit", "is_doubtful"), [("0.0254", True), ("1", False), ("1.0", False)])
-def test_a_collada_file_in_inches_is_warned_of(
-    unit: str, is_doubtful: bool, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("unit", ["0.0254", "1", "1.0"])
+def test_the_unit_of_a_collada_file_is_applied_once(unit: str, tmp_path: Path) -> None:
     trimesh.creation.box((18.0, 13.0, 10.0)).export(tmp_path / "hull.dae")
     text = (tmp_path / "hull.dae").read_text()
     (tmp_path / "hull.dae").write_text(with_unit(text, unit))
-    found = said(tmp_path, 'filename="hull.dae"')
-    assert found == is_doubtful * [
-        "warning 2: the mesh 'hull.dae' says that its unit is 0.0254 m; it is read in metres: "
-        'scale="0.0254 0.0254 0.0254" if it is too large or too small'
+    assert said(tmp_path, 'filename="hull.dae"') == []
+    assert said(tmp_path, f'filename="hull.dae" scale="{unit} {unit} {unit}"') == [
+        "warning 2: the mesh 'hull.dae' states that its unit is 0.0254 m, which is applied, and "
+        'its scale is the same again; expected scale="1 1 1"'
+    ] * (unit == "0.0254")
+
+
+def test_a_hull_that_is_too_long_in_its_unit_is_warned_of(tmp_path: Path) -> None:
+    trimesh.creation.box((18.0, 13.0, 10.0)).export(tmp_path / "hull.dae")
+    text = (tmp_path / "hull.dae").read_text()
+    (tmp_path / "hull.dae").write_text(with_unit(text, "10"))
+    (found,) = said(tmp_path, 'filename="hull.dae"')
+    assert "is 180 x 130 x 100 m; if it is in millimetres" in found
+
+
+def test_a_unit_that_is_no_length_is_warned_of(tmp_path: Path) -> None:
+    trimesh.creation.box((1.0, 1.0, 1.0)).export(tmp_path / "hull.dae")
+    text = (tmp_path / "hull.dae").read_text()
+    (tmp_path / "hull.dae").write_text(with_unit(text, "inch"))
+    assert said(tmp_path, 'filename="hull.dae"') == [
+        "warning 2: the mesh 'hull.dae' states inch as its unit; expected a length in metres: "
+        "it is read in metres"
     ]
-    assert said(tmp_path, f'filename="hull.dae" scale="{unit} {unit} {unit}"') == []
 
 
 def with_unit(collada: str, unit: str) -> str:

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import io
 import re
+from dataclasses import replace
 
 import pytest
 from rich.console import Console
 
 from tests.synthetic_results import WHY, nested, nothing_measured, one_level, visibility
+from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
-from uwsim.results.result import Column, Result
+from uwsim.results.result import Column, Remark, Result
+from uwsim.results.result_file import dumps, loads
 from uwsim.results.run_info import RunInfo
 from uwsim.results.table import (
     exact_decimals,
@@ -164,3 +167,27 @@ def test_a_sum_of_pixels_is_in_pixels(expression: str, unit: str) -> None:
     )
     result = Result(inputs=Inputs(), run=RunInfo(), columns=columns, rows=())
     assert unit_of(result, total) == unit
+
+
+REMARK = "corners: all estimates are exactly the start"
+
+
+def test_a_remark_stands_beside_the_status_of_a_row_that_has_all_values() -> None:
+    result = replace(visibility(), remarks=(Remark(row=0, text=REMARK),))
+    drawn = text(result)
+    assert drawn[2].split()[5] == "ok"
+    assert drawn[2].endswith(REMARK)
+    assert drawn[3].split()[-1] == "ok"
+    assert loads(dumps(result)) == result
+    assert "remarks" not in dumps(visibility())
+
+
+def test_over_repeats_it_is_said_of_how_many_a_remark_is() -> None:
+    rows = [Remark(row=row, text=REMARK) for row in (0, 27)]
+    drawn = lines(replace(visibility(seeds=(1, 2, 3, 4)), remarks=tuple(rows)))
+    assert [line.why for line in drawn if line.why.endswith(REMARK)] == [f"2 of 4: {REMARK}"]
+
+
+def test_a_remark_about_a_row_that_is_not_there_is_an_error() -> None:
+    with pytest.raises(ResultError, match=r"remarks\[0\] is about row 99, which is not there"):
+        replace(visibility(), remarks=(Remark(row=99, text=REMARK),))

@@ -44,7 +44,7 @@ def scene(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SceneS
 
 def track(scene: SceneSpec) -> str:
     """Hash of all positions of a vehicle that is pushed out of the ground it begins in."""
-    sunk = replace(scene.vehicles[0], position=(0.0, 0.0, -3.9))
+    sunk = replace(scene.vehicles[0], position=(0.0, 0.0, -3.9), accepts=("start",))
     digest = hashlib.sha256()
     with Simulation(replace(scene, vehicles=(sunk,))) as simulation:
         row = np.zeros(simulation.motion.size)

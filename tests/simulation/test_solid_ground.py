@@ -110,7 +110,7 @@ DESERT = ObjectSpec(
     "scenery",
     [
         DESERT,
-        replace(DESERT, file="terrain/seafloor/terrain_noship.osg", position=(0.0, 0.0, -11.0),
+        replace(DESERT, file="terrain/seafloor/terrain_noship.osg", position=(0.0, 0.0, -11.5),
                 orientation=(3.1415927, 0.0, 0.0)),
         replace(DESERT, file="terrain/islands/islands.osg", position=(0.0, 0.0, 3.0),
                 orientation=(0.0, 0.0, 0.0)),
@@ -121,7 +121,7 @@ DESERT = ObjectSpec(
 def test_every_bundled_sea_floor_stops_a_vehicle(scenery: ObjectSpec) -> None:
     simulation = make(objects=(scenery,))
     deep = dive(simulation, 12.0)
-    assert 1.0 < deep < 4.2
+    assert 0.8 < deep < 4.2  # where it begins in the sand it is lifted, and stands on its arm
     assert {contact.other for contact in simulation.world.contacts("girona500")} == {"terrain"}
     run(simulation, 2.0)
     assert position(simulation)[2] == pytest.approx(deep, abs=0.1)

@@ -2,19 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from ..errors import AssetError
 from . import load_model
-from .find import find
+from .conventions import robot_scale
 
 MAX_LENGTH = 100.0
 """No robot is longer [m]; one of 0.1 m in millimetres is as long."""
-COLLADA_UNIT = re.compile(rb"<unit\b[^>]*\bmeter\s*=\s*[\"']\s*([0-9.eE+-]+)")
-"""What a ``.dae`` file says of its unit, near its beginning."""
-HEAD = 65536
-"""Bytes in which a unit is looked for."""
 
 
 def doubtful_size(
@@ -34,31 +29,26 @@ def doubtful_size(
     """
     try:
         model = load_model(name, named_by=named_by, data_path=data_path)
-        path = find(name, named_by=named_by, data_path=data_path)
     except AssetError:
         return ""
-    if scale == (1.0, 1.0, 1.0) and path is not None and (unit := _unit(path)) not in (None, 1.0):
+    if model.asset is not None and (wrong := model.asset.wrong_unit):
         return (
-            f"the mesh {name!r} says that its unit is {unit:g} m; it is read in metres: "
-            f'scale="{unit:g} {unit:g} {unit:g}" if it is too large or too small'
+            f"the mesh {name!r} states {wrong} as its unit; expected a length in metres: "
+            "it is read in metres"
+        )
+    unit = 1.0 if model.asset is None else model.asset.unit
+    if unit != 1.0 and all(abs(abs(factor) / unit - 1.0) < 0.02 for factor in scale):
+        return (
+            f"the mesh {name!r} states that its unit is {unit:g} m, which is applied, and its "
+            'scale is the same again; expected scale="1 1 1"'
         )
     size = [
         abs(factor) * (high - low)
-        for factor, low, high in zip(scale, model.box.lower, model.box.upper, strict=True)
+        for factor, low, high in zip(
+            robot_scale(model, scale), model.box.lower, model.box.upper, strict=True
+        )
     ]
     if max(size) <= MAX_LENGTH:
         return ""
     longest = " x ".join(f"{side:.4g}" for side in size)
     return f'the mesh {name!r} is {longest} m; if it is in millimetres: scale="0.001 0.001 0.001"'
-
-
-def _unit(path: Path) -> float | None:
-    """The unit of a Collada file [m]; None for other files, and for those that do not say it."""
-    if path.suffix.lower() != ".dae":
-        return None
-    with path.open("rb") as file:
-        said = COLLADA_UNIT.search(file.read(HEAD))
-    try:
-        return float(said[1]) if said else None
-    except ValueError:
-        return None

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from ..files.input_files import InputFile
 from ..world import Box
+from .collada_asset import ColladaAsset
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -58,6 +59,8 @@ class Model:
     """Hash of the file's bytes, or of the arrays when we made it."""
     files: tuple[InputFile, ...] = ()
     """The file and all that were read with it: materials, buffers, images."""
+    asset: ColladaAsset | None = None
+    """What a Collada file states of its unit and axes; its vertices are as in the file."""
     box: Box = field(init=False)
     """Bounding box of all vertices."""
 

@@ -7,9 +7,10 @@ side, and its spring would throw the body out. Here the mechanical energy
 .. math:: E = \tfrac12 \nu^T (M + M_A)\,\nu - (m - \rho V)\, g \cdot x
 
 of an object that touches nothing but fixed things is bounded by what it was before it touched
-them. Beyond it the velocity is reduced to the size that the bound leaves. In water that moves, the
-work of the water raises the bound. Objects that touch what moves (a gripper, another object) are
-not bounded. Only scenes in which something has a restitution pay for this.
+them, and the sum of those of loose objects that touch each other by what it was before. Beyond it
+the velocities are reduced to the size that the bound leaves. In water that moves, the work of the
+water raises the bound. Objects that touch what else moves (a gripper, a vehicle) are not bounded.
+Only scenes in which something has a restitution pay for this.
 """
 
 from __future__ import annotations
@@ -23,6 +24,9 @@ import numpy as np
 from ..geometry import Array
 from ..numerics.linear import dot, product, turned, turned_back
 from .hydrodynamics import columns as c
+
+FIXED, MOVING = -1, -2
+"""What an object touches that is no object with a bound."""
 
 
 class BounceLimit:
@@ -42,33 +46,69 @@ class BounceLimit:
         self._objects = [_Object(model, data, body) for body in bodies]
         self.is_on = True
         """Whether it bounds anything; not while a vehicle holds an object."""
+        self._numbers = {one.body: i for i, one in enumerate(self._objects)}
         self._fixed = model.body_weldid == 0  # whether a body never moves
         self._bounds = np.array([one.energy() for one in self._objects])  # [J]
         self._before = np.array([one.velocity for one in self._objects]).reshape(-1, 6)
 
     def apply(self) -> None:
-        """Bound the energy of every object after a step."""
-        moving, fixed = self._touched()
-        for i, one in enumerate(self._objects):
-            energy = one.energy()
-            if self.is_on and one.body in fixed and one.body not in moving:
-                self._bounds[i] += one.work_of_flow(self._before[i])
-                if energy > self._bounds[i]:
-                    one.reduce(energy - self._bounds[i])
+        """Bound the energy of every object, and of those that touch each other, after a step."""
+        touched = self._touched()
+        energies = np.array([one.energy() for one in self._objects])  # [J]
+        for group in self._groups(touched):
+            is_bounded = self.is_on and not any(MOVING in touched[i] for i in group)
+            if is_bounded and (len(group) > 1 or FIXED in touched[group[0]]):
+                self._bound(group, energies)
             else:
-                self._bounds[i] = energy
+                self._bounds[group] = energies[group]
+        for i, one in enumerate(self._objects):
             self._before[i] = one.velocity
 
-    def _touched(self) -> tuple[set[int], set[int]]:
-        """Bodies in contact with what moves, and bodies in contact with what is fixed."""
-        moving, fixed = set[int](), set[int]()
+    def _bound(self, group: list[int], energies: Array) -> None:
+        """Bound the sum of the energies of some objects, which they exchange."""
+        objects = [self._objects[i] for i in group]
+        for i, one in zip(group, objects, strict=True):
+            self._bounds[i] += one.work_of_flow(self._before[i])
+        excess = float(energies[group].sum() - self._bounds[group].sum())
+        kinetic = sum(one.kinetic() for one in objects)
+        if excess > 0.0 and kinetic > 0.0:
+            share = excess / kinetic
+            for one in objects:
+                one.slow_down(share)
+        if len(group) > 1:  # what each may have from now on: the sum is as before
+            left = np.array([one.energy() for one in objects])
+            self._bounds[group] = left + (self._bounds[group].sum() - left.sum()) / len(group)
+
+    def _groups(self, touched: Sequence[set[int]]) -> list[list[int]]:
+        """Numbers of objects, those together that touch each other."""
+        groups: list[list[int]] = []
+        seen = set[int]()
+        for i in range(len(self._objects)):
+            if i in seen:
+                continue
+            group, waiting = [], [i]
+            seen.add(i)
+            while waiting:
+                one = waiting.pop()
+                group.append(one)
+                near = sorted(touched[one] - seen - {FIXED, MOVING})
+                seen.update(near)
+                waiting += near
+            groups.append(sorted(group))
+        return groups
+
+    def _touched(self) -> list[set[int]]:
+        """For each object the numbers of others that it touches, `FIXED` and `MOVING`."""
+        touched: list[set[int]] = [set() for _ in self._objects]
         if self._data.ncon == 0:
-            return moving, fixed
+            return touched
         pairs = self._model.geom_bodyid[self._data.contact.geom].tolist()
         for first, second in pairs:
-            (fixed if self._fixed[second] else moving).add(first)
-            (fixed if self._fixed[first] else moving).add(second)
-        return moving, fixed
+            for body, other in ((first, second), (second, first)):
+                if (i := self._numbers.get(body)) is not None:
+                    kind = FIXED if self._fixed[other] else MOVING
+                    touched[i].add(self._numbers.get(other, kind))
+        return touched
 
 
 class _Object:
@@ -98,11 +138,13 @@ class _Object:
         """Kinetic and potential energy in still water [J]."""
         return self._kinetic(self.velocity) + self._potential()
 
-    def reduce(self, excess: float) -> None:
-        """Take energy [J] out of its motion, as much as there is."""
-        kinetic = self._kinetic(self.velocity)
-        if kinetic > 0.0:
-            self.velocity *= math.sqrt(max(0.0, 1.0 - excess / kinetic))
+    def kinetic(self) -> float:
+        """Kinetic energy [J]."""
+        return self._kinetic(self.velocity)
+
+    def slow_down(self, share: float) -> None:
+        """Take a share of its kinetic energy out of its motion, all of it at most."""
+        self.velocity *= math.sqrt(max(0.0, 1.0 - share))
 
     def work_of_flow(self, before: Array) -> float:
         """At most the work of moving water in the last step [J]; 0 in still water."""

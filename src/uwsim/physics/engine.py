@@ -27,6 +27,7 @@ from .engine_warnings import StepCheck
 from .grips import Grips
 from .hydrodynamics import VehicleHydrodynamics
 from .joint_wrench import JointWrench
+from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
 from .kinematics.placed_motion import PlacedMotion
 from .motion import Motion
@@ -37,6 +38,9 @@ from .uwsim_physics import UwsimPhysics
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
     from .stepper import Stepper
+
+Kind = Literal["vehicle", "object"]
+"""Of what has a body."""
 
 
 class Engine:
@@ -55,6 +59,7 @@ class Engine:
         "grips",
         "_contacts",
         "_bounces",
+        "lift",
     )
     """Attributes of its state, for snapshots."""
 
@@ -100,6 +105,8 @@ class Engine:
         self._wet, self._felt_at = self._wet_points()
         self._bounces = _bounces_of(scene, model, data)
         self._stepper = self._make_stepper([free[i] for i in robots if i not in dynamics])
+        self.lift = Lift(model, data)
+        """Bodies that begin in the ground, on their way out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
 
     @property
@@ -129,6 +136,11 @@ class Engine:
     def is_dynamic(self) -> bool:
         """Whether anything is simulated."""
         return self._water is not None
+
+    @property
+    def moves_by_step(self) -> bool:
+        """Whether something is placed at every step: it is carried, or lifted."""
+        return self.grips.is_carrying or self.lift.is_active
 
     def is_simulated(self, index: int) -> bool:
         """Whether a vehicle is moved by forces."""
@@ -166,12 +178,14 @@ class Engine:
         if self._stepper is None:
             return
         self.grips.follow()
+        self.lift.begin_step()
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
         try:
             self._stepper.run(n, self._n_steps, water)
         finally:
             self._n_steps = self._stepper.n_steps
+        self.lift.end_step()
         self._contacts.hold = True
         self.poses.moved()
 
@@ -193,11 +207,36 @@ class Engine:
         self._contacts.hold = True
         self.poses.moved()
 
-    def contacts(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
+    def contacts(self, kind: Kind, index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
         return self._contacts.of(kind, index)
 
-    def contact_forces(self, kind: Literal["vehicle", "object"], index: int) -> dict[str, Array]:
+    def deep_at_start(self, depth: float) -> list[tuple[Kind, int]]:
+        """Return the simulated vehicles and loose objects that are in something fixed now.
+
+        Args:
+            depth: of at least this [m], in any direction.
+        """
+        data = copy.copy(self._data)
+        mujoco.mj_kinematics(self._model, data)
+        mujoco.mj_collision(self._model, data)
+        bodies = self._model.geom_bodyid[data.contact.geom[data.contact.dist < -depth]]
+        is_fixed = self._model.body_weldid[bodies] == 0  # (n, 2)
+        moving = bodies[(is_fixed.sum(axis=1) == 1)[:, None] & ~is_fixed]
+        names = {self._model.body(int(body)).name for body in moving}
+        owners = {(kind, int(index)) for kind, index in (name.split("/")[:2] for name in names)}
+        simulated: list[tuple[Kind, int]] = [("vehicle", i) for i in self.actuation]
+        loose: list[tuple[Kind, int]] = [("object", i) for k, i in sorted(owners) if k == "object"]
+        return [each for each in (*simulated, *loose) if each in owners]
+
+    def begin_lift(self, kind: Kind, index: int, rise: float) -> None:
+        """Lift a simulated vehicle or a loose object from where it is by some height [m]."""
+        poses = self.poses
+        body = poses.base(index) if kind == "vehicle" else poses.loose_body(index)
+        if body is not None:
+            self.lift.add(body, rise)
+
+    def contact_forces(self, kind: Kind, index: int) -> dict[str, Array]:
         """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N]."""
         return self._contacts.forces(kind, index)
 

@@ -7,10 +7,10 @@ multiplies the velocity of the centre of mass, and that of turning (Bullet, `app
 
 .. math:: (1 - d)^{\Delta t}
 
-Vehicles move as commanded, even through walls, and push free objects: each jump counts
-as made evenly over the time since the one before (`MAX_JUMP` at most), for as much time after
-it. Not modelled: limits of objects, Bullet's friction and its solvers (ours is MuJoCo's, with
-`compile.FRICTION`), ``physicsFrequency`` (the step is the simulation's).
+Vehicles move as commanded, even through walls, and push free objects: each jump
+(`kinematics.jumps`) is their motion for as much time after it. Not modelled: limits of objects,
+Bullet's friction and its solvers (ours is MuJoCo's, with `compile.FRICTION`), ``physicsFrequency``
+(the step is the simulation's).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..geometry import Array
 from ..numerics.linear import turned
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
-from .collision.kinematic_contacts import MAX_JUMP, MAX_JUMP_SPEED
+from .kinematics.jumps import JumpTimes, without_placement
 
 HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""
@@ -105,7 +105,7 @@ class _DampedObject:
 class _KinematicVehicle:
     """A kinematic vehicle with the speed of its last displacement."""
 
-    STATE = ("_now", "_velocity", "_since", "_n_steps")
+    STATE = ("_now", "_velocity", "_step", "_jumps")
     """Attributes of its state, for snapshots."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: list[int]) -> None:
@@ -115,19 +115,18 @@ class _KinematicVehicle:
         self._v = np.flatnonzero(np.isin(model.dof_jntid, joints))
         self._now: Array = data.qpos[self._q].copy()
         self._velocity: Array = np.zeros(len(self._v))
-        self._longest = max(1, round(MAX_JUMP / model.opt.timestep))
-        self._since = 0  # steps since the last jump
-        self._n_steps = 0  # that it took
+        self._step, self._jumps = 0, JumpTimes(model.opt.timestep, last=0)
 
     def set_speed(self) -> None:
         """Record its pose, and set the speed of its last displacement."""
         data, here = self._data, self._data.qpos[self._q].copy()
-        self._since += 1
+        self._step += 1
         if not np.array_equal(here, self._now):
-            self._n_steps = min(self._since, self._longest)
+            self._jumps.add(self._step)
             self._velocity = self._speed(here)
-            self._now, self._since = here, 0
-        data.qvel[self._v] = self._velocity if self._since < self._n_steps else 0.0
+            self._now = here
+        is_moving = self._jumps.age(self._step) < self._jumps.n_steps
+        data.qvel[self._v] = self._velocity if is_moving else 0.0
 
     def put_back(self) -> None:
         """Undo what the step did to it."""
@@ -137,14 +136,12 @@ class _KinematicVehicle:
     def _speed(self, here: Array) -> Array:
         """Compute the speed of the jump to ``here``, joint by joint, (n,) [m/s, rad/s].
 
-        It is 0 where a component is above `MAX_JUMP_SPEED`.
+        It is 0 where a component is that of a placement.
         """
         after = self._data.qpos.copy()
         before = after.copy()
         before[self._q] = self._now
         speed = np.zeros(self._model.nv)
-        time = self._n_steps * self._model.opt.timestep
-        mujoco.mj_differentiatePos(self._model, speed, time, before, after)
+        mujoco.mj_differentiatePos(self._model, speed, self._jumps.duration, before, after)
         own: Array = speed[self._v]
-        is_placement = bool((np.abs(own) > MAX_JUMP_SPEED).any())
-        return np.zeros(len(own)) if is_placement else own
+        return without_placement(own, float(np.abs(own).max(initial=0.0)))

@@ -126,6 +126,16 @@ class Refused:
 
 
 @dataclass(frozen=True, kw_only=True)
+class Remark:
+    """What belongs beside the status of a row although the row has all values."""
+
+    row: int
+    """Row it is about, from 0."""
+    text: str
+    """Measures and what they remark."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class Result:
     """The rows of a run with its inputs, columns and constants.
 
@@ -154,10 +164,14 @@ class Result:
     """Images kept for the report."""
     refused: tuple[Refused, ...] = ()
     """What came from programs that do not take part."""
+    remarks: tuple[Remark, ...] = ()
+    """What belongs beside the status of rows."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "facts", checked_values(self.facts, "facts"))
-        for name in ("columns", "missing", "variations", "image_streams", "images", "refused"):
+        for name in ("columns", "missing", "variations", "image_streams", "images"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        for name in ("refused", "remarks"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "rows", checked_values(self.rows, "rows"))
         _check_columns(self)
@@ -193,6 +207,10 @@ class Result:
         """Return the reasons given in a row, each once; not those of single details."""
         given = self._reasons.get(row, {})
         return tuple(dict.fromkeys(why for column, why in given.items() if "." not in column))
+
+    def remarks_of(self, row: int) -> tuple[str, ...]:
+        """Return what is remarked of a row."""
+        return tuple(remark.text for remark in self.remarks if remark.row == row)
 
     @cached_property
     def _reasons(self) -> dict[int, dict[str, str]]:
@@ -264,9 +282,10 @@ def _check_notes(result: Result) -> None:
         for quad in (image.truth, image.estimate):
             whole = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
             _expect(whole, f"{at} has a quadrangle of other than 8 numbers: {quad!r}")
-    for i, refused in enumerate(result.refused):
-        is_there = _is_row(refused.row, n)
-        _expect(is_there, f"refused[{i}] is about row {refused.row!r}, which is not there")
+    for name in ("refused", "remarks"):
+        for i, one in enumerate(getattr(result, name)):
+            is_there = _is_row(one.row, n)
+            _expect(is_there, f"{name}[{i}] is about row {one.row!r}, which is not there")
 
 
 def _is_number(cell: object) -> bool:

@@ -4,7 +4,7 @@ The format's history, newest first:
 
 ``uwsim-result/1`` (uwsim 0.1.0)
     ``inputs``, ``run``, ``columns``, ``rows``, ``missing``; and, read as empty where they are not
-    there, ``facts``, ``variations``, ``image_streams``, ``pictures``, ``refused``.
+    there, ``facts``, ``variations``, ``image_streams``, ``pictures``, ``refused``, ``remarks``.
     ``docs/result-format.md`` describes them.
 """
 
@@ -20,7 +20,7 @@ from ..errors import ResultError, did_you_mean
 from .atomic_file import write_text
 from .inputs import Inputs
 from .interrupted import instead_of_a_result
-from .result import Column, ImageStream, Missing, Refused, Result, SavedImage, Variation
+from .result import Column, ImageStream, Missing, Refused, Remark, Result, SavedImage, Variation
 from .run_info import RunInfo
 from .stored.stored_shapes import RESULT
 
@@ -79,6 +79,7 @@ def dumps(result: Result) -> str:
         "image_streams": _block("[]", [_json(asdict(stream)) for stream in result.image_streams]),
         "pictures": _block("[]", [_json(asdict(image)) for image in result.images]),
         **_if_any("refused", result.refused),
+        **_if_any("remarks", result.remarks),
     }
     return "{\n" + ",\n".join(f"  {_json(k)}: {text}" for k, text in parts.items()) + "\n}\n"
 
@@ -112,6 +113,7 @@ def loads(text: str) -> Result:
         image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
         images=tuple(_take_each(document, "pictures", SavedImage, [])),
         refused=tuple(_take_each(document, "refused", Refused, [])),
+        remarks=tuple(_take_each(document, "remarks", Remark, [])),
     )
     for name in document:
         known = [STORED.get(f.name, f.name) for f in fields(Result)]
@@ -135,7 +137,7 @@ def _object(values: Mapping[str, object]) -> str:
     return _block("{}", [f"{_json(key)}: {_json(value)}" for key, value in values.items()])
 
 
-def _if_any(key: str, entries: Iterable[Variation | Refused]) -> dict[str, str]:
+def _if_any(key: str, entries: Iterable[Variation | Refused | Remark]) -> dict[str, str]:
     """The key is only there where there are entries."""
     lines = [_json(asdict(each)) for each in entries]
     return {key: _block("[]", lines)} if lines else {}

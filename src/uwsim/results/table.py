@@ -66,7 +66,7 @@ class LevelLine:
     ok: bool
     """Whether every repeat ended ``ok``."""
     why: str
-    """The reasons, each once; over repeats: how many ended how."""
+    """The reasons and remarks, each once; over repeats: how many ended how."""
     rows: tuple[int, ...] = ()
     """Numbers of its rows, one a repeat."""
 
@@ -238,6 +238,9 @@ def _rate(result: Result, rows: Sequence[int]) -> str:
 
 def _why(result: Result, rows: Sequence[int]) -> str:
     if len(rows) == 1:
-        return "; ".join(result.reasons(rows[0]))
+        return "; ".join((*result.reasons(rows[0]), *result.remarks_of(rows[0])))
     counts = Counter(status for status in _statuses(result, rows) if status != "ok")
-    return ", ".join(f"{n} {status}" for status, n in sorted(counts.items()))
+    found = [", ".join(f"{n} {status}" for status, n in sorted(counts.items()))]
+    remarks = Counter(text for row in rows for text in result.remarks_of(row))
+    found += [f"{n} of {len(rows)}: {text}" for text, n in sorted(remarks.items())]
+    return "; ".join(filter(None, found))

@@ -15,6 +15,7 @@ from ..results.result import (
     ImageStream,
     Missing,
     Refused,
+    Remark,
     Result,
     SavedImage,
     Variation,
@@ -77,6 +78,11 @@ def collect(
             Refused(row=row, by=by, what=what, n=n)
             for row, (_, record) in enumerate(records)
             for by, what, n in record.get(REFUSED, ())
+        ),
+        remarks=tuple(
+            Remark(row=row, text=text)
+            for row, (_, record) in enumerate(records)
+            for text in record.get("remarks", ())
         ),
     )
     return result, _logs(plan, columns, records, began), simulated_s

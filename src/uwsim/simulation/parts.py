@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets import load_model, painted, primitive, unknown_model
+from ..assets.conventions import robot_scale, with_z_up
 from ..assets.mesh import Model
 from ..assets.weathering import weathered
 from ..devices.led_array import COLOURS, LedArraySpec
@@ -161,7 +162,7 @@ def placed_visual(
 def visual_model(
     visual: VisualSpec, named_by: Path, data_path: tuple[Path, ...]
 ) -> tuple[Model, tuple[float, float, float]]:
-    """Load or make what a shape of a link looks like, in its colour; and the scale of its mesh.
+    """Load or make what a shape of a link looks like, in its colour; and the scale of its mesh [m].
 
     A mesh that is nowhere is a labelled box of a size of its own.
     """
@@ -169,6 +170,7 @@ def visual_model(
     if visual.kind == "mesh":
         try:
             model = load_model(visual.file, named_by=named_by, data_path=data_path)
+            scale = robot_scale(model, scale)
         except AssetNotFound:  # reported by `uwsim check`
             return unknown_model(visual.file), (1.0, 1.0, 1.0)
     else:
@@ -188,7 +190,7 @@ def object_models(scene: SceneSpec, data_path: tuple[Path, ...]) -> Callable[[st
     @functools.cache
     def load(name: str) -> Model:
         try:
-            return load_model(name, named_by=named_by, data_path=data_path)
+            return with_z_up(load_model(name, named_by=named_by, data_path=data_path))
         except AssetNotFound:
             if not scene.is_original:
                 raise

@@ -179,14 +179,14 @@ class Simulation:
             or self._watchers
             or world.touch.is_laid
             or not world.state.is_dynamic
-            or world.state.grips.is_carrying
+            or world.state.moves_by_step
             or not world.water.is_uniform
             or (self._drifting and not world.water.is_still)
         ):
             return 1
         dues = [delivery, world.schedule.due if world.network.is_idle else now]
         dues += [each.timer.due for each in self.images.values()]
-        dues += [node.next_tick for node in self._nodes]
+        dues += [world.below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self.time - self.timestep
         rests = [math.inf, *(device.rests_until(began) for device in world.devices)]
         free = (min(rests) - began) // self.timestep - 1

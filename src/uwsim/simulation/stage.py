@@ -53,7 +53,7 @@ class SceneStage(SceneWorld):
     """
 
     STATE = (
-        *("_bus", "state", "scenery", "touch", "schedule", "_pending"),
+        *("_bus", "state", "scenery", "touch", "below_ground", "schedule", "_pending"),
         *("_vehicles", "_sensors", "devices", "interfaces", "network"),
         *("markers", "trajectories", "_faulty_topics"),
     )

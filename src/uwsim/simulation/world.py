@@ -32,6 +32,7 @@ from .collision.below_ground import BelowGround
 from .collision.collision_shapes import simulated_shapes
 from .collision.contacts import Contacts
 from .collision.floor import set_on_floor
+from .collision.start_depths import lift_from_ground
 from .dynamics import read_dynamics
 from .scenery.renderer_pool import RendererPool
 from .scenery.scene_rays import SceneRays
@@ -91,6 +92,8 @@ class SceneWorld:
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self.state = Engine(scene, self.robots, dynamics, timestep, shapes)
         """Where everything is, and what moves it."""
+        if dynamics:
+            lift_from_ground(scene, self.robots, self.state, data_path)
         self.below_ground = BelowGround(
             scene, self.robots, shapes, self.state, timestep=timestep, data_path=data_path
         )

@@ -12,6 +12,7 @@ import pytest
 from tests.simulation.collision.test_floor import BOX, UP, grid, ground
 from tests.simulation.girona500 import SCENE
 from uwsim.errors import SimulationFailed
+from uwsim.geometry import Pose
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
@@ -125,6 +126,107 @@ def test_a_ball_too_fast_for_its_step_does_not_fall_on_silently(floor: ObjectSpe
             body = simulation.world.body("thing").world_from_body.position
             inside = np.abs(body[:2]).max() < 8.0
             assert not inside or body[2] > float(relief(body[0], body[1])) - 1.5
+
+
+STEPS = [0.002, 0.005, 0.01, 0.02]
+MEDIA = {"air": in_air, "water": in_water}
+
+
+def drawn(random: np.random.Generator, *, is_in_water: bool) -> dict[str, float]:
+    """Physics of a box of 1 to 200 kg."""
+    mass = float(np.exp(random.uniform(0.0, np.log(200.0))))
+    restitution, friction = random.uniform(0.0, 0.9), random.uniform(0.0, 1.5)
+    volume = {"volume": 0.3e-3 * mass} if is_in_water else {}
+    return {"mass": mass, "restitution": restitution, "friction": friction, **volume}
+
+
+def is_below(simulation: Simulation, name: str, reach: float) -> bool:
+    x, y, z = simulation.world.body(name).world_from_body.position
+    return bool(max(abs(x), abs(y)) < 8.0 and z < relief(x, y) - reach)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("medium", MEDIA)
+@pytest.mark.parametrize("timestep", STEPS)
+def test_random_drops_end_on_the_ground_or_by_name_and_never_rise(
+    timestep: float, medium: str, floor: ObjectSpec
+) -> None:
+    """Mass, restitution, friction, size, height and attitude vary."""
+    n_ended = 0
+    for seed in range(16):
+        random = np.random.default_rng(seed)
+        physics = drawn(random, is_in_water=medium == "water")
+        scale = float(random.uniform(0.8, 3.0))
+        (x, y), turn = random.uniform(-4.0, 4.0, 2), tuple(random.uniform(-3.0, 3.0, 3))
+        above = 0.3 + 0.4 * scale * random.uniform(0.5, 2.0)
+        thing = loose("thing", x, y, above, scale=scale, rpy=turn, **physics)
+        simulation = MEDIA[medium](thing, floor, timestep=timestep)
+        start = height(simulation)
+        try:
+            for _ in range(30):
+                simulation.advance(0.1)
+                assert height(simulation) <= start
+            simulation.advance(1.2)  # what is below now is reported by then
+            assert not is_below(simulation, "thing", 0.1 + 0.25 * scale)
+        except SimulationFailed as error:
+            assert "'thing'" in str(error)  # noqa: PT017
+            n_ended += 1
+    assert n_ended <= (2 if timestep > 0.01 else 0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("timestep", STEPS)
+def test_objects_that_bounce_on_each_other_gain_no_energy(
+    timestep: float, floor: ObjectSpec
+) -> None:
+    """Stacks of three boxes; seeds 6, 18, 26, 32 and 36 rose by up to 1.5 m at one of the steps."""
+    for seed in (*range(10), 18, 26, 32, 36):
+        random = np.random.default_rng(seed)
+        x, y = random.uniform(-4.0, 4.0, 2)
+        things, masses = [], []
+        for k, name in enumerate("abc"):
+            mass = float(np.exp(random.uniform(0.0, np.log(200.0))))
+            turn = (0.0, 0.0, float(random.uniform(-3.0, 3.0)))
+            restitution, friction = random.uniform(0.0, 0.9), random.uniform(0.0, 1.5)
+            masses.append(mass)
+            things.append(
+                loose(name, x, y, 1.0 + 0.6 * k, rpy=turn, mass=mass, restitution=restitution,
+                      friction=friction)
+            )  # fmt: skip
+        simulation = in_air(*things, floor, timestep=timestep)
+        weights = np.array(masses) / sum(masses)
+        start = weights @ [height(simulation, name) for name in "abc"]
+        with suppress(SimulationFailed):  # below the ground: that is reported
+            for _ in range(50):
+                simulation.advance(0.1)
+                assert weights @ [height(simulation, name) for name in "abc"] <= start
+            assert not any(is_below(simulation, name, 1.0) for name in "abc")
+
+
+@pytest.mark.parametrize("timestep", [0.002, pytest.param(0.02, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("restitution", [0.0, 0.8])
+def test_what_a_kinematic_vehicle_lifts_or_presses_is_above_the_ground_or_named(
+    timestep: float, restitution: float, floor: ObjectSpec
+) -> None:
+    thing = loose("thing", 0.0, 0.0, 0.7, mass=40.0, restitution=restitution, friction=1.5)
+    base = read_scene(SCENE).vehicles[0]
+    lift = replace(base, parts=(), dynamics=None, position=(0.0, 0.0, -9.0))
+    sim = replace(UP, enable_physics=True, gravity=(0.0, 0.0, -9.81))
+    scene = SceneSpec(sim_params=sim, objects=(thing, floor), vehicles=(lift,))
+    simulation = Simulation(scene, timestep=timestep, is_blind=True)
+    simulation.advance(4.0)
+    x, y, rest = simulation.world.body("thing").world_from_body.position
+    highest = -np.inf
+    try:
+        for z in (*np.linspace(-9.0, -4.5, 60), *np.linspace(-4.5, -9.0, 60)):
+            simulation.set_pose(lift.name, Pose(np.array([x, y, z]), np.eye(3)))
+            simulation.advance(0.1)
+            highest = max(highest, height(simulation))
+        simulation.advance(2.0)
+        assert not is_below(simulation, "thing", 0.5)
+    except SimulationFailed as error:  # the vehicle has pressed it through
+        assert "'thing' has passed through the ground" in str(error)  # noqa: PT017
+    assert rest + 0.2 < highest < rest + 3.0  # it was lifted, through the ground, and not thrown
 
 
 def test_what_begins_below_the_ground_may_stay_there(floor: ObjectSpec) -> None:

@@ -74,12 +74,19 @@ def _read(path: Path, name: str, within: tuple[Path, ...]) -> Model:
     suffix = path.suffix.lower()
     with recorded() as files:
         if suffix in READABLE:
-            meshes = read_meshes(path, name=name, within=within)
+            meshes, asset = read_meshes(path, name=name, within=within)
         elif suffix in BY_OSGCONV:
             read_bytes(path, name=name)
             with converted(path) as obj:
-                meshes = read_meshes(obj, name=name, within=within, original=path)
+                meshes, asset = read_meshes(obj, name=name, within=within, original=path)
         else:
             raise AssetError(why_not_read(path))
     digest = files[0].sha256.removeprefix("sha256:")
-    return Model(name=name, meshes=meshes, source="file", sha256=digest, files=tuple(files))
+    return Model(
+        name=name,
+        meshes=meshes,
+        source="file",
+        sha256=digest,
+        files=tuple(files),
+        asset=asset,
+    )

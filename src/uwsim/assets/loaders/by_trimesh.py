@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from ...errors import AssetError
 from ...files.input_files import read_bytes
+from ..collada_asset import ColladaAsset, read_collada_asset
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
 from . import collada_limits, gltf_limits, mesh_cache
@@ -46,8 +47,8 @@ def read_meshes(
     name: str = "",
     within: tuple[Path, ...] = (),
     original: Path | None = None,
-) -> tuple[Mesh, ...]:
-    """The meshes of a file, in its own frame and units; axes are left as they are.
+) -> tuple[tuple[Mesh, ...], ColladaAsset | None]:
+    """The meshes of a file in its own frame and units, and what a Collada file states of those.
 
     Normals are computed anew from the faces. Colours of vertices become one mean colour a mesh.
 
@@ -62,16 +63,17 @@ def read_meshes(
     """
     with _errors_as_ours(path):
         data = _bytes(path, name or path.name, original)
+        asset = read_collada_asset(data) if path.suffix.lower() == ".dae" else None
         file = mesh_cache.file_of(data, path.suffix.lower())
         kept = mesh_cache.read(file) if original is None else None
         if kept is not None:
-            return kept
+            return kept, asset
         references = _references(path, name or path.name, within, original)
         parts = _parts(path, data, references)
     meshes = _meshes(path, parts)
     if original is None and not references.were_needed:
         mesh_cache.keep(file, meshes)
-    return meshes
+    return meshes, asset
 
 
 @contextlib.contextmanager

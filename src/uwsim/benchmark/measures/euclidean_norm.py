@@ -230,10 +230,14 @@ class EuclideanNorm(Measure):
     @property
     def notes(self) -> tuple[str, ...]:
         """What became of ``publishOn``, and whether all estimates are what it was given."""
+        return (*self._notes, *self.remarks)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Whether all estimates are what ``publishOn`` was given."""
         if self._n < 2 or self._n_at_start < self._n:
-            return tuple(self._notes)
+            return ()
         return (
-            *self._notes,
             f"all estimates are exactly the start that {self._publish_on!r} was given: the target "
             "is at rest and the algorithm took no step, or refused each as no better",
         )

@@ -122,6 +122,11 @@ class Measure(abc.ABC):
         return ()
 
     @property
+    def remarks(self) -> tuple[str, ...]:
+        """What belongs beside the status of a row although the row has all values."""
+        return ()
+
+    @property
     def has_initialised(self) -> bool:
         """Whether it has initialised the algorithm under test with the position of its target."""
         return False

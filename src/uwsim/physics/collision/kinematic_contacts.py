@@ -2,9 +2,7 @@
 
 A vehicle without ``u:dynamics`` moves as commanded, even through walls, as in the
 original. Its shapes are laid over those of the objects wherever it is; nothing is pushed. It moves
-in jumps, one a message: a jump counts as made evenly over the time since the one before, 1 s at
-most, and its speed as that of as much time after it. So a twist that comes ten times a second is
-the speed of a contact, not five hundred times as much at one step out of fifty.
+in jumps (`uwsim.physics.kinematics.jumps`); the speed of one is that of as much time after it.
 """
 
 from __future__ import annotations
@@ -18,12 +16,8 @@ from ...geometry import Array, Pose, quaternion_from_rotation
 from ...numerics.linear import dot, length
 from ...world import Contact
 from ..compile import ALL, OBJECTS, SHAPES, give_form
+from ..kinematics.jumps import JumpTimes, without_placement
 from .shapes import CollisionShape
-
-MAX_JUMP = 1.0
-"""A jump after a longer rest counts as made in this time [s]."""
-MAX_JUMP_SPEED = 100.0
-"""A faster jump is a placement: the body has no velocity after it [m/s]."""
 
 
 class KinematicContacts:
@@ -113,15 +107,12 @@ class KinematicContacts:
 class _KinematicBody:
     """A kinematic body, with the velocity of its last displacement."""
 
-    STATE = ("now", "_before", "_jumped_at", "_n_steps")
+    STATE = ("now", "_before", "_jumps")
     """Attributes of its state, for snapshots."""
 
     def __init__(self, pose: Callable[[], Pose], timestep: float) -> None:
-        self._pose, self._timestep = pose, timestep
-        self._longest = max(1, round(MAX_JUMP / timestep))
+        self._pose, self._jumps = pose, JumpTimes(timestep, last=0)
         self.now = self._before = pose()
-        self._jumped_at = 0
-        self._n_steps = 0  # that its last jump took
 
     def record(self, step: int) -> bool:
         """Record its pose; returns whether it moved."""
@@ -130,17 +121,16 @@ class _KinematicBody:
         if is_there and np.array_equal(pose.rotation, self.now.rotation):
             return False
         self._before, self.now = self.now, pose
-        self._n_steps = min(max(1, step - self._jumped_at), self._longest)
-        self._jumped_at = step
+        self._jumps.add(step)
         return True
 
     def velocity(self, point: Array, step: int) -> Array:
         """Velocity of its point at ``point``, W, (3,) [m/s]."""
-        if step - self._jumped_at >= self._n_steps:
+        if self._jumps.age(step) >= self._jumps.n_steps:
             return np.zeros(3)
         was_at = (self._before @ self.now.inverse()).transform(point[None])[0]
-        velocity: Array = (point - was_at) / (self._n_steps * self._timestep)
-        return velocity if length(velocity) <= MAX_JUMP_SPEED else np.zeros(3)
+        velocity: Array = (point - was_at) / self._jumps.duration
+        return without_placement(velocity, length(velocity))
 
 
 def _model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:

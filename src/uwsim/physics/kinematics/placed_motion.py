@@ -1,13 +1,11 @@
 r"""Velocities and accelerations of a vehicle that is placed by commands, not simulated.
 
-Its commands move it in jumps, one a message. A jump counts as made evenly over the time T since
-the one before, `MAX_JUMP` at most:
+Its commands move it in jumps (`jumps`), each made evenly over a time T:
 
 .. math:: \dot q = \Delta q / T, \qquad \ddot q = (\dot q - \dot q_{before}) / T
 
 Both last until the next jump; where none comes for :math:`1.5\,T` the vehicle has stopped, and
-slows down over T. So a twist that comes ten times a
-second, on time or a little late, is the velocity at every step. The commands of the base, those of
+slows down over T. The commands of the base, those of
 the joints and the drift with the water, which moves a vehicle at every step, are jumps of their own
 and add up.
 """
@@ -19,7 +17,7 @@ import numpy as np
 
 from ...geometry import Array
 from ...world import BodyMotion
-from ..collision.kinematic_contacts import MAX_JUMP
+from .jumps import JumpTimes
 from .link_motion import LinkMotion
 
 
@@ -95,45 +93,42 @@ class PlacedMotion:
 class _Jumps:
     """The degrees of freedom that one source moves, with the velocity of its last jump."""
 
-    STATE = ("_speed", "_before", "_step", "_n_steps")
+    STATE = ("_speed", "_before", "_times")
     """Attributes of its state, for snapshots."""
 
     def __init__(self, n: int, timestep: float) -> None:
-        self._timestep, self._longest = timestep, max(1, round(MAX_JUMP / timestep))
+        self._times = JumpTimes(timestep, n_steps=1)
         self._speed, self._before = np.zeros(n), np.zeros(n)
-        self._step = -self._longest
-        self._n_steps = 1  # that the last jump took
 
     def clear(self) -> None:
         """Forget the last jump."""
         self._speed, self._before = np.zeros_like(self._speed), np.zeros_like(self._before)
-        self._step = -self._longest
+        self._times.forget()
 
     def add(self, step: int, change: Array) -> None:
         """Record a jump; several in one step are one."""
-        if step == self._step:
-            self._speed = self._speed + change / (self._n_steps * self._timestep)
+        if self._times.age(step) == 0:
+            self._speed = self._speed + change / self._times.duration
             return
         self._before = self.speed(step)
-        self._n_steps = min(max(1, step - self._step), self._longest)
-        self._step = step
-        self._speed = change / (self._n_steps * self._timestep)
+        self._times.add(step)
+        self._speed = change / self._times.duration
 
     def speed(self, step: int) -> Array:
         """Return the velocity, (n,) [m/s, rad/s]."""
-        is_moving = step - self._step < self._lasts
+        is_moving = self._times.age(step) < self._lasts
         return self._speed if is_moving else np.zeros_like(self._speed)
 
     def rate(self, step: int) -> Array:
         """Return the acceleration, (n,) [m/s2, rad/s2]."""
-        age, time = step - self._step, self._n_steps * self._timestep
+        age, time = self._times.age(step), self._times.duration
         if age < self._lasts:
             return (self._speed - self._before) / time
-        if age < self._lasts + self._n_steps:
+        if age < self._lasts + self._times.n_steps:
             return -self._speed / time
         return np.zeros_like(self._speed)
 
     @property
     def _lasts(self) -> int:
         """For how many steps a jump is the motion, unless another comes."""
-        return self._n_steps + (self._n_steps + 1) // 2
+        return self._times.n_steps + (self._times.n_steps + 1) // 2

@@ -51,6 +51,7 @@ RESULT = fields(
         ),
         "pictures": each(fields({}, {"camera": text, "truth": _QUAD, "estimate": _QUAD})),
         "refused": each(fields({}, {"row": whole, "by": text, "what": text, "n": whole})),
+        "remarks": each(fields({"row": whole, "text": text})),
     },
 )
 """Of ``result.json``, as far as `Result` does not see to it."""
@@ -70,7 +71,12 @@ ROW = fields(
         "log_headers": table(each(text)),
         "pictures": each(fields({"camera": text, "file": text, "truth": _QUAD, "estimate": _QUAD})),
     },
-    {"ended_at": number, "fingerprint": text, "refused": each(items(text, text, whole))},
+    {
+        "ended_at": number,
+        "fingerprint": text,
+        "refused": each(items(text, text, whole)),
+        "remarks": each(text),
+    },
 )
 """The shape of ``row`` in each further line."""
 END = fields(

@@ -185,6 +185,7 @@ def _record(row: LevelRow, images: dict[str, str]) -> journal.Record:
         ],
         "fingerprint": row.fingerprint,
         **({"refused": [list(each) for each in row.refused]} if row.refused else {}),
+        **({"remarks": list(row.remarks)} if row.remarks else {}),
     }
 
 

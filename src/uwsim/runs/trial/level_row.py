@@ -42,6 +42,8 @@ class LevelRow:
     """The cameras' last images."""
     refused: tuple[tuple[str, str, int], ...] = ()
     """What came from programs that do not take part: sender, topic or service, how often."""
+    remarks: tuple[str, ...] = ()
+    """What belongs beside its status, with the measure it is about."""
 
 
 @dataclass(frozen=True, kw_only=True)

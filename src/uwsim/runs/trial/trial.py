@@ -409,6 +409,7 @@ class _Execution:
                 triggered.spec.name: log_columns(triggered.measure) for triggered in logged
             },
             fingerprint=self._fingerprinter.fingerprint,
+            remarks=_remarks(measures),
             snapshots=()
             if self._plan.is_blind or status == SIMULATION_ERROR
             else all_snapshots(simulation, measures, self._moments, is_tracking=status == "ok"),
@@ -419,6 +420,15 @@ def _tick(measures: list[TriggeredMeasure]) -> None:
     """Let every measure see the world as it is now."""
     for triggered in measures:
         triggered.tick()
+
+
+def _remarks(measures: list[TriggeredMeasure]) -> tuple[str, ...]:
+    """What measures remark of a level, each remark once with the measures that make it."""
+    names: dict[str, list[str]] = {}
+    for triggered in measures:
+        for remark in triggered.measure.remarks:
+            names.setdefault(remark, []).append(triggered.spec.name)
+    return tuple(f"{', '.join(found)}: {remark}" for remark, found in names.items())
 
 
 def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:

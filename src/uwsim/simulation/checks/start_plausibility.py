@@ -12,16 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
-from ...geometry import Array
-from ...physics.collision.ground import Ground
+from ...geometry import Pose
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from ..collision.floor import Floor
+from ..collision.start_depths import StartDepth, StartDepths
 
-SUNK = 0.1
-"""Share of its height by which a body may begin in the ground; what is sunk less is lifted."""
-MIN_RISE = 0.02
-"""But no less than this [m]."""
+CLEARANCE = 1e-3
+"""Of the position that a message names, above the ground [m]."""
 
 
 class Starts:
@@ -40,10 +37,7 @@ class Starts:
         self, scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
     ) -> None:
         self._scene = scene
-        self._floor = Floor(scene, robots, data_path)
-        self._grounds = {
-            scene.objects[index].name: Ground(faces) for index, faces in self._floor.faces.items()
-        }
+        self._depths = StartDepths(scene, robots, data_path)
 
     def of_vehicle(self, index: int) -> str:
         """Warn of the start pose of a vehicle."""
@@ -51,7 +45,7 @@ class Starts:
         if vehicle.vr or vehicle.on_floor is not None:
             return ""
         world_from_base = self._scene.world_from_localized @ vehicle.localized_from_base
-        body = self._floor.body_of_vehicle(index, world_from_base)
+        body = self._depths.floor.body_of_vehicle(index, world_from_base)
         if not len(body):
             return ""
         height = float(body[..., 2].min()) - self._scene.ocean_state.ocean_surface_height
@@ -60,7 +54,7 @@ class Starts:
                 f"it begins {height:.3g} m above the water: it falls; expected in it (up is "
                 f"{self._up()} in the file's frame)"
             )
-        return self._in_ground(body)
+        return self._in_ground(self._depths.of_body(body, world_from_base), world_from_base)
 
     def of_object(self, index: int) -> str:
         """Warn of the start pose of a free object."""
@@ -68,30 +62,29 @@ class Starts:
         if thing.on_floor is not None:
             return ""
         world_from_object = self._scene.world_from_localized @ thing.localized_from_object
-        return self._in_ground(self._floor.body_of_object(index, world_from_object))
+        return self._in_ground(self._depths.of_object(index), world_from_object)
 
-    def _in_ground(self, body: Array) -> str:
-        """Warn of the ground in or under which a body, (n, 3, 3) [m], starts."""
-        low, high = body.min(axis=(0, 1)), body.max(axis=(0, 1))
-        for name, ground in self._grounds.items():
-            rise = ground.rise(body)
-            middle = 0.5 * (low + high)
-            if ground.covers(middle):
-                level = ground.level(middle)
-                depth = 0.0 if level is None else level - float(middle[2])
-                return (
-                    f"it begins under the surface of {name!r}, its middle {depth:.3g} m deep; "
-                    "expected above it: <u:onFloor/> sets it there"
-                )
-            if (
-                rise is not None
-                and max(MIN_RISE, SUNK * (high[2] - low[2])) < rise < high[2] - low[2]
-            ):
-                return (
-                    f"it begins {rise:.3g} m deep in {name!r}; expected above it: <u:onFloor/> "
-                    "sets it there"
-                )
-        return ""
+    def _in_ground(self, depth: StartDepth | None, world_from_body: Pose) -> str:
+        """Warn of the ground in or under which a body starts, with the position that clears it."""
+        if depth is None:
+            return ""
+        where = (
+            f"it begins {depth.rise:.3g} m deep in {depth.ground!r}"
+            if depth.middle is None
+            else f"it begins under the surface of {depth.ground!r}, its middle "
+            f"{depth.middle:.3g} m deep"
+        )
+        clear = self._clear_position(world_from_body, depth.rise)
+        return f"{where}; expected above it, at {clear}: <u:onFloor/> sets it there"
+
+    def _clear_position(self, world_from_body: Pose, rise: float) -> str:
+        """The position in the file's frame at which a body is clear of the ground."""
+        lifted = world_from_body.position + np.array([0.0, 0.0, rise + CLEARANCE])
+        file_from_world = self._scene.world_from_localized.inverse()
+        before = file_from_world.transform(world_from_body.position[None])[0]
+        after = file_from_world.transform(lifted[None])[0]
+        moved = [i for i in range(3) if abs(after[i] - before[i]) > 1e-6]
+        return ", ".join(f"{'xyz'[i]} {after[i]:.3f}" for i in moved)
 
     def _up(self) -> str:
         """The vertical axis of the file's frame, upwards."""

@@ -1,47 +1,50 @@
 """Ends a run in which a body has passed through the ground.
 
 Contacts are soft, and ground is plates behind its faces: a body that is loaded heavily, or fast for
-the length of a step, may sink through them and fall on below. Looked at once a second: a
-simulated vehicle or loose object that was above the ground, an object called ``terrain``, and is
-below it by more than its own size and a plate has passed through. What begins below the ground may
-stay there, and where there is no ground nothing is below it.
+the length of a step, may sink through them and fall on below. Twice a second it is looked where
+simulated vehicles and loose objects are. One that is wholly below a ground (`solid_grounds`) at two
+looks one after another, and was not as the run began, has passed through it. Below a sheet with an
+edge it has where it was over the sheet before, and could not have swum around the edge at
+`FASTEST`. What begins below the ground may stay there, and where there is no ground nothing is
+below it.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 
 from ...errors import SimulationFailed
 from ...geometry import Array, Pose
-from ...numerics.linear import length
-from ...physics.collision.ground import Ground
-from ...physics.collision.shapes import THICKNESS, CollisionShape, bounds
+from ...physics.collision.shapes import CollisionShape, bounds
 from ...physics.compile import object_body, vehicle_body
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from .collision_shapes import standing_faces
+from .solid_grounds import SolidGround, solid_grounds
 
-PERIOD = 1.0
+PERIOD = 0.5
 """Time between two looks [s]."""
+FASTEST = 5.0
+"""Speed at which a body may have got around an edge [m/s]."""
+CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) * 2.0 - 1.0
 
 
 @dataclass(frozen=True, eq=False)
 class _Body:
     name: str
     pose: Callable[[], Pose]
-    middle: Array  # of its box, in its axes, (3,) [m]
-    size: float  # half the diagonal of its box [m]
+    points: Array  # the middle and the corners of its box, in its axes, (9, 3) [m]
 
-    def place(self) -> Array:
-        """The middle of its box in W, (3,) [m]."""
-        place: Array = self.pose().transform(self.middle[None])[0]
-        return place
+    def places(self) -> Array:
+        """The middle and the corners of its box in W, (9, 3) [m]."""
+        return self.pose().transform(self.points)
 
 
 class BelowGround:
@@ -56,6 +59,9 @@ class BelowGround:
         data_path: folders in which files are looked for.
     """
 
+    STATE = ("_looked", "_step", "_middles", "_below", "_above")
+    """Attributes of its state, for snapshots."""
+
     def __init__(
         self,
         scene: SceneSpec,
@@ -66,15 +72,20 @@ class BelowGround:
         timestep: float,
         data_path: tuple[Path, ...],
     ) -> None:
-        self._scene, self._data_path, self._timestep = scene, data_path, timestep
-        self._period = max(1, round(PERIOD / timestep))
-        self._looked = 0  # periods that were over at the last look
-        self._bodies: list[_Body] = []
-        if any(
-            thing.is_ground and object_body(i) in shapes for i, thing in enumerate(scene.objects)
-        ):
-            self._bodies = [*_bodies(scene, robots, shapes, state)]
-        self._start = [body.place() for body in self._bodies]
+        self._timestep, self._period = timestep, max(1, round(PERIOD / timestep))
+        self._looked = self._step = 0  # periods that were over at the last look, and its step
+        self._bodies = [*_bodies(scene, robots, shapes, state)]
+        self._grounds = solid_grounds(scene, shapes, data_path) if self._bodies else []
+        self._start = [body.places() for body in self._bodies]
+        self._middles = np.array([places[0] for places in self._start]).reshape(-1, 3)
+        size = len(self._bodies), len(self._grounds)
+        self._below = np.zeros(size, bool)  # whether a body was below a ground at the last look
+        self._above = np.zeros(size, bool)  # ... was above it, and has not got around it since
+
+    @property
+    def due(self) -> float:
+        """The step of the next look."""
+        return (self._looked + 1) * self._period if self._grounds else math.inf
 
     def look(self, step: int) -> None:
         """Look where the bodies are, if it is time.
@@ -83,44 +94,50 @@ class BelowGround:
             SimulationFailed: one has passed through the ground.
         """
         over = step // self._period
-        if over == self._looked or not self._bodies:
+        if over == self._looked or not self._grounds:
             return
-        self._looked = over
-        for body, start in zip(self._bodies, self._start, strict=True):
-            depth = self._depth(body, body.place())
-            if depth > 0.0 and self._depth(body, start) == 0.0:
-                raise SimulationFailed(
-                    f"{body.name!r} has passed through the ground: at {step * self._timestep:g} s "
-                    f"it is {depth:.3g} m below 'terrain'. Its load is too heavy, or it is too "
-                    f"fast for steps of {self._timestep:g} s; expected shorter steps, or less load."
-                )
+        elapsed = (step - self._step) * self._timestep
+        self._looked, self._step = over, step
+        places = [body.places() for body in self._bodies]
+        for i, k in np.ndindex(self._below.shape):
+            depth = self._grounds[k].depth(places[i])
+            is_below = self._has_passed(i, k, places[i][0], depth, elapsed)
+            if is_below and self._below[i, k]:
+                self._fail(self._bodies[i], self._grounds[k], step, depth)
+            self._below[i, k] = is_below
+        self._middles = np.array([points[0] for points in places])
 
-    def _depth(self, body: _Body, place: Array) -> float:
-        """How far a body at a place is below the ground [m]; 0 where it is not, or only in it."""
-        least = body.size + THICKNESS
-        if place[2] + least > self._highest:
-            return 0.0
-        level = self._ground.level(place)
-        depth = 0.0 if level is None else level - float(place[2])
-        return depth if depth > least else 0.0
+    def _has_passed(self, i: int, k: int, middle: Array, depth: float, elapsed: float) -> bool:
+        """Whether body i is below ground k and has passed through it.
 
-    @cached_property
-    def _ground(self) -> Ground:
-        return Ground(self._faces)
+        Args:
+            i: number of the body.
+            k: number of the ground.
+            middle: of its box in W, (3,) [m].
+            depth: how deep all of it is below [m]; 0 if it is not.
+            elapsed: time since the last look [s].
+        """
+        ground = self._grounds[k]
+        way = ground.way_around(self._middles[i], middle)
+        if way == 0.0 and depth == 0.0:  # far away
+            self._above[i, k] = False
+            return False
+        if not ground.has_edge:
+            return depth > 0.0 and ground.depth(self._start[i]) == 0.0
+        if self._looked == 1:  # for the first time
+            self._above[i, k] = ground.is_above(self._start[i][0])
+        if ground.is_above(middle):
+            self._above[i, k] = True
+        elif way < FASTEST * elapsed:
+            self._above[i, k] = False
+        return depth > 0.0 and bool(self._above[i, k])
 
-    @cached_property
-    def _highest(self) -> float:
-        """Of the ground [m]."""
-        return float(self._faces[:, :, 2].max(initial=-np.inf))
-
-    @cached_property
-    def _faces(self) -> Array:
-        """Triangles of the ground in W, (n, 3, 3) [m]."""
-        found = [np.zeros((0, 3, 3))]
-        for i, thing in enumerate(self._scene.objects):
-            if thing.is_ground and not thing.solid.is_loose:
-                found.append(standing_faces(self._scene, i, thing.solid, self._data_path))
-        return np.concatenate(found)
+    def _fail(self, body: _Body, ground: SolidGround, step: int, depth: float) -> NoReturn:
+        raise SimulationFailed(
+            f"{body.name!r} has passed through the ground: at {step * self._timestep:g} s it is "
+            f"{depth:.3g} m below {ground.name!r}. Its load is too heavy, or it is too fast for "
+            f"steps of {self._timestep:g} s; expected shorter steps, or less load."
+        )
 
 
 def _bodies(
@@ -142,4 +159,5 @@ def _bodies(
 
 def _body(name: str, pose: Callable[[], Pose], shapes: Sequence[CollisionShape]) -> _Body:
     box = bounds(shapes)
-    return _Body(name, pose, box.body_from_shape.position, length(np.array(box.size)))
+    points = np.concatenate([np.zeros((1, 3)), CORNERS * np.array(box.size)])
+    return _Body(name, pose, box.body_from_shape.transform(points))

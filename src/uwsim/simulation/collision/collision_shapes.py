@@ -193,6 +193,18 @@ def standing_faces(
     return seen_from(np.array([0.0, 0.0, 1.0]), triangles) if thing.is_ground else triangles
 
 
+def standing_box(
+    scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
+) -> Array:
+    """Least and greatest coordinates in W of a fixed object's mesh, (2, 3) [m]."""
+    thing = scene.objects[index]
+    model = _touched_model(thing, physics, object_models(scene, data_path))
+    world_from_object = scene.world_from_localized @ thing.localized_from_object
+    world_from_mesh = product(world_from_object.matrix, _object_from_mesh(thing))
+    corners = placed(model.box.corners(), world_from_mesh[:3, :3], world_from_mesh[:3, 3])
+    return np.stack([corners.min(axis=0), corners.max(axis=0)])
+
+
 def touched_mesh(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> FixedMesh | None:

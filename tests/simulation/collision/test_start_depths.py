@@ -1,0 +1,167 @@
+"""What begins in the ground is lifted out of it, and `uwsim check` says where it would be clear."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from tests.simulation.collision.test_bounces import in_water, relief
+from tests.simulation.collision.test_bounces import loose as on_relief
+from tests.simulation.collision.test_floor import EDGES, UP, grid, ground
+from tests.simulation.girona500 import SCENE
+from uwsim.geometry import Pose
+from uwsim.physics.kinematics.lift import SPEED
+from uwsim.scene.object import ObjectSpec
+from uwsim.scene.reader import read_scene
+from uwsim.scene.spec import SceneSpec
+from uwsim.simulation import Simulation
+from uwsim.simulation.checks.start_plausibility import Starts
+from uwsim.simulation.collision.start_depths import StartDepths
+
+SCALE = 2.5
+HEIGHT = SCALE * EDGES[2]
+
+
+@pytest.fixture(scope="module", params=["height field", "plates"])
+def floor(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> ObjectSpec:
+    """The same relief, as 5000 triangles and as 512."""
+    n = 50 if request.param == "height field" else 16
+    return ground(grid(tmp_path_factory.mktemp("floor"), relief, n=n))
+
+
+def sunk(depth: float, name: str = "thing", x: float = 0.3, **physics: object) -> ObjectSpec:
+    """A box of 0.375 m whose middle is so far below the relief [m]."""
+    given = {"mass": 157.0, "volume": 0.02, **physics}
+    return on_relief(name, x, 0.2, -depth, scale=SCALE, **given)
+
+
+def height(simulation: Simulation, name: str = "thing") -> float:
+    return float(simulation.world.body(name).world_from_body.position[2])
+
+
+@pytest.mark.parametrize("timestep", [0.002, 0.01])
+@pytest.mark.parametrize("depth", [0.0, 0.1, 0.25])
+def test_a_box_that_begins_in_the_ground_is_lifted_slowly(
+    depth: float, timestep: float, floor: ObjectSpec
+) -> None:
+    simulation = in_water(sunk(depth), floor, timestep=timestep)
+    heights = [height(simulation)]
+    for _ in range(40):
+        simulation.advance(0.1)
+        heights.append(height(simulation))
+    assert np.diff(heights).max() < 1.1 * SPEED * 0.1
+    x, y, z = simulation.world.body("thing").world_from_body.position
+    assert z > relief(x, y) - 0.05
+    assert max(heights) < float(relief(0.3, 0.2)) + 1.5 * HEIGHT  # and then it may roll down
+
+
+def test_only_what_is_deeper_than_its_height_stays(floor: ObjectSpec) -> None:
+    for depth, is_lifted in ((0.3, True), (3.0, False)):
+        simulation = in_water(sunk(depth), floor, timestep=0.01)
+        assert simulation.world.state.lift.is_active == is_lifted
+        start = height(simulation)
+        simulation.advance(2.0)
+        assert (height(simulation) > start) == is_lifted
+
+
+def test_an_accepted_start_or_one_that_is_shallow_is_left_to_contacts(floor: ObjectSpec) -> None:
+    accepted = replace(sunk(0.1), accepts=("start",))
+    rest = sunk(-0.5 * HEIGHT)
+    depths = StartDepths(SceneSpec(sim_params=UP, objects=(rest, floor)), {}, ())
+    rise = depths.floor.ground.rise(depths.floor.body_of_object(0, rest.localized_from_object))
+    assert rise is not None
+    shallow = sunk(-0.5 * HEIGHT - rise + 0.015)
+    for thing in (accepted, shallow):
+        assert not in_water(thing, floor, timestep=0.01).world.state.lift.is_active
+
+
+def test_each_of_several_is_lifted_by_its_own_depth(floor: ObjectSpec) -> None:
+    things = [sunk(0.05, "a", x=-3.0), sunk(0.2, "b", x=3.0), sunk(-2.0, "c")]
+    simulation = in_water(*things, floor, timestep=0.01)
+    left = simulation.world.state.lift.left
+    assert len(left) == 2
+    assert left[1] > left[0] > 0
+    simulation.advance(6.0)
+    assert not simulation.world.state.lift.is_active
+    for name in "ab":
+        x, y, z = simulation.world.body(name).world_from_body.position
+        assert z > relief(x, y) - 0.05
+
+
+def test_what_is_placed_elsewhere_meanwhile_is_no_longer_lifted(floor: ObjectSpec) -> None:
+    simulation = in_water(sunk(0.25), floor, timestep=0.01)
+    simulation.advance(0.2)
+    simulation.set_pose("thing", Pose(np.array([2.0, 2.0, -2.0]), np.eye(3)))
+    simulation.advance(0.1)
+    assert not simulation.world.state.lift.is_active
+    assert height(simulation) < -2.0
+    simulation.advance(8.0)
+    x, y, z = simulation.world.body("thing").world_from_body.position
+    assert relief(x, y) - 0.05 < z < -2.0  # it touches the ground again
+
+
+def test_a_saved_simulation_goes_on_being_lifted_to_the_bit(floor: ObjectSpec) -> None:
+    first = in_water(sunk(0.25), floor, timestep=0.01)
+    first.advance(0.3)
+    middle = first.save()
+    first.advance(3.0)
+    last = first.save()
+    first.restore(middle)
+    assert first.world.state.lift.is_active
+    first.advance(3.0)
+    assert first.save() == last
+    other = in_water(sunk(0.25), floor, timestep=0.01)
+    other.restore(middle)
+    other.advance(3.0)
+    assert other.save() == last
+
+
+def test_the_steps_of_a_lift_do_not_depend_on_how_they_are_asked_for(floor: ObjectSpec) -> None:
+    ends = []
+    for seconds in (0.01, 0.5):
+        simulation = in_water(sunk(0.25), floor, timestep=0.01)
+        for _ in range(round(3.0 / seconds)):
+            simulation.advance(seconds)
+        ends.append(simulation.world.body("thing").world_from_body.matrix.tobytes())
+    assert ends[0] == ends[1]
+
+
+def test_a_vehicle_whose_arm_begins_in_the_ground_is_not_thrown(floor: ObjectSpec) -> None:
+    vehicle = replace(
+        read_scene(SCENE).nominal.vehicles[0],
+        orientation=(np.pi, 0.0, 0.0),
+        position=(0.0, 0.0, -5.2),
+        parts=(),
+    )
+    simulation = Simulation(
+        SceneSpec(sim_params=UP, objects=(floor,), vehicles=(vehicle,)), is_blind=True
+    )
+    assert simulation.world.state.lift.is_active
+    for _ in range(50):
+        simulation.advance(0.1)
+        velocity = simulation.world.state.vehicle_velocity(0)
+        assert np.abs(velocity).max() < 3.0
+
+
+@pytest.mark.parametrize("frame", ["up", "down"])
+@pytest.mark.parametrize("depth", [0.1, 0.25, 1.0])
+def test_check_names_a_position_that_clears_it(depth: float, frame: str, floor: ObjectSpec) -> None:
+    sim = UP if frame == "up" else replace(UP, offsetr=(np.pi, 0.0, 0.0))
+    turn = Pose.from_xyz(sim.offsetp, sim.offsetr).inverse()
+    flip = (np.pi, 0.0, 0.0) if frame == "down" else (0.0, 0.0, 0.0)
+    thing = sunk(depth)
+    at = tuple(turn.transform(np.array([thing.position]))[0])
+    thing = replace(thing, position=at)
+    scene = SceneSpec(
+        sim_params=sim,
+        objects=(thing, replace(floor, orientation=flip)),
+        vehicles=tuple(read_scene(SCENE).vehicles),
+    )
+    said = Starts(scene, {}, ()).of_object(0)
+    found = re.search(r"expected above it, at z (-?\d+\.\d+): <u:onFloor/> sets it there", said)
+    assert found, said
+    clear = replace(thing, position=(at[0], at[1], float(found[1])))
+    assert Starts(replace(scene, objects=(clear, *scene.objects[1:])), {}, ()).of_object(0) == ""
