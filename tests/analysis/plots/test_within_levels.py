@@ -88,6 +88,14 @@ def test_a_log_without_any_value_or_of_another_benchmark_has_no_plot() -> None:
     assert over_time_plot(visibility(), Log(measure="corners", header=("time [s]",))) is None
 
 
+def test_a_log_of_zeros_has_no_plot() -> None:
+    log = log_of((1, 2))
+    zeros = tuple((*sample[:-2], 0.0, 0.0) for sample in log.samples)
+    assert over_time_plot(visibility(seeds=(1, 2)), replace(log, samples=zeros)) is None
+    once = ((*zeros[0][:-2], 1.0, 0.0), *zeros[1:])
+    assert over_time_plot(visibility(seeds=(1, 2)), replace(log, samples=once)) is not None
+
+
 def test_of_many_levels_some_are_chosen_with_the_first_and_the_last() -> None:
     shown = panels_of([(float(i),) for i in range(27)])
     assert len(shown.levels) == MAX_PANELS

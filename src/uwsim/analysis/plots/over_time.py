@@ -74,7 +74,7 @@ def _table(seeds: Mapping[tuple[object, ...], Sequence[tuple[float, float]]]) ->
 
 
 def over_time_plot(result: Result, log: Log) -> Figure | None:
-    """Draw a measure over the time of each level; None where no sample has a value.
+    """Draw a measure over the time of each level; None where no sample has a value but 0.
 
     Args:
         result: whose levels and seeds the log has.
@@ -90,7 +90,7 @@ def over_time_plot(result: Result, log: Log) -> Figure | None:
         for level, found in samples_of(result, log).items()
         if len(found.times) > 1 and not np.isnan(found.values).all()
     }
-    if not samples:
+    if not any(np.nan_to_num(found.values).any() for found in samples.values()):
         return None
     shown = panels_of(samples)
     with styled_figure(shown.size) as figure:
