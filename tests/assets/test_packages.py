@@ -108,6 +108,23 @@ def test_a_declared_name_comes_before_a_folder_of_that_name(tmp_path: Path) -> N
     assert edge_of("arm", tmp_path / "scene.xml", tmp_path / "ws") == pytest.approx(0.7)
 
 
+@pytest.mark.parametrize("way", ["data path", "its folder", "ROS_PACKAGE_PATH"])
+def test_what_the_user_names_comes_before_a_neighbour_of_a_neighbour(
+    way: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    robot = package(tmp_path / "ws" / "a" / "hull_pkg", "hull_pkg") / "urdf" / "rov.urdf"
+    package(tmp_path / "ws" / "zz" / "arm", "arm")
+    assert edge_of("arm", robot) == pytest.approx(0.7)
+    cube(package(tmp_path / "other" / "arm", "arm") / "meshes" / "base.obj", 0.3)
+    folders = {"data path": tmp_path / "other", "its folder": tmp_path / "other" / "arm"}
+    if way == "ROS_PACKAGE_PATH":
+        monkeypatch.setenv(way, str(tmp_path / "other"))
+    given = (folders[way],) if way in folders else ()
+    assert edge_of("arm", robot, *given) == pytest.approx(0.3)
+    cube(package(tmp_path / "ws" / "a" / "arm", "arm") / "meshes" / "base.obj", 0.9)
+    assert edge_of("arm", robot, *given) == pytest.approx(0.9)  # beside it
+
+
 @pytest.mark.parametrize("variable", ["ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"])
 def test_the_variables_of_ros_name_folders_with_packages(
     variable: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

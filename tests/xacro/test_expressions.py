@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+import re
 from pathlib import Path
 
 import pytest
 
-from uwsim.errors import SceneError
+from uwsim.errors import FileError, SceneError
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.xacro import parse_expanded
 from uwsim.xacro.expression import evaluate
@@ -64,7 +65,7 @@ def test_values(text: str, expected: object) -> None:
         ("hull.mas", "the dictionary has no 'mas'. Did you mean 'mass'?"),
         ("hull['mas']", "the dictionary has no 'mas'"),
         ("n[0]", "is neither a list nor a dictionary"),
-        ("place * 3", "lists can only be added to lists"),
+        ("place - 1", "lists can only be added to lists"),
         ("powr(1, 2)", "no function is called 'powr'. Did you mean 'pow'?"),
         ("word.format(1)", "no function is called 'word.format'"),
         ("pow('a', 2)", "'a' is not a number"),
@@ -112,10 +113,10 @@ def test_optenv_is_the_variable_or_its_default(
 @pytest.mark.parametrize(
     ("body", "expected"),
     [
-        ("<b>${'$(arg kind)' == 'heavy'}</b>", "true"),
+        ("<b>${'$(arg kind)' == 'heavy'}</b>", "True"),
         ("<b>${2 * $(arg n)}</b>", "14"),
         ("<b>$(eval 2 * n + 1)</b>", "15"),
-        ("<b>$(eval arg('kind') == 'heavy')</b>", "true"),
+        ("<b>$(eval arg('kind') == 'heavy')</b>", "True"),
         ("<b>${xacro.arg('n') + 1}</b>", "8"),
         (
             '<xacro:property name="p" value="my"/><b>$(find ${p}_pkg)/a.dae</b>',
@@ -225,3 +226,62 @@ def test_two_packages_with_parts_of_one_name_include_their_own(tmp_path: Path) -
     file.write_text(text.format('<xacro:include filename="$(find gone_pkg)/no.xacro"/>'))
     with pytest.raises(SceneError, match="package 'gone_pkg' is not found"):
         read_urdf(file)
+
+
+@pytest.mark.parametrize(
+    ("expression", "expected"),
+    [  # as xacro 2 of ROS gives them
+        ("list(map(float, '4,8'.split(',')))[1]", "8.0"),
+        ("[x * 2 for x in range(4) if x > 1]", "[4, 6]"),
+        ("[k + str(v) for k, v in dict(a=1, b=2).items()]", "['a1', 'b2']"),
+        ("sum(x * y for x in [1, 2] for y in [3, 4])", "21"),
+        ("[[x for x in range(y)] for y in [1, 2]]", "[[0], [0, 1]]"),
+        ("'%.2f' % 2.0", "2.00"),
+        ("'%s_%03d' % ('thruster', 7)", "thruster_007"),
+        ("'abc'[1:]", "bc"),
+        ("[1, 2, 3][::-1]", "[3, 2, 1]"),
+        ("'-' * 3", "---"),
+        ("[0.0] * 2", "[0.0, 0.0]"),
+        ("'x' in 'xyz'", "True"),
+        ("[n + 1 for n in [7]]", "[8]"),
+    ],
+)
+def test_loops_formats_and_parts_are_those_of_python(
+    expression: str, expected: str, tmp_path: Path
+) -> None:
+    assert text_of(tmp_path, f"<b>${{{expression}}}</b>".replace("<b>", "<b>", 1)) == expected
+
+
+@pytest.mark.parametrize(
+    ("expression", "said"),
+    [
+        ("[x for x in range(3000)]", "loops of more than 2000 turns"),
+        ("[[x for x in range(100)] for y in range(100)]", "loops of more than 2000 turns"),
+        ("[list(range(1000)) for x in range(9)]", "loops of more than 2000 turns"),
+        ("'%99999999d' % 1", "a field of more than 99 letters"),
+        ("'%*d' % (99999999, 1)", "a field of more than 99 letters"),
+        ("'abc' * 99999999", "longer than 4096"),
+        ("[1] * 99999999", "longer than 10000"),
+        ("list(map(flaot, [1]))", "no function is called 'flaot'. Did you mean 'float'?"),
+        ("[x for x, y in [1]]", "cannot be the name of an item"),
+        ("[y for x in [1]]", "no property is called 'y'"),
+    ],
+)
+def test_what_a_loop_cannot_do_is_said_in_a_line(
+    expression: str, said: str, tmp_path: Path
+) -> None:
+    with pytest.raises(FileError, match=re.escape(said)):
+        text_of(tmp_path, f"<b>${{{expression}}}</b>")
+
+
+def test_commas_between_parameters_are_no_part_of_their_names(tmp_path: Path) -> None:
+    body = '<xacro:macro name="m" params="x, y"><b>${x + y}</b></xacro:macro><xacro:m x="1" y="2"/>'
+    assert text_of(tmp_path, body) == "3"
+
+
+@pytest.mark.parametrize("depth", ["", "urdf/parameters/"])
+def test_a_file_of_a_lost_package_is_not_another_of_its_name(depth: str, tmp_path: Path) -> None:
+    (tmp_path / "parts.xacro").write_text("<x><link name='wrong'/></x>")
+    body = f'<xacro:include filename="$(find lost_pkg)/{depth}other/parts.xacro"/><b>1</b>'
+    with pytest.raises(FileError, match="package 'lost_pkg' is not found"):
+        text_of(tmp_path, body)

@@ -154,7 +154,6 @@ def test_what_is_wrong_is_an_error_with_its_line(tmp_path: Path, body: str, mess
         "__import__('os').system('touch /tmp/x')",
         "open('/etc/passwd').read()",
         "().__class__.__bases__[0].__subclasses__()",
-        "[x for x in (1, 2)]",
         "(lambda: 1)()",
         "'a' * 10**9",
         "math.__loader__",

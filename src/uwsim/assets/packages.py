@@ -3,11 +3,11 @@
 A package is a folder called NAME, or one whose ``package.xml`` gives that name. It is looked for
 
 1. above the file that names it, and beside each of these folders, also as a workspace has it:
-   ``src/NAME``, ``share/NAME``, ``install/NAME/share/NAME``. Where the file lies in a package or in
-   a workspace, in all folders of the workspace;
+   ``src/NAME``, ``share/NAME``, ``install/NAME/share/NAME``;
 2. in and below every data path;
 3. below the folders of ``ROS_PACKAGE_PATH``, and as ``share/NAME`` in those of
-   ``AMENT_PREFIX_PATH``.
+   ``AMENT_PREFIX_PATH``;
+4. where the file lies in a package or in a workspace, in all folders of the workspace.
 
 The package ``uwsim`` is the original's, whose files are also looked for without its name.
 """
@@ -68,15 +68,17 @@ def package_folders(
         return
     seen: set[Path] = set()
     above = list(above)
+    for folder in above:
+        yield from _fresh(_in(package, folder, 0), seen)
+    for folder in (*data_path, *_entries("ROS_PACKAGE_PATH")):
+        yield from _fresh(_in(package, folder.absolute(), WORKSPACE_DEPTH), seen)
+    for prefix in _entries("AMENT_PREFIX_PATH"):
+        yield from _fresh([prefix / "share" / package], seen)
     enclosing = next((i for i, folder in enumerate(above) if _declared(folder)), len(above))
     for i, folder in enumerate(above):
         is_near = enclosing < i <= enclosing + 2
         depth = WORKSPACE_DEPTH if _is_workspace(folder) else REPOSITORY_DEPTH * is_near
         yield from _fresh(_in(package, folder, depth), seen)
-    for folder in (*data_path, *_entries("ROS_PACKAGE_PATH")):
-        yield from _fresh(_in(package, folder.absolute(), WORKSPACE_DEPTH), seen)
-    for prefix in _entries("AMENT_PREFIX_PATH"):
-        yield from _fresh([prefix / "share" / package], seen)
 
 
 def environment_folders() -> list[Path]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 from lxml import etree
 
@@ -60,14 +60,18 @@ class _NamedFiles:
         self._error, self._data_path = error, data_path
 
     def find(self, name: str, named_by: Path) -> Path:
-        """Find a file; raises NotFound, or ExpressionError where it may not be read."""
+        """Find a file; raises NotFound, or ExpressionError where it may not be read.
+
+        Of a package that is not found only a file of the same path counts: the content of another
+        file of that name, or of the one that names it, would be taken without a word.
+        """
         from ..assets import find, searched_for
 
         try:
             found = find(name, named_by=named_by, data_path=self._data_path)
         except AssetError as outside:
             raise ExpressionError(str(outside)) from None
-        if found is None:
+        if found is None or _is_guess(name, found, named_by):
             why = searched_for(name, named_by=named_by, data_path=self._data_path)
             raise NotFound(f"the file {name[:200]!r} is nowhere; {why}")
         return found
@@ -81,6 +85,17 @@ class _NamedFiles:
         from ..assets import place_remark
 
         return place_remark(name, path, named_by=named_by, data_path=self._data_path)
+
+
+def _is_guess(name: str, found: Path, named_by: Path) -> bool:
+    """Whether a file of a package has another path than its name states, or names itself."""
+    from ..assets.packages import OURS, package_of
+
+    in_package = package_of(name)
+    if in_package is None or in_package[0] == OURS:
+        return False
+    parts = PurePosixPath(in_package[1]).parts
+    return found.parts[-len(parts) :] != parts or found.samefile(named_by)
 
 
 def library_of(root: etree._Element) -> tuple[str, tuple[str, ...]] | None:

@@ -10,11 +10,11 @@ import ast
 import math
 import operator
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ..errors import did_you_mean
-from .functions import FUNCTIONS, method
+from .functions import FUNCTIONS, formatted, method, repeated
 from .value import MAX_LENGTH, ExpressionError, Value, checked, written
 
 Functions = Mapping[str, Callable[..., Any]]
@@ -48,6 +48,8 @@ COMPARE: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.In: lambda item, whole: item in whole,
     ast.NotIn: lambda item, whole: item not in whole,
 }
+MAX_TURNS = 2000
+"""Most turns of all loops of an expression."""
 MODULES = ("math", "xacro", "python")
 """Names before a dot that are no property."""
 INTEGER = re.compile(r"[+-]?\d{1,18}")
@@ -102,10 +104,17 @@ class Evaluation:
     Args:
         look_up: returns the value of a name.
         functions: functions by their names.
+        turns: number of turns of loops so far, in a list, for those around this one, too.
     """
 
-    def __init__(self, look_up: Callable[[str], Value], functions: Functions) -> None:
+    def __init__(
+        self,
+        look_up: Callable[[str], Value],
+        functions: Functions,
+        turns: list[int] | None = None,
+    ) -> None:
         self._look_up, self._functions = look_up, functions
+        self._turns = [0] if turns is None else turns
 
     def value(self, node: ast.expr) -> Value:
         """Return the value of a node; raises ExpressionError."""
@@ -116,14 +125,24 @@ class Evaluation:
                 return self._look_up(name)
             case ast.List(elts=items) | ast.Tuple(elts=items):
                 return checked([self.value(item) for item in items])
+            case ast.Subscript(value=whole, slice=ast.Slice() as part):
+                return self._part(self.value(whole), part)
             case ast.Subscript(value=whole, slice=place):
                 return _item(self.value(whole), self.value(place))
             case ast.Attribute(value=ast.Name(id="math"), attr=name) if name in CONSTANTS:
                 return CONSTANTS[name]
             case ast.Attribute(value=whole, attr=name):
                 return _attribute(self.value(whole), name)
+            case ast.Call(func=ast.Name(id="map"), args=[ast.Name(id=name), items]):
+                function = self._function(name)
+                return checked([checked(function(item)) for item in self._items(items)])
             case ast.Call():
                 return self._call(node)
+            case (
+                ast.ListComp(elt=item, generators=loops)
+                | ast.GeneratorExp(elt=item, generators=loops)
+            ):
+                return checked(list(self._comprehended(item, loops)))
             case ast.IfExp(test=test, body=body, orelse=other):
                 return self.value(body if self.value(test) else other)
             case ast.BoolOp(op=operation, values=parts):
@@ -131,6 +150,56 @@ class Evaluation:
             case ast.Compare(left=left, ops=operations, comparators=others):
                 return self._compared(self.value(left), operations, others)
         return self._arithmetic(node)
+
+    def _part(self, whole: Value, part: ast.Slice) -> Value:
+        """Return the part of a list or a text between two numbers."""
+        if not isinstance(whole, list | str):
+            raise ExpressionError(f"{written(whole)[:40]} is neither a list nor a text")
+        bounds: list[Any] = [
+            None if bound is None else self.value(bound)
+            for bound in (part.lower, part.upper, part.step)
+        ]
+        return checked(whole[slice(*bounds)])
+
+    def _items(self, node: ast.expr) -> list[Any]:
+        """Return what a loop goes over: the items of a list, keys, or the letters of a text."""
+        whole = self.value(node)
+        if not isinstance(whole, list | dict | str):
+            raise ExpressionError(f"{written(whole)[:40]} is neither a list nor a dictionary")
+        self._count(len(whole))
+        return list(whole)
+
+    def _count(self, n: int) -> None:
+        """Count turns of loops, and the items of the lists that they make."""
+        self._turns[0] += n
+        if self._turns[0] > MAX_TURNS:
+            raise ExpressionError(f"loops of more than {MAX_TURNS} turns")
+
+    def _comprehended(self, item: ast.expr, loops: Sequence[ast.comprehension]) -> Iterator[Value]:
+        """Give the items of ``[item for name in list if condition]``."""
+        if not loops:
+            value = self.value(item)
+            self._count(len(value) if isinstance(value, list | dict) else 0)
+            yield value
+            return
+        for each in self._items(loops[0].iter):
+            names = _unpacked(loops[0].target, each)
+
+            def look_up(name: str, names: dict[str, Value] = names) -> Value:
+                return names[name] if name in names else self._look_up(name)
+
+            inner = Evaluation(look_up, self._functions, self._turns)
+            if all(inner.value(condition) for condition in loops[0].ifs):
+                yield from inner._comprehended(item, loops[1:])
+
+    def _function(self, name: str) -> Callable[..., Any]:
+        if name not in self._functions:
+            raise self._no_function(name)
+        return self._functions[name]
+
+    def _no_function(self, name: str) -> ExpressionError:
+        near = did_you_mean(name, self._functions)
+        return ExpressionError(f"no function is called {name[:60]!r}.{near}")
 
     def _arithmetic(self, node: ast.expr) -> Value:
         match node:
@@ -181,8 +250,19 @@ class Evaluation:
                 found = method(self.value(node.func.value), node.func.attr)
             if found is not None:
                 return checked(found(*arguments))
-        near = did_you_mean(name, self._functions)
-        raise ExpressionError(f"no function is called {name[:60]!r}.{near}")
+        raise self._no_function(name)
+
+
+def _unpacked(target: ast.expr, value: Value) -> dict[str, Value]:
+    """Return the names of a loop with their values: ``x``, or ``x, y`` for an item of two."""
+    if isinstance(target, ast.Name):
+        return {target.id: value}
+    if isinstance(target, ast.Tuple | ast.List) and isinstance(value, list):
+        if len(target.elts) != len(value):
+            raise ExpressionError(f"{len(target.elts)} names for {len(value)} values")
+        pairs = zip(target.elts, value, strict=True)
+        return {name: one for part, item in pairs for name, one in _unpacked(part, item).items()}
+    raise ExpressionError(f"{ast.unparse(target)[:40]!r} cannot be the name of an item")
 
 
 def _item(whole: Value, place: Value) -> Value:
@@ -210,6 +290,11 @@ def _attribute(whole: Value, name: str) -> Value:
 
 
 def _binary(operation: ast.operator, left: Value, right: Value) -> Value:
+    if isinstance(operation, ast.Mod) and isinstance(left, str):
+        return checked(formatted(left, right))
+    is_whole = [isinstance(each, str | list) for each in (left, right)]
+    if isinstance(operation, ast.Mult) and is_whole.count(True) == 1:
+        return checked(repeated(left, right))
     kinds = {type(each) for each in (left, right) if isinstance(each, str | list)}
     if kinds and not (isinstance(operation, ast.Add) and type(left) is type(right)):
         what = "lists" if kinds == {list} else "texts"

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable
 from typing import Any
 
-from .value import MAX_ITEMS, ExpressionError, Value, written
+from .value import MAX_ITEMS, MAX_LENGTH, ExpressionError, Value, written
 
 
 def power(base: Value, exponent: Value) -> int | float:
@@ -32,6 +33,38 @@ def numbers(*bounds: Any) -> list[int]:
     return list(found)
 
 
+def zipped(*lists: Any) -> list[list[Any]]:
+    """Return the first items of all lists as a list, the second ones, ..."""
+    return [list(items) for items in zip(*lists, strict=False)]
+
+
+def numbered(items: Any, start: int = 0) -> list[list[Any]]:
+    """Return each item with its number before it."""
+    return [[number, item] for number, item in enumerate(items, start)]
+
+
+def formatted(pattern: str, values: Any) -> str:
+    """Return ``pattern % values``, with fields of at most 99 letters."""
+    if any(int(width) > 99 for width in WIDTH.findall(pattern)) or "*" in pattern:
+        raise ExpressionError(f"{pattern[:40]!r}: a field of more than 99 letters")
+    return pattern % (tuple(values) if isinstance(values, list) else values)
+
+
+def repeated(whole: Any, times: Any) -> Any:
+    """Return a text or a list several times after each other."""
+    if isinstance(whole, int):
+        whole, times = times, whole
+    if not isinstance(times, int) or isinstance(times, bool):
+        raise ExpressionError(f"{written(times)[:40]} is no number of repetitions")
+    limit = MAX_LENGTH if isinstance(whole, str) else MAX_ITEMS
+    if len(whole) * times > limit:
+        raise ExpressionError(f"a text or a list longer than {limit}")
+    return whole * times
+
+
+WIDTH = re.compile(r"\d+")
+"""Numbers in a pattern, among which are those of its fields."""
+
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
     **{name: getattr(math, name) for name in ("atan2", "sqrt", "exp", "log", "log10", "hypot")},
@@ -42,6 +75,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{"abs": abs, "min": min, "max": max, "round": round, "sum": sum, "pow": power},
     **{"int": int, "float": float, "bool": bool, "str": str, "len": len, "range": numbers},
     **{"list": list, "tuple": tuple, "dict": dict, "sorted": sorted, "any": any, "all": all},
+    **{"zip": zipped, "enumerate": numbered},
 }
 """Name -> function; those of ``math`` may be written ``math.name``."""
 

@@ -16,6 +16,8 @@ PARAMETER = re.compile(
     r"(?P<stars>\*{0,2})(?P<name>[A-Za-z_][\w.-]*)"
     r"(?:(?P<colon>:?=)(?P<outer>\^\|?)?(?P<default>'[^']*'|\"[^\"]*\"|\$\{[^{}]*\}|\S*))?(?=\s|$)"
 )
+COMMAS = re.compile(r"\s*\w+\s*(,\s*\w+\s*)+")
+"""Names with commas between them, which xacro takes for parts of the names."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,6 +93,7 @@ def parameters_of(text: str) -> tuple[Parameter, ...]:
     """
     parameters: dict[str, Parameter] = {}
     last = 0
+    text = text.replace(",", " ") if COMMAS.fullmatch(text) else text
     for found in PARAMETER.finditer(text):
         if text[last : found.start()].strip():
             break

@@ -25,9 +25,7 @@ class ExpressionError(UwsimError):
 
 
 def written(value: Value) -> str:
-    """Return a value as it stands in a file."""
-    if isinstance(value, bool):
-        return "true" if value else "false"
+    """Return a value as it stands in a file: that of a comparison as ``True``, as xacro has it."""
     return str(value)
 
 
