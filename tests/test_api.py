@@ -106,6 +106,24 @@ def test_a_setting_and_a_scene_that_are_wrong_name_the_right_one() -> None:
         uwsim.load("visibility-scne")
 
 
+def test_values_of_a_wrong_type_are_refused_in_a_line() -> None:
+    with uwsim.load("shapes-scene") as simulation:
+        with pytest.raises(uwsim.UwsimError, match=r"set_current\(1\): expected three numbers"):
+            simulation.set_current(1)  # type: ignore[arg-type]
+        with pytest.raises(uwsim.UwsimError, match=r"\[1, 2, 3\]\): expected a Pose"):
+            simulation.set_pose("girona500", [1, 2, 3])  # type: ignore[arg-type]
+        with pytest.raises(uwsim.UwsimError, match=r"set_fog\('0.4'\): expected a finite number"):
+            simulation.set_fog("0.4")  # type: ignore[arg-type]
+        with pytest.raises(uwsim.UwsimError, match=r"advance\('1'\): expected a time"):
+            simulation.advance("1")  # type: ignore[arg-type]
+    with pytest.raises(uwsim.UwsimError, match=r"load\(seed='x'\): expected a whole number"):
+        uwsim.load("shapes-scene", seed="x")  # type: ignore[arg-type]
+    with pytest.raises(uwsim.UwsimError, match="expected a dictionary"):
+        uwsim.load("shapes-scene", settings=["a=1"])  # type: ignore[arg-type]
+    with pytest.raises(uwsim.UwsimError, match="consecutive seeds >= 0"):
+        uwsim.bench("visibility", seeds=[-1])
+
+
 def test_two_simulations_do_not_see_each_other() -> None:
     alone, beside = [], []
     with uwsim.load("currents-scene", seed=3) as one:

@@ -59,11 +59,12 @@ def load(
     from .simulation import Simulation
 
     folders = tuple(Path(folder) for folder in data_path)
+    settings = _checked_settings(settings)
     if isinstance(scene, str | Path):
-        arguments = xacro_arguments((settings or {}).items())
+        arguments = xacro_arguments(settings.items())
         path_of_scene = scene_file(str(scene), folders)
         scene = read_scene(path_of_scene, data_path=folders, arguments=arguments)
-    for path, value in (settings or {}).items():
+    for path, value in settings.items():
         scene = apply_setting(scene, path, str(value))
     return Simulation(
         scene, seed=seed, timestep=timestep, data_path=folders, udp_address=udp_address
@@ -115,7 +116,7 @@ def bench(
         seed=_first_of(seeds),
         repeat=len(seeds),
         levels=_texts_of(levels or {}),
-        settings=[f"{path}={value}" for path, value in (settings or {}).items()],
+        settings=[f"{path}={value}" for path, value in _checked_settings(settings).items()],
         data_path=tuple(Path(folder) for folder in data_path),
     )
     plan = make_plan(request)
@@ -131,6 +132,15 @@ def bench(
         if out is not None:
             _write_report(run, watch, workers)
     return result
+
+
+def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Setting]:
+    """Refuse settings that are no mapping; raises BadSetting."""
+    if settings is None or isinstance(settings, Mapping):
+        return settings or {}
+    raise BadSetting(
+        f"settings={settings!r}: expected a dictionary, as {{'oceanState.fog.density': 0.4}}."[:300]
+    )
 
 
 def _write_report(run: Run, watch: Stopwatch, workers: int) -> None:
@@ -167,11 +177,12 @@ def _texts_of(levels: Mapping[str, Sequence[float]]) -> list[str]:
 
 def _first_of(seeds: Sequence[int]) -> int:
     """Return the first of some consecutive seeds; BadSetting if they are not."""
-    if len(seeds) == 0 or list(seeds) != list(range(seeds[0], seeds[0] + len(seeds))):
+    first = next(iter(seeds), -1)
+    if first < 0 or list(seeds) != list(range(first, first + len(seeds))):
         raise BadSetting(
-            f"seeds={list(seeds)[:10]}: expected consecutive seeds, such as (0,) or range(6)."
+            f"seeds={list(seeds)[:10]}: expected consecutive seeds >= 0, such as (0,) or range(6)."
         )
-    return seeds[0]
+    return first
 
 
 def read_result(path: str | Path) -> Result:

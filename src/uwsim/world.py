@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 import numpy.typing as npt
@@ -151,6 +151,7 @@ class Actuators(Protocol):
         """Electric power of the thrusters, then of the joints, (n,) [W]."""
 
 
+@runtime_checkable
 class Flow(Protocol):
     """Moving water, such as those in `uwsim.currents`; everything in L."""
 

@@ -252,6 +252,44 @@ def test_what_a_vehicle_can_pass_through_is_named_until_the_file_says_that_it_is
     assert "pass through" not in capsys.readouterr().out
 
 
+LOOSE = """<UWSimScene xmlns:u="urn:uwsim:1">
+<simParams> <enablePhysics>1</enablePhysics> </simParams>
+<object> <name>seabed</name> <file>terrain/islands/islands.osg</file> </object>
+<object> <name>box</name> <file>objects/ship.osg</file>
+<physics> <mass>5</mass> <collisionShapeType>box</collisionShapeType> </physics> </object>
+</UWSimScene>"""
+
+
+def test_scenery_that_the_originals_physics_moves_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.xml"
+    for scene, is_named in [
+        (LOOSE, True),
+        (LOOSE.replace("seabed", "terrain"), False),
+        (LOOSE.replace("islands.osg</file>", "islands.osg</file> <u:solid>1</u:solid>"), False),
+        (LOOSE.replace("<physics>", "<!--").replace("</physics>", "-->"), False),
+        (LOOSE.replace("<enablePhysics>1", "<enablePhysics>0"), False),
+    ]:
+        file.write_text(scene)
+        assert status(str(file)) == 0
+        said = f"{file}:3: warning: what has no <physics> is a loose box of 1 kg"
+        assert (said in capsys.readouterr().out) is is_named
+
+
+def test_a_data_path_that_is_no_folder_is_an_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "scene.xml"
+    file.write_text(LOOSE)
+    gone = tmp_path / "gone"
+    assert status("--data-path", str(gone), "--data-path", str(file), str(file)) == 2
+    said = capsys.readouterr().err
+    assert f"--data-path {gone}: there is no such folder." in said
+    assert f"--data-path {file}: is no folder." in said
+    assert status("--data-path", str(tmp_path), str(file)) == 0
+
+
 def test_a_vehicle_without_any_shape_is_named(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -511,6 +511,14 @@ def test_a_sensor_on_an_unknown_link_is_a_warning_and_a_force_sensor_an_error(
     assert "'part9' is no link of data/scenes/g500ARM5.urdf. Did you mean part" in said[0][1]
 
 
+def test_a_force_sensor_on_a_link_without_mass_is_a_warning(tmp_path: Path) -> None:
+    sensor = VEHICLE.format("<ForceSensor><name>f</name><target>part4_jaw1</target></ForceSensor>")
+    physics = "<simParams><enablePhysics>1</enablePhysics></simParams>"
+    said = checked(physics + sensor, tmp_path)
+    assert ("warning", "<ForceSensor>: its link 'part4_jaw1' has no mass") in said
+    assert {severity for severity, _ in said} == {"warning"}
+
+
 def test_a_model_that_is_nowhere_is_an_error_that_names_the_folders(tmp_path: Path) -> None:
     thing = "<object><name>o</name><file>objects/mermaid.osg</file></object>"
     ((severity, message),) = checked(thing, tmp_path)

@@ -27,7 +27,7 @@ from ..rendering.rendered_image import RenderedImage
 from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from ..world import Flow
-from .access.arguments import checked_number, checked_pose, checked_seed, flow_of, shown
+from .access import arguments
 from .access.boxes import OrientedBox, oriented_boxes
 from .access.topics import TopicAccess
 from .nodes.calls import Calls
@@ -62,10 +62,10 @@ class Simulation:
         if not isinstance(scene, SceneSpec):
             raise BadSetting(
                 f"A Simulation is made of what read_scene returns, not of "
-                f"a {type(scene).__name__}: {shown(scene)}."
+                f"a {type(scene).__name__}: {arguments.shown(scene)}."
             )
         self._own_pool = RendererPool()
-        self._scene, self._seed = scene, seed
+        self._scene, self._seed = scene, arguments.checked_seed(seed, "load")
         self._options = {"pool": pool or self._own_pool, **options}
         self._watchers: list[Callable[[], None]] = []
         self._nodes: list[InProcessNode] = []
@@ -104,7 +104,7 @@ class Simulation:
         """
         self._refuse_if_attached("reset")
         if seed is not None:
-            self._seed = checked_seed(seed)
+            self._seed = arguments.checked_seed(seed)
         self.world.close()
         self._open(self._access.read)
 
@@ -145,9 +145,7 @@ class Simulation:
         if seconds is None:
             self._advance()
             return
-        if not 0.0 <= seconds < math.inf:
-            raise BadSetting(f"advance({seconds!r}): expected a time >= 0 [s].")
-        left = round(seconds / self.timestep)
+        left = round(arguments.checked_time(seconds) / self.timestep)
         while left > 0:
             left -= self._advance(left)
 
@@ -260,7 +258,7 @@ class Simulation:
             BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
             UwsimError: the object is fixed, or a vehicle holds it.
         """
-        self.world.place(name, checked_pose(name, self._world_from_frame(of) @ pose))
+        self.world.place(name, arguments.checked_pose(name, self._world_from_frame(of), pose))
 
     def _world_from_frame(self, frame: str) -> Pose:
         """Return ``world_from_frame`` of ``L``, ``W`` or a body."""
@@ -306,11 +304,11 @@ class Simulation:
 
     def set_fog(self, density: float) -> None:
         """Set the density of the fog [1/m], 0 for clear water; BadSetting if it is negative."""
-        self.world.set_fog(checked_number("set_fog", density))
+        self.world.set_fog(arguments.checked_number("set_fog", density))
 
     def set_light(self, rate: float) -> None:
         """Scale the light of the scene, 1 by default, 0 for night; BadSetting if negative."""
-        self.world.set_light_rate(checked_number("set_light", rate))
+        self.world.set_light_rate(arguments.checked_number("set_light", rate))
 
     def set_current(self, velocity: Sequence[float] | Flow | None) -> None:
         """Add a current to those of the scene, in place of the one that was set before.
@@ -321,7 +319,7 @@ class Simulation:
         Raises:
             BadSetting: these are not three numbers, or one exceeds the fastest current.
         """
-        self.world.set_current(flow_of(velocity))
+        self.world.set_current(arguments.flow_of(velocity))
 
     @property
     def motion(self) -> Motion:

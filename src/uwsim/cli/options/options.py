@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...errors import BadSetting
+from ...errors import AllErrors, BadSetting
 from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
 from ...runs.planning.plan_request import PlanRequest
 from ...scene.settings import OF_XACRO
@@ -85,9 +85,28 @@ CompatOption = Annotated[
     ),
 ]
 
+
+def existing_folders(folders: list[Path] | None) -> list[Path] | None:
+    """Refuse what is no folder; raises BadSetting."""
+    wrong = AllErrors()
+    for folder in folders or ():
+        if not folder.is_dir():
+            with wrong.kept():
+                what = "is no folder" if folder.exists() else "there is no such folder"
+                raise BadSetting(f"--data-path {folder}: {what}.")
+    wrong.check()
+    return folders
+
+
 DataPathOption = Annotated[
     list[Path] | None,
-    in_group(FILES, "--data-path", metavar="DIR", help="Search files here, too; may be repeated."),
+    in_group(
+        FILES,
+        "--data-path",
+        metavar="DIR",
+        help="Search files here, too; may be repeated.",
+        callback=existing_folders,
+    ),
 ]
 
 JsonOption = Annotated[

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from itertools import chain
 
 from ...devices.force_sensor import ForceSensorSpec
@@ -16,6 +16,7 @@ from ...schema import Diagnostics, line_of
 from ...topics import InterfaceSpec, element_of
 from ...topics.simulated_device_ros import unwrapped
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
+from ..object import ObjectSpec
 from ..spec import SceneSpec
 from ..urdf.robot import RobotSpec
 from ..vehicle import VehicleSpec
@@ -53,6 +54,8 @@ def check_names(
     if scene.is_dynamic:
         _check_passable_objects(scene, diagnostics)
         _check_passable_vehicles(scene, robots, diagnostics)
+    elif scene.is_original_physics:
+        _check_loose_scenery(scene, diagnostics)
 
 
 def check_left_out(
@@ -98,7 +101,7 @@ def _check_links(
         elif isinstance(part, ForceSensorSpec) and scene.sim_params.enable_physics:
             mass = next(each.mass for each in robot.links if each.name == link)
             if mass <= 0 and is_its_own:
-                diagnostics.error(part, f"<{element}>: its link {link!r} has no mass")
+                diagnostics.warning(part, f"<{element}>: its link {link!r} has no mass")
 
 
 def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, diagnostics: Diagnostics) -> None:
@@ -192,16 +195,36 @@ def _check_passable_objects(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         for thing in scene.objects
         if thing.is_solid is None and not thing.is_touched(in_water=True)
     ]
-    if not things:
-        return
+    if things:
+        diagnostics.warning(
+            things[0],
+            f"simulated vehicles pass through what has no <physics>: {_named(things)}; "
+            "<u:solid>1</u:solid> in the object makes it solid, <u:solid>0</u:solid> says that it "
+            "is meant",
+        )
+
+
+def _check_loose_scenery(scene: SceneSpec, diagnostics: Diagnostics) -> None:
+    """Report scenery that the original's physics moves beside objects that have ``<physics>``."""
+    things = [
+        thing
+        for thing in scene.objects
+        if thing.is_solid is None and thing.physics is None and not thing.is_ground
+    ]
+    if things and any(thing.physics is not None for thing in scene.objects):
+        diagnostics.warning(
+            things[0],
+            f"what has no <physics> is a loose box of 1 kg, as in the original: {_named(things)}; "
+            "<u:solid>1</u:solid> in the object makes it solid and fixed, as one called 'terrain' "
+            "is; <u:solid>0</u:solid> lets everything through",
+        )
+
+
+def _named(things: Sequence[ObjectSpec]) -> str:
+    """Name the first of some objects, with their lines."""
     named = [f"{thing.name!r} (line {line_of(thing) or '?'})" for thing in things[:MAX_NAMED]]
     more = f" and {len(things) - MAX_NAMED} more" if len(things) > MAX_NAMED else ""
-    diagnostics.warning(
-        things[0],
-        f"simulated vehicles pass through what has no <physics>: {', '.join(named)}{more}; "
-        "<u:solid>1</u:solid> in the object makes it solid, <u:solid>0</u:solid> says that it is "
-        "meant",
-    )
+    return f"{', '.join(named)}{more}"
 
 
 def _check_passable_vehicles(

@@ -18,22 +18,35 @@ FARTHEST = 1e6
 """The greatest coordinate at which a body is placed [m]."""
 
 
-def checked_seed(seed: int) -> int:
+def checked_seed(seed: int, method: str = "reset") -> int:
     """Return a seed; BadSetting if it is not a whole number of at least 0."""
     if isinstance(seed, bool) or not isinstance(seed, Integral) or seed < 0:
-        raise BadSetting(f"reset(seed={shown(seed)}): expected a whole number >= 0.")
+        raise BadSetting(f"{method}(seed={shown(seed)}): expected a whole number >= 0.")
     return int(seed)
+
+
+def checked_time(seconds: float) -> float:
+    """Return a time to advance [s]; BadSetting if it is negative or not finite."""
+    if not isinstance(seconds, int | float | np.number) or not 0.0 <= seconds < math.inf:
+        raise BadSetting(f"advance({shown(seconds)}): expected a time >= 0 [s].")
+    return float(seconds)
 
 
 def checked_number(method: str, number: float) -> float:
     """Return a number; BadSetting if it is negative or not finite."""
-    if not 0.0 <= number < math.inf:
+    if not isinstance(number, int | float | np.number) or not 0.0 <= number < math.inf:
         raise BadSetting(f"{method}({shown(number)}): expected a finite number >= 0.")
     return float(number)
 
 
-def checked_pose(name: str, world_from_body: Pose) -> Pose:
+def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose:
     """Return a pose in W; BadSetting if it is not finite or too far from the origin."""
+    if not isinstance(frame_from_body, Pose):
+        raise BadSetting(
+            f"set_pose({name!r}, {shown(frame_from_body)}): expected a Pose, as "
+            "Pose([0.0, 0.0, -2.0]) of uwsim.geometry."
+        )
+    world_from_body = world_from_frame @ frame_from_body
     position = world_from_body.position
     if not np.isfinite(world_from_body.matrix).all() or np.abs(position).max() > FARTHEST:
         raise BadSetting(
@@ -49,7 +62,7 @@ def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
     Raises:
         BadSetting: these are not three numbers, or one exceeds the fastest current.
     """
-    if velocity is None or not isinstance(velocity, Sequence | np.ndarray):
+    if velocity is None or isinstance(velocity, Flow):
         return velocity
     try:
         x, y, z = (float(component) for component in velocity)
