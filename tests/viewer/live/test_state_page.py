@@ -73,7 +73,19 @@ def resized(page: Any, size: tuple[int, int]) -> None:
 
 
 def state(page: Any) -> dict[str, str]:
-    """Names and values of the head-up display."""
+    """Names and values of the head-up display, once it has shown the same for half a second.
+
+    The page gets the start of a scene, then what a test has moved; the display follows a few times
+    a second.
+    """
+    page.wait_for_function(
+        """() => {
+            const text = document.querySelector("#hud").innerText, now = performance.now();
+            if (window.seen?.text !== text) window.seen = { text, since: now };
+            return now - window.seen.since > 500;
+        }""",
+        polling=50,
+    )
     cells = page.locator("#hud button").all()
     return dict(cell.inner_text().split("\n") for cell in cells)
 
