@@ -103,20 +103,27 @@ def test_what_is_placed_elsewhere_meanwhile_is_no_longer_lifted(floor: ObjectSpe
     assert relief(x, y) - 0.05 < z < -2.0  # it touches the ground again
 
 
+def motion_of(simulation: Simulation) -> bytes:
+    """Positions and velocities of all bodies, as bytes."""
+    row = np.zeros(simulation.motion.size)
+    simulation.motion.read(row)
+    return row.tobytes()
+
+
 def test_a_saved_simulation_goes_on_being_lifted_to_the_bit(floor: ObjectSpec) -> None:
     first = in_water(sunk(0.25), floor, timestep=0.01)
     first.advance(0.3)
     middle = first.save()
     first.advance(3.0)
-    last = first.save()
+    last = motion_of(first)
     first.restore(middle)
     assert first.world.state.lift.is_active
     first.advance(3.0)
-    assert first.save() == last
+    assert motion_of(first) == last
     other = in_water(sunk(0.25), floor, timestep=0.01)
     other.restore(middle)
     other.advance(3.0)
-    assert other.save() == last
+    assert motion_of(other) == last
 
 
 def test_the_steps_of_a_lift_do_not_depend_on_how_they_are_asked_for(floor: ObjectSpec) -> None:
