@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import socket
+import threading
+import time
 import xmlrpc.client
 from collections.abc import Iterator
 from contextlib import suppress
@@ -246,3 +248,29 @@ def test_a_method_that_is_none_is_a_fault_that_names_it(master: Master) -> None:
         with pytest.raises(xmlrpc.client.Fault) as raised:
             proxy.registerAll("/x")
     assert "class" not in raised.value.faultString
+
+
+def test_the_last_update_that_a_subscriber_gets_is_the_newest(
+    master: Master, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Also where the first one is slow, and another thread sends the second."""
+    sent: list[list[str]] = []
+    is_newest_sent = threading.Event()
+
+    def slow(uri: str, method: str, caller: str, topic: str, publishers: list[str]) -> Answer:
+        if len(publishers) == 1:
+            is_newest_sent.wait(0.5)
+        sent.append(publishers)
+        if len(publishers) == 2:
+            is_newest_sent.set()
+        return [1, "", 0]
+
+    monkeypatch.setattr("uwsim.middleware.ros1.master.call", slow)
+    kind = "std_msgs/Float64"
+    call(master.uri, "registerSubscriber", "/sim", "/corners", kind, NODE)
+    call(master.uri, "registerPublisher", "/one", "/corners", kind, "http://x:1/")
+    time.sleep(0.1)  # the first update has begun
+    call(master.uri, "registerPublisher", "/two", "/corners", kind, "http://x:2/")
+    until(lambda: sent and len(sent[-1]) == 2 and is_newest_sent.is_set())
+    time.sleep(0.1)
+    assert sent[-1] == ["http://x:1/", "http://x:2/"]

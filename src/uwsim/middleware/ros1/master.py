@@ -22,6 +22,8 @@ from .xmlrpc import Answer, XmlRpcServer, call
 
 MAX_ENTRIES = 10_000
 """Publishers, subscribers, services and nodes that are registered, of each kind."""
+N_SENDING = 64
+"""Locks among which subscribers and topics are shared out, so that updates keep their order."""
 FULL = f"at most {MAX_ENTRIES} entries of a kind are kept"
 Registrations = dict[str, dict[str, str]]
 """Topic or service -> node -> its URI."""
@@ -48,6 +50,8 @@ class Master:
         self._types: dict[str, str] = {}
         self._parameters = Parameters()
         self._updates = ThreadPoolExecutor(4, thread_name_prefix="ros1-master")
+        self._due: set[tuple[str, str]] = set()  # subscriber and topic of updates not begun
+        self._sending = [threading.Lock() for _ in range(N_SENDING)]  # by subscriber and topic
         methods = {
             name: checked(method, self._limited(name, getattr(self, f"_{_snake(name)}")))
             for name, method in MASTER_METHODS.items()
@@ -216,16 +220,21 @@ class Master:
     def _tell(self, topic: str) -> None:
         """Tell the subscribers of a topic its publishers; the list is read when it is sent."""
         with self._lock:
-            subscribers = list(self._subscribers.get(topic, {}).values())
-        for uri in subscribers:
+            uris = self._subscribers.get(topic, {}).values()
+            untold = [uri for uri in dict.fromkeys(uris) if (uri, topic) not in self._due]
+            self._due.update((uri, topic) for uri in untold)
+        for uri in untold:
             with suppress(RuntimeError):  # closed
                 self._updates.submit(self._send_publishers, uri, topic)
 
     def _send_publishers(self, uri: str, topic: str) -> None:
-        with self._lock:
-            publishers = list(self._publishers.get(topic, {}).values())
-        with suppress(PeerError):
-            call(uri, "publisherUpdate", "/master", topic, publishers)
+        """Send a subscriber the publishers of a topic, after any update before it."""
+        with self._sending[hash((uri, topic)) % N_SENDING]:
+            with self._lock:
+                self._due.discard((uri, topic))
+                publishers = list(self._publishers.get(topic, {}).values())
+            with suppress(PeerError):
+                call(uri, "publisherUpdate", "/master", topic, publishers)
 
     def _later(self, uri: str, method: str, *arguments: Any) -> None:
         def run() -> None:
