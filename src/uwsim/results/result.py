@@ -169,9 +169,8 @@ class Result:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "facts", checked_values(self.facts, "facts"))
-        for name in ("columns", "missing", "variations", "image_streams", "images"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
-        for name in ("refused", "remarks"):
+        of_rows = "missing", "images", "refused", "remarks"
+        for name in ("columns", "variations", "image_streams", *of_rows):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "rows", checked_values(self.rows, "rows"))
         _check_columns(self)

@@ -14,7 +14,6 @@ from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from PIL import Image
 
-from tests.short_benchmark import run, write_benchmark
 from tests.simulation.test_lamp import LAMP, night
 from uwsim.cli import main
 from uwsim.rendering.grey import grey_truncated
@@ -25,18 +24,6 @@ from uwsim.viewer.film.curves import chosen, short_name
 from uwsim.viewer.film.film import Film, FilmSpec, record
 from uwsim.viewer.film.puppets import Puppets
 from uwsim.viewer.recorded import Curve, RecordedLevel, RecordedTrial, _level
-
-
-@pytest.fixture(scope="module")
-def result(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("film")
-    run(write_benchmark(folder, "0.4"), folder / "out", seed=3)
-    return folder / "out"
-
-
-@pytest.fixture(scope="module")
-def trial(result: Path) -> RecordedTrial:
-    return RecordedTrial.open(result, 0)
 
 
 @pytest.fixture

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
 from uwsim.cli import main
 from uwsim.errors import RunFailed, UnknownName
 from uwsim.viewer.film.film import FilmSpec, Reel, n_frames_of, record
@@ -16,18 +15,6 @@ from uwsim.viewer.film.processes import DrawingProcesses, processes_for
 from uwsim.viewer.recorded import RecordedTrial
 
 SPEC = FilmSpec(size=(160, 160), rate=25.0)
-
-
-@pytest.fixture(scope="module")
-def result(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("film")
-    run(write_benchmark(folder, "0.4"), folder / "out", seed=3)
-    return folder / "out"
-
-
-@pytest.fixture(scope="module")
-def trial(result: Path) -> RecordedTrial:
-    return RecordedTrial.open(result, 0)
 
 
 @pytest.fixture

@@ -304,8 +304,8 @@ class Reel:
 
     def frames(self) -> Iterator[Pixels]:
         """Draw all images, (h, w, 3) each."""
-        for film in self._films:
-            yield from film.frames()
+        for number in range(self.n_frames):
+            yield self.draw(number)
 
     def draw(self, number: int) -> Pixels:
         """Draw an image by its number, 0 <= number < `n_frames`, (h, w, 3)."""
