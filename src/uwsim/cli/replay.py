@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import closing, nullcontext
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -339,11 +339,10 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     raise_from_now_on()
     try:
         with (
-            closing(DrawingProcesses(trials, spec, n)) if n > 1 else nullcontext() as processes,
-            closing(Reel(trials, spec)) as reel,
+            closing(DrawingProcesses(trials, spec, n) if n > 1 else Reel(trials, spec)) as film,
             progress("film", n_frames, of="images") as on_frame,
         ):
-            record(reel, out, drawn, processes.frames(n_frames) if processes else None)
+            record(film, out, drawn)
         return (
             f"{trials[0].title}: {n_frames} images, {n_frames / spec.rate:.1f} s, "
             f"{spec.size[0]}x{spec.size[1]}; written: {out}"

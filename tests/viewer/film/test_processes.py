@@ -33,7 +33,7 @@ def test_two_processes_draw_the_images_of_one(trial: RecordedTrial) -> None:
     assert len(alone) == n == 60
     assert len(set(alone)) > n // 4  # it moves
     with closing(DrawingProcesses([trial, trial], SPEC, 3)) as processes:
-        assert [image.tobytes() for image in processes.frames(n)] == alone
+        assert [image.tobytes() for image in processes.frames()] == alone
 
 
 @pytest.mark.slow
@@ -44,11 +44,8 @@ def test_a_process_that_dies_is_named_and_leaves_no_file(
         drawing._processes[1].kill()
 
     path = tmp_path / "film.webp"
-    with (
-        closing(Reel([trial], SPEC)) as reel,
-        pytest.raises(RunFailed, match="draws the film has ended: killed by SIGKILL"),
-    ):
-        record(reel, path, kill, drawing.frames(200))
+    with pytest.raises(RunFailed, match="draws the film has ended: killed by SIGKILL"):
+        record(drawing, path, kill)
     assert not list(tmp_path.iterdir())
 
 
@@ -59,7 +56,7 @@ def test_what_a_process_cannot_draw_is_an_error_of_the_film(trial: RecordedTrial
         closing(DrawingProcesses([trial], spec, 1)) as processes,
         pytest.raises(UnknownName, match="nonsense"),
     ):
-        next(processes.frames(5))
+        next(processes.frames())
 
 
 def test_a_short_film_has_one_process() -> None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -119,27 +120,14 @@ class Film:
 
     def chapters(self) -> list[Chapter]:
         """Return a chapter for each level, and one for what is before the first."""
-        starts = [(level.began, level.label or f"level {i}") for i, level in self._shown_levels()]
-        if not starts or starts[0][0] > self.start:
-            starts.insert(0, (self.start, "start"))
-        ends = [began for began, _ in starts[1:]] + [self._end]
-        scale = 1.0 / self.spec.speed
-        return [
-            Chapter(
-                title=title,
-                start=(max(began, self.start) - self.start) * scale,
-                end=(end - self.start) * scale,
-            )
-            for (began, title), end in zip(starts, ends, strict=True)
-        ]
+        return chapters_of([self._trial], self.spec)
 
     def close(self) -> None:
         """Close the scene."""
         self._puppets.close()
 
     def _shown_levels(self) -> list[tuple[int, RecordedLevel]]:
-        levels = enumerate(self._trial.levels)
-        return [(i, one) for i, one in levels if one.ended > self.start and one.began < self._end]
+        return shown_levels(self._trial, self.spec)
 
     def _level(self, time: float) -> tuple[int | None, RecordedLevel | None]:
         """The level measured at a time, if there is one."""
@@ -291,7 +279,7 @@ class Reel:
     """
 
     def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec) -> None:
-        self.spec = spec
+        self._trials, self.spec = trials, spec
         """What it shows."""
         self._simulation = scene_of(trials[0])
         try:
@@ -317,14 +305,7 @@ class Reel:
 
     def chapters(self) -> list[Chapter]:
         """Return the chapters of all."""
-        found, before = [], 0.0
-        for film in self._films:
-            found += [
-                replace(each, start=each.start + before, end=each.end + before)
-                for each in film.chapters()
-            ]
-            before += film.n_frames / self.spec.rate
-        return found
+        return chapters_of(self._trials, self.spec)
 
     def close(self) -> None:
         """Close the scene."""
@@ -353,12 +334,53 @@ def n_frames_of(trial: RecordedTrial, spec: FilmSpec) -> int:
     return max(1, math.ceil((end - start) * spec.rate / spec.speed - 1e-6))
 
 
-def record(
-    film: Film | Reel,
-    path: Path,
-    on_frame: Callable[[], object] = lambda: None,
-    frames: Iterable[Pixels] | None = None,
-) -> None:
+def shown_levels(trial: RecordedTrial, spec: FilmSpec) -> list[tuple[int, RecordedLevel]]:
+    """Return number and level of those of which a film shows something."""
+    start, end = span_of(trial, spec)
+    return [(i, one) for i, one in enumerate(trial.levels) if one.ended > start and one.began < end]
+
+
+def chapters_of(trials: Sequence[RecordedTrial], spec: FilmSpec) -> list[Chapter]:
+    """Return a chapter for each level of trials that are shown one after the other.
+
+    What is before the first level of a trial is a chapter of its own.
+    """
+    found, before = [], 0.0
+    for trial in trials:
+        first, last = span_of(trial, spec)
+        levels = shown_levels(trial, spec)
+        starts = [(level.began, level.label or f"level {i}") for i, level in levels]
+        if not starts or starts[0][0] > first:
+            starts.insert(0, (first, "start"))
+        ends = [began for began, _ in starts[1:]] + [last]
+        scale = 1.0 / spec.speed
+        found += [
+            Chapter(
+                title=title,
+                start=(max(began, first) - first) * scale + before,
+                end=(end - first) * scale + before,
+            )
+            for (began, title), end in zip(starts, ends, strict=True)
+        ]
+        before += n_frames_of(trial, spec) / spec.rate
+    return found
+
+
+class Recordable(Protocol):
+    """What `record` writes: `Film`, `Reel`, `processes.DrawingProcesses`."""
+
+    @property
+    def spec(self) -> FilmSpec:
+        """What it shows."""
+
+    def frames(self) -> Iterator[Pixels]:
+        """Draw all images, (h, w, 3) each."""
+
+    def chapters(self) -> list[Chapter]:
+        """Return its chapters."""
+
+
+def record(film: Recordable, path: Path, on_frame: Callable[[], object] = lambda: None) -> None:
     """Draw a film and write it.
 
     After an interruption the file has the images that were drawn before it; after an error there is
@@ -368,12 +390,11 @@ def record(
         film: the film.
         path: of the file; its suffix is one of `encoder.SUFFIXES`.
         on_frame: called after each image.
-        frames: its images, if something else draws them (`processes.DrawingProcesses`).
     """
     encoder = encoder_of(path, film.spec.size, film.spec.rate, film.chapters())
     is_to_keep = False
     try:
-        for frame in film.frames() if frames is None else frames:
+        for frame in film.frames():
             encoder.add(frame)
             on_frame()
         is_to_keep = True

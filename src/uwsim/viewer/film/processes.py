@@ -19,7 +19,8 @@ from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_inte
 from ...runs.executors.worker import picklable
 from ...runs.own_process.process import how
 from ..recorded import RecordedTrial
-from .film import FilmSpec, Reel
+from .encoder import Chapter
+from .film import FilmSpec, Reel, chapters_of, n_frames_of
 from .overlay import Pixels
 
 MOST = 16
@@ -51,7 +52,8 @@ class DrawingProcesses:
 
     def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec, n: int) -> None:
         context = multiprocessing.get_context("spawn")
-        self._size = spec.size
+        self._trials, self.spec = tuple(trials), spec
+        """What they show."""
         self._pipes: list[Connection] = []
         self._parents: list[Connection] = []
         self._processes = []
@@ -60,7 +62,7 @@ class DrawingProcesses:
                 pipe, theirs = context.Pipe(duplex=False)
                 watched, parent = context.Pipe(duplex=False)
                 process = context.Process(
-                    target=draw_every, args=(tuple(trials), spec, k, n, theirs, watched)
+                    target=draw_every, args=(self._trials, spec, k, n, theirs, watched)
                 )
                 self._pipes.append(pipe)
                 self._parents.append(parent)
@@ -69,18 +71,19 @@ class DrawingProcesses:
                 for end in (theirs, watched):
                     end.close()  # so that a pipe ends when the process at its other end does
 
-    def frames(self, n_frames: int) -> Iterator[Pixels]:
-        """Return the images in order, (h, w, 3) each.
+    def chapters(self) -> list[Chapter]:
+        """Return the chapters of all."""
+        return chapters_of(self._trials, self.spec)
 
-        Args:
-            n_frames: how many there are.
+    def frames(self) -> Iterator[Pixels]:
+        """Return the images in order, (h, w, 3) each.
 
         Raises:
             RunFailed: a process has died.
             UwsimError: what a process could not draw.
         """
-        width, height = self._size
-        for number in range(n_frames):
+        width, height = self.spec.size
+        for number in range(sum(n_frames_of(trial, self.spec) for trial in self._trials)):
             at = number % len(self._pipes)
             try:
                 received: bytes | Exception = self._pipes[at].recv()
