@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.assets import find, load_model, package_remark, place_remark
+from uwsim.assets import find, load_model, model_place_remark, package_remark, place_remark
 from uwsim.assets.bundled import bundled
 from uwsim.errors import AssetError, AssetNotFound
 from uwsim.runs.check import diagnostics_of
@@ -275,3 +275,28 @@ def test_check_and_run_report_a_package_that_is_not_found(has_mesh: bool, tmp_pa
     with Simulation(read_scene(scene)) as simulation:
         warnings = [str(each) for each in simulation.world.warnings]
     assert len([each for each in warnings if "package 'tool_of_nobody' is not found" in each]) == 1
+
+
+@pytest.mark.parametrize("edge", [0.2, 0.5])
+@pytest.mark.parametrize("folders", [("a/tool", "b/tool"), ("src/x/tool", "vendor/x/tool")])
+def test_a_package_that_is_there_twice_is_named_where_the_files_differ(
+    folders: tuple[str, str], edge: float, tmp_path: Path
+) -> None:
+    asked = tmp_path / "elsewhere" / "r.urdf"
+    asked.parent.mkdir()
+    first, second = (tmp_path / "ws" / folder / "m.obj" for folder in folders)
+    cube(first, 0.5)
+    cube(second, edge)
+    remark = model_place_remark(
+        "package://tool/m.obj", named_by=asked, data_path=(tmp_path / "ws",)
+    )
+    twice = f"package 'tool' is there twice; {first} is used, not {second}"
+    assert remark == ("" if edge == 0.5 else twice)
+
+
+@pytest.mark.parametrize("name", ["m.dae", "package://tool/m.dae", "m.ive"])
+def test_a_mesh_of_another_format_is_named(name: str, tmp_path: Path) -> None:
+    robot = tmp_path / "tool" / "r.urdf"
+    mesh = cube(robot.parent / "m.obj", 0.2)
+    told = model_place_remark(name, named_by=robot)
+    assert told == ("" if name.endswith(".ive") else f"'m.dae' is not found; {mesh} is used")

@@ -104,14 +104,22 @@ def has_model(name: str, *, named_by: Path | None = None, data_path: tuple[Path,
 def model_place_remark(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Say that the file of a model was found elsewhere than its name states; empty if not."""
-    if not may_be_elsewhere(name):
+    """Say that the file of a model is another than its name states; empty if it is that one.
+
+    A file of OpenSceneGraph's formats is silently replaced by its conversion to another format.
+    """
+    suffix = PurePosixPath(plain_name(name)).suffix.lower()
+    if suffix not in READABLE and not may_be_elsewhere(name):
         return ""
     try:
         path = _path_of(name, named_by, data_path)
     except AssetError:
         return ""
-    return place_remark(name, path, named_by=named_by, data_path=data_path)
+    if remark := place_remark(name, path, named_by=named_by, data_path=data_path):
+        return remark
+    if path is None or suffix not in READABLE or path.suffix.lower() == suffix:
+        return ""
+    return f"{plain_name(name)[:200]!r} is not found; {path} is used"
 
 
 def why_unreadable(

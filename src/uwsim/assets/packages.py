@@ -64,21 +64,40 @@ def package_folders(
         above: the folder of the file that names it, and those above it, from the inside.
         data_path: folders that the user gave.
     """
+    seen: set[Path] = set()
+    for folders in _places(package, list(above), data_path):
+        yield from _fresh(folders, seen)
+
+
+def same_named_folders(
+    package: str, above: Iterable[Path], data_path: Iterable[Path] = ()
+) -> list[Path]:
+    """Return the folders of a package in the first place that has it; more than one are doubtful.
+
+    Args:
+        package: its name.
+        above: the folder of the file that names it, and those above it, from the inside.
+        data_path: folders that the user gave.
+    """
+    places = (list(_fresh(place, set())) for place in _places(package, list(above), data_path))
+    return next((folders for folders in places if folders), [])
+
+
+def _places(package: str, above: list[Path], data_path: Iterable[Path]) -> Iterator[Iterable[Path]]:
+    """Give the folders that may be the package, place by place, in the order of search."""
     if not NAME.fullmatch(package):
         return
-    seen: set[Path] = set()
-    above = list(above)
     for folder in above:
-        yield from _fresh(_in(package, folder, 0), seen)
+        yield _in(package, folder, 0)
     for folder in (*data_path, *_entries("ROS_PACKAGE_PATH")):
-        yield from _fresh(_in(package, folder.absolute(), WORKSPACE_DEPTH), seen)
+        yield _in(package, folder.absolute(), WORKSPACE_DEPTH)
     for prefix in _entries("AMENT_PREFIX_PATH"):
-        yield from _fresh([prefix / "share" / package], seen)
+        yield [prefix / "share" / package]
     enclosing = next((i for i, folder in enumerate(above) if _declared(folder)), len(above))
     for i, folder in enumerate(above):
         is_near = enclosing < i <= enclosing + 2
         depth = WORKSPACE_DEPTH if _is_workspace(folder) else REPOSITORY_DEPTH * is_near
-        yield from _fresh(_in(package, folder, depth), seen)
+        yield _in(package, folder, depth)
 
 
 def environment_folders() -> list[Path]:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import filecmp
 from pathlib import Path
 
 from .find import above, folders_searched, is_absolute, plain_name
-from .packages import OURS, package_folders, package_of
+from .packages import OURS, package_folders, package_of, same_named_folders
 
 
 def package_remark(
@@ -63,11 +64,27 @@ def place_remark(
     if path is None:
         return ""
     if (in_package := package_of(name)) is not None:
-        is_known = next(package_folders(in_package[0], above(named_by), data_path), None)
-        if is_known is not None or in_package[0] == OURS:
+        if in_package[0] == OURS:
             return ""
+        folders = same_named_folders(in_package[0], above(named_by), data_path)
+        if folders:
+            others = (folder / in_package[1] for folder in folders)
+            twin = next((other for other in others if _differs(other, path)), None)
+            return (
+                ""
+                if twin is None
+                else f"package {in_package[0]!r} is there twice; {path} is used, not {twin}"
+            )
         return f"{package_remark(name, named_by=named_by, data_path=data_path)}; {path} is used"
     plain = plain_name(name)
     if is_absolute(plain) and Path(plain).expanduser() != path:
         return f"{plain[:200]!r} is a path of another computer; {path} is used"
     return ""
+
+
+def _differs(other: Path, path: Path) -> bool:
+    """Whether there is another file, with other content."""
+    try:
+        return other.is_file() and not filecmp.cmp(other, path, shallow=False)
+    except (OSError, ValueError):
+        return False
