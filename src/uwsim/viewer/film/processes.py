@@ -27,8 +27,10 @@ MOST = 16
 """The most processes that draw one film: they feed one encoder."""
 FEWEST_IMAGES = 60
 """Images that make up for the start of a process."""
-AHEAD = 4
-"""Images that a process draws before they are taken."""
+BLOCK = 6
+"""Consecutive images of one process: those with the same image of the inset are drawn by one."""
+AHEAD = BLOCK + 2
+"""Images that a process draws before they are taken; fewer than a block would make it wait."""
 PATIENCE = 10.0
 """How long a process may take to leave, before it is made to [s]."""
 
@@ -39,7 +41,7 @@ def processes_for(n_frames: int) -> int:
 
 
 class DrawingProcesses:
-    """Processes that draw the images of a film, process k of n the images k, k + n, k + 2 n, ...
+    """Processes that draw the images of a film, process k of n the blocks k, k + n, k + 2 n, ...
 
     They are started with ``spawn``, so the main module of a program that uses them is guarded by
     ``if __name__ == "__main__"``.
@@ -62,7 +64,7 @@ class DrawingProcesses:
                 pipe, theirs = context.Pipe(duplex=False)
                 watched, parent = context.Pipe(duplex=False)
                 process = context.Process(
-                    target=draw_every, args=(self._trials, spec, k, n, theirs, watched)
+                    target=draw_blocks, args=(self._trials, spec, k, n, theirs, watched)
                 )
                 self._pipes.append(pipe)
                 self._parents.append(parent)
@@ -84,7 +86,7 @@ class DrawingProcesses:
         """
         width, height = self.spec.size
         for number in range(sum(n_frames_of(trial, self.spec) for trial in self._trials)):
-            at = number % len(self._pipes)
+            at = number // BLOCK % len(self._pipes)
             try:
                 received: bytes | Exception = self._pipes[at].recv()
             except (EOFError, OSError):
@@ -105,7 +107,7 @@ class DrawingProcesses:
             process.close()
 
 
-def draw_every(
+def draw_blocks(
     trials: Sequence[RecordedTrial],
     spec: FilmSpec,
     first: int,
@@ -113,7 +115,7 @@ def draw_every(
     pipe: Connection,
     parent: Connection,
 ) -> None:
-    """Draw every n-th image from ``first`` on, and send each; ends with the parent."""
+    """Draw every n-th block from ``first`` on, and send each image; ends with the parent."""
     exit_with_parent(parent)
     drawn: queue.Queue[bytes | Exception | None] = queue.Queue(AHEAD)
     sender = threading.Thread(target=_send, args=(drawn, pipe))
@@ -121,8 +123,9 @@ def draw_every(
     try:
         reel = Reel(trials, spec)
         try:
-            for number in range(first, reel.n_frames, n):
-                drawn.put(reel.draw(number).tobytes())
+            for number in range(reel.n_frames):
+                if number // BLOCK % n == first:
+                    drawn.put(reel.draw(number).tobytes())
         finally:
             reel.close()
     except Exception as error:
