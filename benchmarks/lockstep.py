@@ -17,12 +17,12 @@ from statistics import median
 import numpy as np
 from measure import main
 
+from uwsim.base.rng import stream
 from uwsim.bus import Bus, Node
 from uwsim.messages import Image, Odometry, TwistStamped
 from uwsim.middleware.lockstep.client import lockstep_clients
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
-from uwsim.rng import stream
 from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm
 from uwsim.simulation import InProcessNode
 

@@ -13,7 +13,7 @@ import numpy as np
 from measure import main, milliseconds
 
 from uwsim.assets import load_model
-from uwsim.geometry import Intrinsics, Pose, rotation_from_xyz
+from uwsim.base.geometry import Intrinsics, Pose, rotation_from_xyz
 from uwsim.rendering.grey import grey_truncated
 from uwsim.rendering.noise import add_noise, warm_up
 from uwsim.rendering.renderer import Renderer

@@ -16,6 +16,7 @@ import numpy as np
 
 from uwsim.acoustics import ambient_noise
 from uwsim.analysis.plots import MARKERS, PALETTE, save_plot, styled_figure
+from uwsim.base.rng import stream
 from uwsim.network import (
     EVERYONE,
     BitErrors,
@@ -27,7 +28,6 @@ from uwsim.network import (
     nanoseconds,
 )
 from uwsim.network import Path as Line
-from uwsim.rng import stream
 
 N_PACKETS, BIT_RATE, DEPTH = 400, 4096.0, 50.0
 SEA = WaterChannel(temperature=10.0, salinity=35.0, bandwidth=4096.0)

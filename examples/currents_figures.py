@@ -25,9 +25,9 @@ from paper.station_keeping import Loop, Station, Swing, Track, measured, predict
 from uwsim.analysis.plots import save_plot
 from uwsim.assets.bundled import benchmark_file
 from uwsim.assets.find import find
+from uwsim.base.geometry import Array, Intrinsics, Pose
 from uwsim.cli import main as uwsim
 from uwsim.errors import ResultError
-from uwsim.geometry import Array, Intrinsics, Pose
 from uwsim.results.log import load_log
 from uwsim.results.result import Result
 from uwsim.results.result_file import load

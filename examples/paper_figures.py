@@ -29,8 +29,8 @@ from uwsim.analysis.plots import save_plot, value_plot
 from uwsim.analysis.report.overlay import overlay
 from uwsim.assets.find import find
 from uwsim.assets.mesh import Mesh, Model
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.cli import main as uwsim
-from uwsim.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 from uwsim.results.result import Result

@@ -18,7 +18,7 @@ from matplotlib.axes import Axes
 
 from uwsim.analysis.plots import PALETTE, save_plot, styled_figure
 from uwsim.assets.bundled import bundled
-from uwsim.geodesy import Geodetic
+from uwsim.base.geodesy import Geodetic
 from uwsim.messages import NavSatFix, Twist, TwistStamped, Vector3, header, seconds
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.drift import DriftSpec

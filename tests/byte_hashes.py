@@ -15,8 +15,8 @@ from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate, sphe
 from tests.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.assets.model_cache import _make
 from uwsim.assets.stand_ins import STAND_INS
-from uwsim.expression import parse
-from uwsim.geometry import Pose
+from uwsim.base.expression import parse
+from uwsim.base.geometry import Pose
 from uwsim.sensors.sonar.imaging_sonar import ImagingSonarSpec
 
 TRACKERS = ("ecc", "esm", "orb")

@@ -30,9 +30,9 @@ from typing import Any
 import numpy as np
 
 from tests.short_trial import DATA, make_plan, with_algorithm
+from uwsim.base.environment import environment
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
-from uwsim.environment import environment
 from uwsim.errors import ResultError
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, floats
 from uwsim.results.inputs import Inputs

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
-from uwsim import rng
+from uwsim.base import rng
+from uwsim.base.geodesy import Geodetic
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
-from uwsim.geodesy import Geodetic
-from uwsim.geometry import Intrinsics, Pose
 from uwsim.network import Network
 from uwsim.world import Actuators, Body, Box, Camera, Contact, Flow
 

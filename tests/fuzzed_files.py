@@ -16,9 +16,9 @@ from PIL import Image
 from scipy.io import netcdf_file
 
 from uwsim.assets.loaders import read_model
+from uwsim.base.expression import ScoreError, parse
 from uwsim.currents import read_grid
 from uwsim.errors import UwsimError
-from uwsim.expression import ScoreError, parse
 from uwsim.runs.check import diagnostics_of
 
 TESTS = Path(__file__).parent

@@ -15,6 +15,7 @@ from tests.short_benchmark import bench_of, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, remarks, shared_column
 from uwsim.analysis.comparison.page import render as render_comparison
 from uwsim.analysis.report.page import render
+from uwsim.base.terminal import printable
 from uwsim.cli.exit_status import one_line
 from uwsim.cli.verify import head
 from uwsim.errors import UwsimError
@@ -24,7 +25,6 @@ from uwsim.results.provenance import machine, save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
-from uwsim.terminal import printable
 from uwsim.verify.environment import made_otherwise
 from uwsim.verify.recorded_plan import FileOverrides, check_inputs, plan_of
 from uwsim.verify.verify import finished, verify

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from uwsim.message_fields import _class_in, _definition
+from uwsim.base.message_fields import _class_in, _definition
 
 EXTREMES = [
     *(0.0, -0.0, 1.0, -1.0, 1e-3, 1e3, 1e6, -1e6, 1e9, -1e9, 1e12, -1e12, 1e-162, 1e-200),

@@ -119,9 +119,9 @@ def test_an_inbox_that_nobody_looks_into_keeps_the_newest(monkeypatch: pytest.Mo
         bus.deliver()
         return [message.data for message in inbox.take()]
 
-    monkeypatch.setattr("uwsim.inbox.MAX_KEPT", 2)
+    monkeypatch.setattr("uwsim.base.inbox.MAX_KEPT", 2)
     assert kept("a", "b", "c") == ["b", "c"]
-    monkeypatch.setattr("uwsim.inbox.MAX_BYTES_KEPT", 200)
+    monkeypatch.setattr("uwsim.base.inbox.MAX_BYTES_KEPT", 200)
     assert kept("a", "b" * 150, "c" * 150) == ["c" * 150]
     assert kept("d" * 300) == ["d" * 300]
     assert kept("e", "f") == ["e", "f"]

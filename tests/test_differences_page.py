@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.compatibility import COMPATIBILITY
+from uwsim.base.compatibility import COMPATIBILITY
 
 DOCS = Path(__file__).parents[1] / "docs"
 PAGE = DOCS / "differences.md"

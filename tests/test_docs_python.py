@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import uwsim
-from uwsim.geometry import Intrinsics
+from uwsim.base.geometry import Intrinsics
 
 PAGE = (Path(__file__).parent.parent / "docs" / "python.md").read_text()
 ROW = re.compile(r"^\| (`[^|]*`) \|", re.MULTILINE)

@@ -2,6 +2,7 @@ import pickle
 
 import pytest
 
+from uwsim.base.expression import ScoreError
 from uwsim.errors import (
     AllErrors,
     BadSetting,
@@ -12,7 +13,6 @@ from uwsim.errors import (
     UnknownName,
     UwsimError,
 )
-from uwsim.expression import ScoreError
 
 
 @pytest.mark.parametrize(

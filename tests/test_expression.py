@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from uwsim.expression import FUNCTIONS, ScoreError, parse
+from uwsim.base.expression import FUNCTIONS, ScoreError, parse
 
 
 def value(text: str, **values: float | None) -> float | None:

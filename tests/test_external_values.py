@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
+from uwsim.base.external_values import read_number, read_pose, read_position, read_quaternion
+from uwsim.base.geometry import rotation_about
 from uwsim.errors import BadMessage, BadSetting
-from uwsim.external_values import read_number, read_pose, read_position, read_quaternion
-from uwsim.geometry import rotation_about
 from uwsim.messages import ColorRGBA, Float32MultiArray, Point, Pose, Quaternion, Vector3
 from uwsim.middleware.json_encoding import from_json
 from uwsim.viewer.live.clock import Clock

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from uwsim.geodesy import FLATTENING, SEMI_MAJOR_AXIS, Geodetic
+from uwsim.base.geodesy import FLATTENING, SEMI_MAJOR_AXIS, Geodetic
 
 PLACE = Geodetic(latitude=math.radians(41.775), longitude=math.radians(3.033), altitude=12.0)
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from uwsim.geometry import (
+from uwsim.base.geometry import (
     rotation_from_rpy,
     rotation_from_xyz,
     rpy_from_rotation,

@@ -8,7 +8,7 @@ from itertools import product as combinations
 import numpy as np
 import pytest
 
-from uwsim.geometry import (
+from uwsim.base.geometry import (
     Array,
     quaternion_from_rotation,
     rotation_from_quaternion,
@@ -17,7 +17,7 @@ from uwsim.geometry import (
     rotation_y,
     rotation_z,
 )
-from uwsim.numerics.linear import product
+from uwsim.base.numerics.linear import product
 
 ANGLES = (0.0, -0.0, 0.3, -1.2, math.pi / 2, math.pi, -math.pi, 3.0)
 

@@ -12,41 +12,21 @@ PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
 
 MAX_MODULES = 20
 
-GROUND = {
-    "errors",
-    "geometry",
-    "geodesy",
-    "rng",
-    "compatibility",
-    "environment",
-    "numerics",
-    "expression",
-    "optics",
-    "acoustics",
-    "rays",
-    "schema",
-    "message_fields",
-    "inbox",
-    "sampling",
-    "interrupts",
-    "raised",
-    "files",
-    "terminal",
-    "tracks",
-}
-BASE = GROUND | {"network", "world", "vehicle", "messages", "bus", "external_values"}
+GROUND = {"errors", "base", "acoustics", "rays", "schema", "tracks"}
+BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets", "xacro"}
 ENGINES = PARTS | {"physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
 MAY_IMPORT: dict[str, set[str]] = {
     **{room: GROUND for room in GROUND},
+    "errors": {"errors"},
+    "base": {"errors", "base"},
     "network": GROUND | {"network"},
     "messages": BASE,
     "bus": GROUND | {"bus"},
     "world": BASE,
     "vehicle": BASE,
-    "external_values": BASE,
     "statistics": GROUND | {"statistics"},
     "middleware": BASE | {"middleware"},
     "recording": BASE | {"middleware", "recording"},
@@ -61,7 +41,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "rendering": PARTS | {"rendering"},
     "simulation": ENGINES | {"simulation"},
     "algorithms": {
-        *("messages", "bus", "geometry", "errors", "numerics", "algorithms"),
+        *("messages", "bus", "base", "errors", "algorithms"),
     },
     "benchmark": PARTS | {"benchmark"},
     "results": GROUND | {"statistics", "results"},
@@ -70,7 +50,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "recording", "viewer"},
-    "__main__": {"cli", "interrupts"},
+    "__main__": {"cli", "base"},
     "cli": (
         TASKS
         | ENGINES

@@ -1,6 +1,6 @@
 import numpy as np
 
-from uwsim.rng import stream
+from uwsim.base.rng import stream
 
 
 def test_a_name_gives_the_same_numbers_whatever_else_was_drawn() -> None:

@@ -66,7 +66,7 @@ def calls(path: Path) -> list[str]:
 
 
 def test_nothing_that_the_processor_chooses_makes_numbers() -> None:
-    """Use linear and elementwise of uwsim.numerics instead, or the argument in `NEEDS`."""
+    """Use linear and elementwise of uwsim.base.numerics instead, or the argument in `NEEDS`."""
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from uwsim.analysis.plots import FAINT, MARKERS, PALETTE, styled_figure
-from uwsim.geometry import Array
+from uwsim.base.geometry import Array
 from uwsim.statistics import mean_interval
 
 from .station_keeping import Loop, Station, Swing, predicted

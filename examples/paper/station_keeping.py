@@ -30,8 +30,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from uwsim.base.geometry import Array
 from uwsim.errors import ResultError
-from uwsim.geometry import Array
 from uwsim.results.log import Log
 from uwsim.results.result import Result
 

@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from . import messages
     from .api import bench, check, compare, load, read_result
+    from .base.geometry import Pose
     from .bus import Algorithm, Node
     from .errors import UwsimError
-    from .geometry import Pose
     from .rendering.rendered_image import PixelBox, RenderedImage
     from .results.result import Result
     from .simulation import Simulation
@@ -55,7 +55,7 @@ _HOMES = {
     "OrientedBox": "simulation.access.boxes",
     "PixelBox": "rendering.rendered_image",
     "RenderedImage": "rendering.rendered_image",
-    "Pose": "geometry",
+    "Pose": "base.geometry",
     "Replay": "viewer.replay",
     "Result": "results.result",
     "Simulation": "simulation",

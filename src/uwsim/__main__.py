@@ -5,7 +5,7 @@ from __future__ import annotations
 import atexit
 import sys
 
-from .interrupts import end_at_once, ignore_from_now_on
+from .base.interrupts import end_at_once, ignore_from_now_on
 
 
 def run() -> int:

@@ -146,11 +146,11 @@ def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Se
 def _write_report(run: Run, watch: Stopwatch, workers: int) -> None:
     """Run the control, and write the provenance and the report, as ``uwsim bench`` does."""
     from .analysis.report import write_report
+    from .base.terminal import warn
     from .results.provenance import save_provenance
     from .runs.control import CONTROL, control_of, wants_control
     from .runs.executors.executor import run_all
     from .runs.timing import Timing
-    from .terminal import warn
 
     if wants_control(run.plan):
         try:

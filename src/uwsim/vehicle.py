@@ -5,10 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Protocol
 
-from .geometry import Array, Pose
-
-MAX_COMMAND = 1e6
-"""Commands are clipped to this number, which no vehicle reaches [m, m/s, rad/s, N, N m]."""
+from .base.geometry import Array, Pose
 
 
 class Autopilot(Protocol):

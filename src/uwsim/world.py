@@ -15,9 +15,9 @@ import numpy as np
 import numpy.typing as npt
 
 from .acoustics import Material, SeaWater
+from .base.geodesy import Geodetic
+from .base.geometry import Intrinsics, Pose
 from .bus import Bus
-from .geodesy import Geodetic
-from .geometry import Intrinsics, Pose
 from .network import Network
 from .rays import Balls, Hits
 
@@ -204,7 +204,7 @@ class World(Protocol):
 
     @property
     def compatibility(self) -> frozenset[str]:
-        """The names of the compatibility quirks that are on (`uwsim.compatibility`)."""
+        """The names of the compatibility quirks that are on (`uwsim.base.compatibility`)."""
 
     def body(self, name: str) -> Body:
         """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""

@@ -6,7 +6,7 @@ import pytest
 from scipy.spatial import cKDTree
 
 from uwsim.assets import find, load_model
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.scene.urdf.reader import read_urdf
 

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.fakes import FakeBody, FakeCamera, FakeWorld
+from uwsim.base.geometry import Pose, rotation_from_rpy, rotation_from_xyz, rotation_z
 from uwsim.benchmark.ground_truth import (
     CentroidFromCameraSpec,
     ConstantSpec,
@@ -16,7 +17,6 @@ from uwsim.benchmark.ground_truth import (
     RelativeLocationSpec,
     top_face,
 )
-from uwsim.geometry import Pose, rotation_from_rpy, rotation_from_xyz, rotation_z
 from uwsim.world import Box
 
 F = 120.0 / np.tan(np.radians(25.0))

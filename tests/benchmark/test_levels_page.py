@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from uwsim.base.optics import DENSITY, LENGTHS
 from uwsim.benchmark.reader import check_benchmark
 from uwsim.benchmark.triggers import TRIGGERS
 from uwsim.benchmark.updaters import UPDATERS
-from uwsim.optics import DENSITY, LENGTHS
 
 PAGE = (Path(__file__).parents[2] / "docs" / "levels.md").read_text()
 EXAMPLES = re.findall(r"```xml\n(.*?)```", PAGE, re.S)

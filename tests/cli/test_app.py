@@ -8,9 +8,10 @@ import sys
 
 import pytest
 
-from uwsim import errors, terminal
+from uwsim import errors
+from uwsim.base import terminal
+from uwsim.base.numerics import compiling
 from uwsim.cli import COMMANDS, app, exit_status, main
-from uwsim.numerics import compiling
 
 
 def uwsim(*arguments: str) -> subprocess.CompletedProcess[str]:

@@ -17,8 +17,8 @@ import pytest
 
 from tests.short_benchmark import run, write_benchmark
 from tests.waiting import LIMIT
-from uwsim import interrupts
-from uwsim.numerics.compiling import one_is_compiled
+from uwsim.base import interrupts
+from uwsim.base.numerics.compiling import one_is_compiled
 from uwsim.runs.executors import executor
 
 
@@ -129,7 +129,7 @@ def press() -> None:
 IN_MODERNGL = """
 import os, signal, time
 import _moderngl
-from uwsim import interrupts
+from uwsim.base import interrupts
 from uwsim.rendering.context import create_context
 
 class Pressing(dict):

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from scipy.io import netcdf_file
 
+from uwsim.base.rng import stream
 from uwsim.currents import Current, Field, FieldSpec, Place, read_grid
 from uwsim.currents.field import read_csv
 from uwsim.errors import AssetError
-from uwsim.rng import stream
 
 T = np.array([0.0, 10.0, 40.0])
 X = np.array([-1.0, 0.0, 2.0])

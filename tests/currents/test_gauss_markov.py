@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from uwsim.base.rng import stream
 from uwsim.currents import Current, GaussMarkov, GaussMarkovSpec, Place
-from uwsim.rng import stream
 
 ORIGIN = np.zeros((1, 3))
 

@@ -7,6 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from uwsim.base.geometry import Pose
+from uwsim.base.rng import stream
 from uwsim.currents import (
     CurrentSpec,
     LayerSpec,
@@ -16,8 +18,6 @@ from uwsim.currents import (
     PowerProfileSpec,
 )
 from uwsim.errors import BadSetting
-from uwsim.geometry import Pose
-from uwsim.rng import stream
 
 SURFACE = (0.4, -0.2, 0.0)
 POWER = PowerProfileSpec(velocity=SURFACE, depth=20.0)

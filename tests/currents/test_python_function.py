@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uwsim.base.rng import stream
 from uwsim.currents import Place, PythonFunction, PythonFunctionSpec
 from uwsim.errors import BadSetting
-from uwsim.rng import stream
 
 CODE = """
 def eddy(point, time, vehicle):

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uwsim.base.rng import stream
 from uwsim.currents import (
     CURRENTS,
     Constant,
@@ -21,7 +22,6 @@ from uwsim.currents import (
     bind_currents,
 )
 from uwsim.errors import SceneError
-from uwsim.rng import stream
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.schema import fields_of
 from uwsim.world import Flow

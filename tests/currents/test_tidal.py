@@ -7,8 +7,8 @@ import math
 import numpy as np
 import pytest
 
+from uwsim.base.rng import stream
 from uwsim.currents import ConstituentSpec, Current, Place, Tidal, TidalSpec
-from uwsim.rng import stream
 
 HOUR = 3600.0
 DAY = 24.0 * HOUR

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.special import jv
 
+from uwsim.base.rng import stream
 from uwsim.currents import (
     ConstantSpec,
     Current,
@@ -16,7 +17,6 @@ from uwsim.currents import (
     TotalCurrent,
     UwsimSinusoidSpec,
 )
-from uwsim.rng import stream
 
 ORIGIN = np.zeros((1, 3))
 

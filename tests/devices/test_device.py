@@ -7,11 +7,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from uwsim.base.geometry import Pose
 from uwsim.devices import DEVICES
 from uwsim.devices.device import DeviceSpec
 from uwsim.devices.fault import FaultSpec, ThrusterFault
 from uwsim.devices.fault_times import FaultTimes
-from uwsim.geometry import Pose
 from uwsim.scene.mounts import MountFrames
 from uwsim.scene.unsupported import limit_of
 from uwsim.scene.vehicle import VehicleSpec

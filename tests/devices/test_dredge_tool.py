@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.devices.dredge_tool import DredgeToolSpec
-from uwsim.geometry import Pose, rotation_from_rpy
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec

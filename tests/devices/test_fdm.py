@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from uwsim.base.geodesy import Geodetic
 from uwsim.devices.fdm import FdmInput, read_packet
 from uwsim.errors import UwsimError
-from uwsim.geodesy import Geodetic
 from uwsim.messages import Quaternion, TFMessage, Transform, TransformStamped, Vector3, header
 from uwsim.scene.spec import NedOriginSpec, SceneSpec, SimParamsSpec
 from uwsim.scene.vehicle import VehicleSpec

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
+from uwsim.base.geometry import rotation_from_rpy
 from uwsim.devices.force_sensor import ForceSensorSpec
-from uwsim.geometry import rotation_from_rpy
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from uwsim.assets.find import find
+from uwsim.base.geometry import Pose
 from uwsim.devices.structured_light_projector import StructuredLightProjectorSpec
 from uwsim.errors import AssetNotFound
-from uwsim.geometry import Pose
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation

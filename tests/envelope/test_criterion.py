@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from uwsim.base.expression import ScoreError
 from uwsim.envelope import parse_criterion
 from uwsim.envelope.criterion import Judgement, reasons
-from uwsim.expression import ScoreError
 
 
 def row(status: str = "ok", total: float | None = 2.0, **measures: float | None) -> dict[str, Any]:

@@ -19,11 +19,11 @@ from paper.station_keeping import (
     track,
     whole_periods,
 )
+from uwsim.base.geometry import Array
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.updaters import levels
 from uwsim.currents import Place, UwsimSinusoidSpec
 from uwsim.errors import ResultError
-from uwsim.geometry import Array
 from uwsim.results.inputs import Inputs
 from uwsim.results.log import Log, load_log
 from uwsim.results.result import Result

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.files import disk_cache
-from uwsim.files.code_digest import code_digest
+from uwsim.base.files import disk_cache
+from uwsim.base.files.code_digest import code_digest
 
 
 @pytest.fixture

@@ -3,7 +3,7 @@ import re
 
 import pytest
 
-from uwsim.files.file_names import MAX_NAME_LENGTH, file_name, file_names
+from uwsim.base.files.file_names import MAX_NAME_LENGTH, file_name, file_names
 
 FIT = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
 

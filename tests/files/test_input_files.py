@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from uwsim.base.files.input_files import InputFile, by_name, hash_of, portable, read_bytes, recorded
 from uwsim.errors import AssetError
-from uwsim.files.input_files import InputFile, by_name, hash_of, portable, read_bytes, recorded
 
 PACKAGE = Path(__file__).parents[2] / "src" / "uwsim"
 READERS = ("assets/loaders", "currents", "dialect", "physics", "scene", "simulation")

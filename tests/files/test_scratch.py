@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pytest
 
+from uwsim.base.files.scratch import scratch_folder
 from uwsim.errors import RunFailed
-from uwsim.files.scratch import scratch_folder
 
 PROGRAM = """
 import os, subprocess, sys, time
-from uwsim.files.scratch import OWNER, scratch_folder
+from uwsim.base.files.scratch import OWNER, scratch_folder
 with scratch_folder("uwsim-test-") as folder:
     (folder / "a").write_text("x")
     os.environ[OWNER] = str(folder)

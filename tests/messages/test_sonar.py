@@ -9,7 +9,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from uwsim import messages
-from uwsim.message_fields import unfit
+from uwsim.base.message_fields import unfit
 from uwsim.messages import PingInfo, ProjectedSonarImage, SonarImageData, Vector3
 
 TEXTS = Path(messages.__file__).parent / "marine_acoustic_msgs" / "msg"

@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from rosbags.typesys import Stores, get_typestore
 
-from uwsim import message_fields, messages
+from uwsim import messages
+from uwsim.base import message_fields
+from uwsim.base.message_fields import unfit
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage
-from uwsim.message_fields import unfit
 from uwsim.messages import (
     geometry_msgs,
     nav_msgs,

@@ -8,7 +8,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from uwsim import messages
-from uwsim.message_fields import unfit
+from uwsim.base.message_fields import unfit
 from uwsim.messages import DVL, LedLight, Pressure
 
 TEXTS = Path(messages.__file__).parent / "underwater_sensor_msgs" / "msg"

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from uwsim.base.rng import stream
 from uwsim.network import (
     EVERYONE,
     BitErrors,
@@ -16,7 +17,6 @@ from uwsim.network import (
     Network,
     Packet,
 )
-from uwsim.rng import stream
 
 SECOND = 1_000_000_000
 SOUND = DelayChannel(per_metre=1.0 / 1500.0)

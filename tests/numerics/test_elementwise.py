@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uwsim.numerics import elementwise
+from uwsim.base.numerics import elementwise
 
 ONE = [
     name

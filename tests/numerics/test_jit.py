@@ -15,11 +15,11 @@ import numba
 import numpy as np
 import pytest
 
-from uwsim.numerics import compiling
-from uwsim.numerics.jit import Signatures
+from uwsim.base.numerics import compiling
+from uwsim.base.numerics.jit import Signatures
 
 SOURCE = """
-from uwsim.numerics import jit
+from uwsim.base.numerics import jit
 
 @jit.njit
 def twice(x: float) -> float:
@@ -125,11 +125,11 @@ def test_a_changed_constant_or_function_of_another_module_is_compiled_anew(
     cache: Path, monkeypatch: pytest.MonkeyPatch, old: str, new: str
 ) -> None:
     other = (
-        "from uwsim.numerics import jit\nFACTOR = 3.0\n\n"
+        "from uwsim.base.numerics import jit\nFACTOR = 3.0\n\n"
         "@jit.njit\ndef same(x):\n    return 1.0 * x\n"
     )
     user = """
-from uwsim.numerics import jit
+from uwsim.base.numerics import jit
 import factors
 from factors import FACTOR, same
 
@@ -179,7 +179,7 @@ def test_what_is_read_back_needs_none_of_the_tables_for_compiling(cache: Path) -
 
 SUMS = """
 import numpy as np
-from uwsim.numerics import jit
+from uwsim.base.numerics import jit
 
 @jit.njit
 def running(x):
@@ -266,7 +266,7 @@ def test_a_c_function_is_read_back(cache: Path, monkeypatch: pytest.MonkeyPatch)
 
     source = """
 from numba import types
-from uwsim.numerics import jit
+from uwsim.base.numerics import jit
 
 def thrice(x):
     return 3.0 * x

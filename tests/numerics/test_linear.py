@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from uwsim.numerics.linear import (
+from uwsim.base.numerics.linear import (
     composed,
     cross,
     determinant,

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.physics import compile as compile_module
 from uwsim.physics import compiled_models
 from uwsim.physics.collision.shapes import CollisionShape

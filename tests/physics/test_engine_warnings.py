@@ -10,8 +10,8 @@ import mujoco
 import numpy as np
 import pytest
 
+from uwsim.base.geometry import Pose
 from uwsim.errors import RunFailed
-from uwsim.geometry import Pose
 from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.physics.compile import compile_scene, object_body
 from uwsim.physics.engine_warnings import hush, say_too_fast, speeds_of, too_fast, why_untrue

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import free_body
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.physics.free_objects import box_added_mass, loose_hydrodynamics
 from uwsim.physics.hydrodynamics import BodyHydrodynamics

@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.physics.compile import compile_scene, object_body
 from uwsim.physics.free_objects import loose_link

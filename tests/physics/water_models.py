@@ -8,7 +8,7 @@ from pathlib import Path
 import mujoco
 import numpy as np
 
-from uwsim.geometry import Pose, rotation_about
+from uwsim.base.geometry import Pose, rotation_about
 from uwsim.physics.hydrodynamics import (
     BodyHydrodynamics,
     FinSpec,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.sensors.acoustic_world import box, sphere
-from uwsim.geometry import rotation_from_rpy
+from uwsim.base.geometry import rotation_from_rpy
 from uwsim.rays import RayScene, Surface
 from uwsim.rays.cover import covering_balls
 

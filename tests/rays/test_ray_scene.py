@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.rays import RayScene, Surface
 
 HERE = Pose.identity()

@@ -18,7 +18,7 @@ from PIL import Image
 
 from tests.rendering.models import ball, block, placed, plate
 from uwsim.assets.mesh import Texture
-from uwsim.geometry import Intrinsics, Pose
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 

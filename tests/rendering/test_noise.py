@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from uwsim.base.rng import stream
 from uwsim.rendering.noise import add_noise, frame_key, gaussian_quantiles
-from uwsim.rng import stream
 
 GREY = np.full((240, 320, 4), 30000, np.uint16)
 LEVEL = 30000 / 257.0  # in 8-bit steps

@@ -10,7 +10,7 @@ import pytest
 from tests.rendering.models import plate
 from uwsim.assets import painted
 from uwsim.assets.mesh import Model, Texture
-from uwsim.geometry import Intrinsics, Pose
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.renderer import RenderedImage, Renderer
 from uwsim.rendering.water import Light, Water

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim.geometry import Array, Intrinsics, Pose, rotation_from_rpy
+from uwsim.base.geometry import Array, Intrinsics, Pose, rotation_from_rpy
 from uwsim.rendering.minification import MAX_TEXELS, needs_no_copies
 from uwsim.rendering.pieces import crosses, densities, flat_normal, pieces
 

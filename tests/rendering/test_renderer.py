@@ -9,8 +9,8 @@ import pytest
 
 from tests.rendering.models import ball, block, placed, plate
 from uwsim.assets.mesh import Model, Texture
+from uwsim.base.geometry import Intrinsics, Pose, rotation_from_rpy
 from uwsim.errors import UnknownName
-from uwsim.geometry import Intrinsics, Pose, rotation_from_rpy
 from uwsim.rendering.context import create_context
 from uwsim.rendering.gpu_model import GpuModels
 from uwsim.rendering.renderer import Renderer

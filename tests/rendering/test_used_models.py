@@ -11,7 +11,7 @@ import pytest
 from uwsim.assets import load_model
 from uwsim.assets.mesh import Model
 from uwsim.assets.weathering import weathered
-from uwsim.geometry import Intrinsics, Pose
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.gpu_model import KEPT_SCENES
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water

@@ -13,8 +13,8 @@ import trimesh
 from PIL import Image
 from scipy.io import netcdf_file
 
+from uwsim.base.files.input_files import recorded
 from uwsim.errors import ResultError
-from uwsim.files.input_files import recorded
 from uwsim.results import journal
 from uwsim.results.inputs import Inputs, differing
 from uwsim.runs.inputs_read import inputs_of

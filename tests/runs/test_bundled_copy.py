@@ -8,8 +8,8 @@ import pytest
 
 from uwsim.assets.bundled import bundled
 from uwsim.assets.find import PACKAGE
+from uwsim.base.files.input_files import recorded
 from uwsim.cli import main
-from uwsim.files.input_files import recorded
 from uwsim.runs.bundled_copy import copy_bundled, copyable_names
 from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan_request import PlanRequest

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from tests.short_trial import INIT, make_plan, with_algorithm
+from uwsim.base.files.input_files import InputFile, hash_of
 from uwsim.bus import Node
 from uwsim.errors import RunFailed
-from uwsim.files.input_files import InputFile, hash_of
 from uwsim.results.inputs import Inputs
 from uwsim.runs.executors.executor import run_each
 from uwsim.runs.input_watch import Watch, watchable

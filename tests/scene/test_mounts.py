@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from uwsim import schema
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.devices.object_picker import ObjectPickerSpec
-from uwsim.geometry import Pose, rotation_from_rpy
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.mounts import MountFrames, in_words
 from uwsim.scene.reader import check_scene, read_scene

@@ -15,12 +15,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
+from uwsim.base.geometry import Pose
 from uwsim.currents import UwsimSinusoidSpec
 from uwsim.devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
 from uwsim.devices.structured_light_projector import StructuredLightProjectorSpec
 from uwsim.errors import SceneError
-from uwsim.geometry import Pose
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene import SceneSpec, read_scene
 from uwsim.scene.object import ObjectSpec

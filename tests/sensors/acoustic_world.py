@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from tests.fakes import FakeBody
-from uwsim import rng
 from uwsim.acoustics import MATERIALS, Material, SeaWater
-from uwsim.geodesy import Geodetic
-from uwsim.geometry import Intrinsics, Pose
+from uwsim.base import rng
+from uwsim.base.geodesy import Geodetic
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rays import RayScene, Surface
 from uwsim.sensors.pinhole import cast_depth
 from uwsim.world import BodyMotion

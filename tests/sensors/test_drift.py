@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim import rng
+from uwsim.base import rng
 from uwsim.sensors.drift import FLOOR, PEAK, Drift, DriftSpec
 
 RATE = 10.0

@@ -10,7 +10,7 @@ import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, MovingCarrier, plate
 from uwsim.assets.find import find
-from uwsim.geometry import Pose, rotation_from_rpy, rotation_y
+from uwsim.base.geometry import Pose, rotation_from_rpy, rotation_y
 from uwsim.messages import DVL
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.dvl_sensor import Dvl, DvlSensorSpec

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier
-from uwsim.geodesy import Geodetic
-from uwsim.geometry import Pose
+from uwsim.base.geodesy import Geodetic
+from uwsim.base.geometry import Pose
 from uwsim.messages import NavSatFix
 from uwsim.sensors.gps_sensor import GpsSensor, GpsSensorSpec
 

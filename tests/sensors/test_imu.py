@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tests.simulation.girona500 import TWIST, command, make, run
-from uwsim.geometry import (
+from uwsim.base.geometry import (
     Pose,
     rotation_from_quaternion,
     rpy_from_rotation,

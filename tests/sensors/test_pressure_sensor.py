@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.sensors.pressure_sensor import PressureSensor, PressureSensorSpec, column_mass
 
 LEVELS = ((5.0, 1000.0), (15.0, 1020.0))

@@ -10,7 +10,7 @@ import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate
 from uwsim.assets.find import find
-from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.messages import Range
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.range_sensor import RangeSensor, RangeSensorSpec

@@ -10,9 +10,9 @@ import pytest
 
 from tests.simulation.girona500 import SCENE
 from tests.simulation.small_robots import joint, scene_of, write_robot
-from uwsim.compatibility import COMPATIBILITY, compatibility
+from uwsim.base.compatibility import COMPATIBILITY, compatibility
+from uwsim.base.geometry import rotation_x, rotation_z
 from uwsim.errors import UnknownName
-from uwsim.geometry import rotation_x, rotation_z
 from uwsim.scene.reader import read_scene
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.geometry import Pose, rotation_from_xyz
+from uwsim.base.geometry import Pose, rotation_from_xyz
 from uwsim.messages import (
     JointState,
     Odometry,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, run
-from uwsim.geometry import Pose, quaternion_from_rotation
+from uwsim.base.geometry import Pose, quaternion_from_rotation
 from uwsim.messages import JointState, Point, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
 from uwsim.scene.object import ObjectSpec, PhysicsSpec

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uwsim.base.geometry import Pose
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import UnknownName, UwsimError
-from uwsim.geometry import Pose
 from uwsim.rendering.lights.lamp import MAX_HALF_ANGLE
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene

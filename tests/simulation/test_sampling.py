@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from uwsim.sampling import sample_step
+from uwsim.base.sampling import sample_step
 
 
 @pytest.mark.parametrize(

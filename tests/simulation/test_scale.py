@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import begin, joint, scene_of, shape, write_robot
+from uwsim.base.geometry import Pose, rotation_from_rpy, rotation_from_xyz
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import SceneError
-from uwsim.geometry import Pose, rotation_from_rpy, rotation_from_xyz
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec

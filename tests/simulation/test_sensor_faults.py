@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import make
-from uwsim import rng
+from uwsim.base import rng
 from uwsim.devices.fault import FaultSpec
 from uwsim.devices.fault_times import FaultTimes
 from uwsim.errors import SceneError

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from uwsim.base.geometry import Pose
 from uwsim.devices.sway import AXES, SwaySpec, displaced
-from uwsim.geometry import Pose
 
 
 def swayed(

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.geometry import quaternion_from_rotation, rotation_from_rpy
+from uwsim.base.geometry import quaternion_from_rotation, rotation_from_rpy
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.physics.actuation.allocation import (
     HEAVE,

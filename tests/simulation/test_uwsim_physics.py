@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, TWIST, command, position, run
+from uwsim.base.geometry import Pose
 from uwsim.benchmark.measures.collision import CollisionSpec
-from uwsim.geometry import Pose
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import SimParamsSpec

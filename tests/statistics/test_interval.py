@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from uwsim.rng import stream
+from uwsim.base.rng import stream
 from uwsim.statistics import Interval, mean_interval
 
 SLEEP = [1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4]

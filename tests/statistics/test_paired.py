@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from uwsim.rng import stream
+from uwsim.base.rng import stream
 from uwsim.statistics import (
     cohens_d,
     fewest_for,

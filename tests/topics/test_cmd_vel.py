@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from lxml import etree
 
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.messages import LaserScan, PointCloud2, Twist, Vector3, points
 from uwsim.reference.relax_ng import scene_grammar
 from uwsim.scene.reader import check_scene, read_scene

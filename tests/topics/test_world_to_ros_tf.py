@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.messages import JointState, TFMessage, TransformStamped, seconds
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.sim_params import SimParamsSpec

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import uwsim
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.simulation import Simulation
 from uwsim.simulation.tracked_bodies import TrackedBodies
 from uwsim.simulation.views import FIELD, focus_of, orbit_view

@@ -96,7 +96,7 @@ def test_shapes_are_where_the_renderer_has_them(tmp_path: Path) -> None:
         if frame not in world_from:
             each = newest[frame]
             t, q = each.transform.translation, each.transform.rotation
-            pose = uwsim.geometry.Pose.from_quaternion(
+            pose = uwsim.base.geometry.Pose.from_quaternion(
                 np.array([t.x, t.y, t.z]), np.array([q.w, q.x, q.y, q.z])
             )
             world_from[frame] = matrix(each.header.frame_id) @ pose.matrix

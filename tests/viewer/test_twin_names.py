@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
-from uwsim.geometry import Pose, rotation_from_quaternion
+from uwsim.base.geometry import Pose, rotation_from_quaternion
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec

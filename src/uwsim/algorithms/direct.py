@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from ..geometry import Array
+from ..base.geometry import Array
 from .direct_tracker import DirectTracker
 from .esm.alignment import Method
 from .esm.pyramid import Grey

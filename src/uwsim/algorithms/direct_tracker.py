@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.linear import product
+from ..base.geometry import Array
+from ..base.numerics.linear import product
 from .esm.alignment import Method, align, zncc
 from .esm.homography import between, unimodular, warp
 from .esm.pyramid import Grey, level_from_image, pyramid

@@ -7,9 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.linear import determinant, inverse, product
-from ..numerics.opencv import plain_opencv
+from ..base.geometry import Array
+from ..base.numerics.linear import determinant, inverse, product
+from ..base.numerics.opencv import plain_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
 from .esm.homography import between, unimodular, warp

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import ClassVar
 
-from ..geometry import Array
+from ..base.geometry import Array
 from .direct_tracker import crossing
 from .esm.pyramid import Grey
 from .tracker import Estimate, Tracker

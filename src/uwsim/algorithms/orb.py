@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
-from ..numerics.linear import determinant
-from ..numerics.opencv import plain_opencv
+from ..base.geometry import Array
+from ..base.numerics.linear import determinant
+from ..base.numerics.opencv import plain_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
 from .esm.homography import between, unimodular, warp

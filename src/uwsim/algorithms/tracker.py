@@ -5,7 +5,7 @@ from __future__ import annotations
 import abc
 from dataclasses import dataclass
 
-from ..geometry import Array, is_in_image
+from ..base.geometry import Array, is_in_image
 from .esm.homography import is_convex
 from .esm.pyramid import Grey
 

@@ -18,9 +18,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..bus import Node
 from ..errors import BadSetting, UnknownName, did_you_mean
-from ..geometry import Array
 from ..messages import (
     Empty,
     Float32MultiArray,

@@ -9,8 +9,8 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path, PurePosixPath
 
+from ..base.files.input_files import is_inside
 from ..errors import AssetError, AssetNotFound, did_you_mean
-from ..files.input_files import is_inside
 from .find import (
     UNDER,
     above,

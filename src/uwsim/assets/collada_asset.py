@@ -21,7 +21,7 @@ from xml.etree.ElementTree import Element, ParseError, iterparse
 
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 
 LARGEST_UNIT = 1e6
 """Units beyond this, or below one over it, are taken for mistakes [m]."""

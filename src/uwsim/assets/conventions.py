@@ -11,7 +11,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..numerics.linear import product
+from ..base.numerics.linear import product
 from .mesh import Model
 
 Scale = tuple[float, float, float]

@@ -21,8 +21,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path, PureWindowsPath
 
+from ..base.files.input_files import is_inside
 from ..errors import AssetError
-from ..files.input_files import is_inside
 from .packages import OURS, environment_folders, package_folders, package_of
 
 UNDER = ("", "data", "data/scenes", "data/vehicles", "objects", "terrain", "robot", "textures")

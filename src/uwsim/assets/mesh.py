@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
-from ..files.input_files import InputFile
+from ..base.files.input_files import InputFile
 from ..world import Box
 from .collada_asset import ColladaAsset
 

@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..files import disk_cache
-from ..numerics.opencv import plain_opencv
+from ..base.files import disk_cache
+from ..base.numerics.opencv import plain_opencv
 from .mesh import Mesh, Model, Texture
 from .stand_ins import STAND_INS
 

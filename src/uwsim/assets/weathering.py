@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..numerics.opencv import plain_opencv
+from ..base.numerics.opencv import plain_opencv
 from .mesh import Model, Texture
 
 KEPT = 16

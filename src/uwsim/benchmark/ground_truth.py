@@ -22,7 +22,7 @@ it can neither read nor publish there. `uwsim.benchmark.updaters.bag_fog_updater
 recorded images, from a CSV file.
 
 Image coordinates are in pixels from the centre of the first pixel, top left, v down, as in ROS and
-OpenCV (`uwsim.geometry.Intrinsics`); constants are compared as they are.
+OpenCV (`uwsim.base.geometry.Intrinsics`); constants are compared as they are.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array
-from ..inbox import Inbox
+from ..base.geometry import Array
+from ..base.inbox import Inbox
+from ..base.numerics.linear import placed, product, turned_back
 from ..messages import Float32MultiArray
-from ..numerics.linear import placed, product, turned_back
 from ..schema import Spec, element
 from ..world import Body, Box, Camera, World
 from .metrics.min_area_rectangle import like_rectangle, rectangle

@@ -6,7 +6,7 @@ import textwrap
 
 from lxml import etree
 
-from .. import expression
+from ..base import expression
 from ..schema import Diagnostics, line_of
 from .measures import MeasureSpec
 from .spec import FunctionSpec

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from ..assets.find import find
+from ..base.files.input_files import read_bytes
+from ..base.geometry import Array
 from ..errors import AssetError, AssetNotFound, did_you_mean
-from ..files.input_files import read_bytes
-from ..geometry import Array
 
 MAX_BYTES = 64 * 2**20
 """The greatest size of a file."""

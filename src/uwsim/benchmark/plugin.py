@@ -28,6 +28,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from types import CodeType, ModuleType
 
+from ..base.files.input_files import read_bytes
+from ..base.files.source_module import source_module
+from ..base.interrupts import is_of_user
 from ..errors import (
     AssetError,
     Diagnostic,
@@ -35,9 +38,6 @@ from ..errors import (
     RunFailed,
     UwsimError,
 )
-from ..files.input_files import read_bytes
-from ..files.source_module import source_module
-from ..interrupts import is_of_user
 from ..world import Stage
 from .measures import Measure, MeasureSpec
 from .plugin_checks import ContractViolation

@@ -25,7 +25,7 @@ from typing import Any, TypeVar
 
 from lxml import etree
 
-from ..compatibility import COMPATIBILITY
+from ..base.compatibility import COMPATIBILITY
 from ..errors import BenchmarkError, Diagnostic, did_you_mean
 from ..scene.variation import check_variations
 from ..schema import (

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..errors import AssetError
-from ..geometry import Array
 from ..schema import Spec, element
 from .number_table import read_numbers
 

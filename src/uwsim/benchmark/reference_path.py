@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..errors import AssetError
-from ..geometry import Array
 from ..messages import Path, PoseStamped
 from ..schema import Numbers, Spec, element
 from .number_table import read_numbers

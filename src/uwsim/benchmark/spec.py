@@ -20,7 +20,7 @@ class FunctionSpec(Spec):
     """The ``<function>`` element: how the measures make a score."""
 
     text: str = element(text=True)
-    """An expression over the measures' names (`uwsim.expression`)."""
+    """An expression over the measures' names (`uwsim.base.expression`)."""
     publish_result: bool = element(default=False, attribute=True)
     """Whether results are published while it runs."""
     publish_rate: float = element(default=0.1, attribute=True, minimum=0.0)
@@ -56,7 +56,7 @@ class BenchmarkSpec(Spec):
     """Whether an independent level begins with a prelude: 1 s at the initial values of the
     updaters, and 1 s on the way to its own; else its values hold from the first image on."""
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
-    """Compatibility quirks of the original to reproduce (`uwsim.compatibility`), separated by
+    """Compatibility quirks of the original to reproduce (`uwsim.base.compatibility`), separated by
     blanks; ``uwsim`` is all of them but ``visual-frames``."""
     patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
     """Longest wait for the start trigger, in simulation time [s]; None: 10 s."""

@@ -13,10 +13,10 @@ from collections import deque
 from collections.abc import Callable
 from typing import TypeVar
 
+from ..base.inbox import Inbox
+from ..base.message_fields import freeze, unfit
+from ..base.terminal import warn
 from ..errors import BadMessage, BadSetting, UwsimError, did_you_mean
-from ..inbox import Inbox
-from ..message_fields import freeze, unfit
-from ..terminal import warn
 from .names import is_exactly, type_name, without_slash
 from .services import Services
 from .topic import Remark, Topic, TopicEnds

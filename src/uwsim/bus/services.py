@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
+from ..base.message_fields import freeze, unfit
 from ..errors import BadMessage, UnknownName
-from ..message_fields import freeze, unfit
 from .names import is_exactly, type_name, without_slash
 
 M = TypeVar("M")

@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..analysis.repeats_note import repeats_note
+from ..base.files.file_names import file_names
+from ..base.interrupts import raise_from_now_on
+from ..base.terminal import warn
 from ..errors import AllErrors, BadSetting, RunFailed
-from ..files.file_names import file_names
-from ..interrupts import raise_from_now_on
 from ..runs.executors.choose import n_at_once
 from ..runs.foreign_code import announce_code
 from ..runs.planning.make_plan import make_plan, say_warnings
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
-from ..terminal import warn
 from .exit_status import running
 from .options.client_options import ClientOptions
 from .options.completion import algorithm_names

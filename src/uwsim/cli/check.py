@@ -11,12 +11,12 @@ from typing import Annotated
 import typer
 
 from ..assets.bundled import bundled
+from ..base.terminal import printable
 from ..errors import AllErrors, Diagnostic
 from ..runs.check import diagnostics_of
 from ..runs.planning.option_values import pairs_of
 from ..runs.tables import read_plugins
 from ..scene.settings import xacro_arguments
-from ..terminal import printable
 from .exit_status import WRONG_INPUT
 from .options.completion import checked_names, scene_names
 from .options.help_texts import INPUT, in_group

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ..terminal import printable
+from ..base.terminal import printable
 from .options.help_texts import COMPARED, OUTPUT, in_group
 from .options.options import JsonOption
 from .output.console import standard_output

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..base.interrupts import raise_from_now_on
+from ..base.terminal import printable, warn
 from ..envelope.directory import check_out, prepared
 from ..envelope.search_request import SearchRequest, search_request
 from ..errors import AllErrors, BadSetting
-from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
 from ..runs.planning.make_plan import make_plan, say_warnings
 from ..runs.planning.option_values import chosen_level
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.timing import Stopwatch
-from ..terminal import printable, warn
 from .exit_status import running
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group

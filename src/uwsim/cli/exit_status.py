@@ -7,9 +7,9 @@ from contextlib import contextmanager
 
 import typer
 
-from .. import interrupts
+from ..base import interrupts
+from ..base.terminal import printable
 from ..errors import RUN_ERRORS, FileError, RunFailed, SeveralErrors, UwsimError
-from ..terminal import printable
 
 WRONG_INPUT = 2
 RUN_FAILED = 3

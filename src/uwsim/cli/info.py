@@ -12,10 +12,10 @@ from rich.table import Table
 from rich.text import Text
 
 from ..assets.bundled import scene_file
+from ..base.terminal import printable
 from ..errors import AllErrors
 from ..runs.check import diagnostics_of
 from ..runs.planning.option_values import pairs_of
-from ..terminal import printable
 from .options.options import (
     DataPathOption,
     JsonOption,

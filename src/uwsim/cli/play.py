@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..base.interrupts import raise_from_now_on
+from ..base.terminal import print_warnings, warn
 from ..errors import AllErrors
-from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.stand_ins import warn_of_stand_ins
-from ..terminal import print_warnings, warn
 from .options.connections import ConnectionOptions, connected
 from .options.help_texts import INPUT, in_group
 from .options.options import DataPathOption, NoCodeOption, SettingOptions

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ..assets.bundled import scene_file
+from ..base.terminal import print_warnings
 from ..errors import AllErrors, BadSetting
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.option_values import compatibility_of, pairs_of
 from ..runs.stand_ins import warn_of_stand_ins
-from ..terminal import print_warnings
 from .options.help_texts import INPUT, OUTPUT, in_group
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .output.image_files import save, save_depth, save_ids

@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..base.interrupts import raise_from_now_on
+from ..base.terminal import warn
 from ..errors import AllErrors, BadSetting
-from ..interrupts import raise_from_now_on
-from ..terminal import warn
 from .options.help_texts import FILES, INPUT, OUTPUT, in_group
 from .options.options import DataPathOption, ResultArgument
 from .output.progress import progress

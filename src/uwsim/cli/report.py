@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from ..terminal import warn
+from ..base.terminal import warn
 from .options.help_texts import OUTPUT, in_group
 from .options.options import ResultArgument
 from .output.console import Console

@@ -10,14 +10,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
+from ..base.interrupts import raise_from_now_on
+from ..base.terminal import print_warnings, warn
 from ..errors import AllErrors, BadSetting, RunFailed, did_you_mean
-from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.make_plan import OF_ALGORITHM, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.program import load_program
 from ..runs.stand_ins import warn_of_stand_ins
-from ..terminal import print_warnings, warn
 from .exit_status import running
 from .options.connections import ConnectionOptions, connected
 from .options.help_texts import RUN, in_group

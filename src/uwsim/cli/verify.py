@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..base.interrupts import raise_from_now_on
+from ..base.terminal import printable
 from ..errors import ResultError
-from ..interrupts import raise_from_now_on
 from ..runs.foreign_code import announce_code
-from ..terminal import printable
 from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
 from .exit_status import RUN_FAILED, running
 from .options.help_texts import FILES, RUN, in_group

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ..errors import BadSetting, did_you_mean
 
 if TYPE_CHECKING:
-    from ..geometry import Array
+    from ..base.geometry import Array
     from ..rendering.renderer import RenderedImage
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation

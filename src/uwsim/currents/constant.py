@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 from ..schema import element
 from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 

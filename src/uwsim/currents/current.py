@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ..geometry import Array, Pose
-from ..numerics.linear import product
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import product
 from ..schema import Spec
 
 MAX_SPEED = 100.0

@@ -26,9 +26,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from ..base.files.input_files import read_bytes
+from ..base.geometry import Array
 from ..errors import AssetError
-from ..files.input_files import read_bytes
-from ..geometry import Array
 from ..schema import MAX_NUMBER, element, number
 from .current import MAX_SPEED, Current, CurrentSpec, Place
 from .units import unit

@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Array, Triple
+from ..base.geometry import Array, Triple
 from ..schema import element
 from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws

@@ -32,9 +32,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.geometry import Array, Triple
+from ..base.numerics.elementwise import log, power
 from ..errors import BadSetting
-from ..geometry import Array, Triple
-from ..numerics.elementwise import log, power
 from ..schema import Spec, element
 from .current import MAX_SPEED, Current, CurrentSpec, Place
 

@@ -22,10 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.files.modules import located
+from ..base.files.python_sources import sources_of
+from ..base.geometry import Array
 from ..errors import BadSetting, did_you_mean
-from ..files.modules import located
-from ..files.python_sources import sources_of
-from ..geometry import Array
 from ..schema import element
 from .current import MAX_SPEED, Current, CurrentSpec, Place
 

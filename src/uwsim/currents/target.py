@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 from ..world import Flow
 from .current import Current
 

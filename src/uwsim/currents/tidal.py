@@ -20,7 +20,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from ..geometry import Array
+from ..base.geometry import Array
 from ..schema import Spec, element
 from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 

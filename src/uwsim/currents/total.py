@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 from ..world import Flow
 from .current import Current, CurrentSpec, Place
 

@@ -17,7 +17,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..geometry import Array, Triple
+from ..base.geometry import Array, Triple
 from ..schema import element
 from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
 from .random_table import Draws

@@ -31,9 +31,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geodesy import Geodetic
-from ..geometry import Pose, rotation_from_rpy
-from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
+from ..base.external_values import MAX_COMMAND
+from ..base.geodesy import Geodetic
+from ..base.geometry import Pose, rotation_from_rpy
+from ..vehicle import Vehicle, go_or_place
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
 from .tf import HeardFrames

@@ -15,8 +15,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..base.geometry import Pose
 from ..bus import Remark
-from ..geometry import Pose
 from ..messages import Float64
 from ..schema import element
 from ..sensors.sensor import LookAt

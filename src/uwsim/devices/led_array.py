@@ -18,7 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Pose
+from ..base.geometry import Pose
 from ..messages import LedLight
 from ..schema import REQUIRED, element
 from ..world import Body, Stage

@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..geometry import Pose
+from ..base.geometry import Pose
 from ..schema import MAX_DISTANCE, element
 from ..sensors.sensor import OPTICAL_AXES, LookAt
 from ..world import Body, Stage

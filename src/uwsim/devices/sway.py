@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..geometry import Pose, rotation_from_xyz
+from ..base.geometry import Pose, rotation_from_xyz
 from ..schema import element
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle

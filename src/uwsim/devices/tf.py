@@ -15,9 +15,9 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..base.external_values import EXPECTED_POSE, read_position, read_quaternion
+from ..base.geometry import Pose
 from ..bus import Bus, Remark
-from ..external_values import EXPECTED_POSE, read_position, read_quaternion
-from ..geometry import Pose
 from ..messages import TFMessage, TransformStamped
 from ..schema import MAX_DISTANCE, element
 from ..vehicle import Vehicle, go_or_place

@@ -16,7 +16,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
-from .. import expression as expressions
+from ..base import expression as expressions
 from ..results.journal import Record
 
 STATUSES = {

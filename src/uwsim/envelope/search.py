@@ -28,7 +28,7 @@ from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from ..rng import stream
+from ..base.rng import stream
 
 GRID = 8
 """Intervals of the first seed's grid."""

@@ -16,8 +16,8 @@ import numpy as np
 import numpy.typing as npt
 from rosbags.interfaces import Connection
 
+from ..base.files.input_files import is_inside
 from ..errors import AssetError, UnknownName
-from ..files.input_files import is_inside
 from . import CameraInfo, Header, RegionOfInterest, Time
 
 IMAGE = "sensor_msgs/msg/Image"

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Pose
+from ..base.geometry import Pose
 from .geometry_msgs import Quaternion, Transform, TransformStamped, Vector3
 from .sensor_msgs import Image
 from .std_msgs import Float32MultiArray, Header, MultiArrayLayout, Time

@@ -48,9 +48,9 @@ from concurrent.futures import Future
 from functools import partial
 from typing import ClassVar
 
+from ..base.message_fields import size_of
 from ..bus import Bus, TopicEnds
 from ..errors import BadMessage, RunFailed, UwsimError
-from ..message_fields import size_of
 from ..messages.services import Service
 from .admission import Admission
 from .clock_topic import COARSE_PERIOD, ClockTopic

@@ -7,7 +7,7 @@ import threading
 from collections import Counter, deque
 from collections.abc import Callable
 
-from ..terminal import one_line, printable
+from ..base.terminal import one_line, printable
 
 MAX_OF_A_KIND = 5
 """Lines of one kind that are printed; the next says that there are more."""

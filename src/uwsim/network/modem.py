@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from ..geometry import Array
+from ..base.geometry import Array
 from .channel import Channel, Path
 from .energy import EnergyModel
 from .events import nanoseconds

@@ -21,8 +21,8 @@ from typing import Literal
 
 import numpy as np
 
+from ..base.numerics.linear import length
 from ..errors import UnknownName
-from ..numerics.linear import length
 from .channel import Channel, Path
 from .events import NANOSECONDS, EventQueue, nanoseconds
 from .modem import Modem, Waiting

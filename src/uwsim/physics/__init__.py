@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from ..environment import environment
-from ..interrupts import ignoring_interrupts
+from ..base.environment import environment
+from ..base.interrupts import ignoring_interrupts
 
 # MuJoCo's own windows are not used here: to look for their library it would start a process, which
 # shows a traceback at Ctrl-C. Whoever wants them in the same program imports mujoco first.

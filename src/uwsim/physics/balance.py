@@ -16,8 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Array, Pose
-from ..numerics.linear import dot, product
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import dot, product
 from ..scene.urdf.kinematics import link_poses
 from ..scene.urdf.robot import RobotSpec
 from ..world import GRAVITY

@@ -21,8 +21,8 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.linear import dot, product, turned, turned_back
+from ..base.geometry import Array
+from ..base.numerics.linear import dot, product, turned, turned_back
 from .hydrodynamics import columns as c
 
 FIXED, MOVING = -1, -2

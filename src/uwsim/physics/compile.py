@@ -14,10 +14,10 @@ from collections.abc import Collection, Mapping, Sequence
 import mujoco
 import numpy as np
 
+from ..base.geometry import Pose, quaternion_from_rotation, rotation_from_rpy
+from ..base.numerics.linear import product
 from ..devices.object_picker import ObjectPickerSpec
 from ..errors import BadSetting, SceneError, UwsimError
-from ..geometry import Pose, quaternion_from_rotation, rotation_from_rpy
-from ..numerics.linear import product
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import LinkSpec, RobotSpec

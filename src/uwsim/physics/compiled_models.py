@@ -19,9 +19,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from ..files import disk_cache
-from ..files.code_digest import code_digest
-from ..geometry import Array, Pose
+from ..base.files import disk_cache
+from ..base.files.code_digest import code_digest
+from ..base.geometry import Array, Pose
 from .collision.shapes import CollisionShape
 
 MIN_SHAPES = 500

@@ -10,9 +10,9 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ..base.geometry import Array, Pose, quaternion_from_rotation
+from ..base.numerics.linear import turned_back
 from ..errors import UwsimError
-from ..geometry import Array, Pose, quaternion_from_rotation
-from ..numerics.linear import turned_back
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec

@@ -15,9 +15,9 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ..base.geometry import Array
+from ..base.numerics.jit import njit
 from ..errors import SimulationFailed
-from ..geometry import Array
-from ..numerics.jit import njit
 
 MAX_SPEED = 100.0
 """Of a body in water: no thing that a simulation of this kind is for goes faster, or turns more

@@ -16,8 +16,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..errors import Diagnostic
-from ..geometry import Array
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.urdf.robot import LinkSpec
 from ..schema import diagnostic_at

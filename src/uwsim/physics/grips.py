@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import mujoco
 import numpy as np
 
-from ..geometry import Pose, quaternion_from_rotation
+from ..base.geometry import Pose, quaternion_from_rotation
 from .collision.shapes import CollisionShape
 from .compile import ALL, OBJECTS, grip, loose_joint, object_body, vehicle_bit
 from .poses import Poses

@@ -9,7 +9,7 @@ and is part of the state: MuJoCo's own flag.
 
 from __future__ import annotations
 
-from ..numerics.jit import njit
+from ..base.numerics.jit import njit
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.memory import Ints64, ints, small
 

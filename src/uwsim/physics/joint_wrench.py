@@ -16,8 +16,8 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.linear import cross
+from ..base.geometry import Array
+from ..base.numerics.linear import cross
 from .poses import Poses
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 
 
 class Motion:

@@ -8,9 +8,9 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ..base.geometry import Array, Pose, quaternion_from_rotation
+from ..base.numerics.linear import points_of, product, turned
 from ..devices.object_picker import ObjectPickerSpec
-from ..geometry import Array, Pose, quaternion_from_rotation
-from ..numerics.linear import points_of, product, turned
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from .compile import object_body, vehicle_body

@@ -14,8 +14,8 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from ..geometry import Array, Pose, Triple, rotation_from_rpy
-from ..numerics.linear import length, product, turned, turned_back
+from ..base.geometry import Array, Pose, Triple, rotation_from_rpy
+from ..base.numerics.linear import length, product, turned, turned_back
 from ..scene.urdf.kinematics import joint_positions, link_poses
 from ..scene.urdf.robot import RobotSpec
 from .compile import vehicle_body

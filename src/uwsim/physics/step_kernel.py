@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.jit import njit
+from ..base.geometry import Array
+from ..base.numerics.jit import njit
 from .actuation.autopilot_kernel import Seen, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
 from .actuation.servo_kernel import Forces, move_on, pull

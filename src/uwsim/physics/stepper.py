@@ -12,7 +12,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
+from ..base.geometry import Array
 from . import step_kernel
 from .actuation.autopilot import Autopilot
 from .actuation.servos import Servos

@@ -18,8 +18,8 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.linear import turned
+from ..base.geometry import Array
+from ..base.numerics.linear import turned
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from .kinematics.jumps import JumpTimes, without_placement

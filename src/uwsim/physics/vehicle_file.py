@@ -42,8 +42,8 @@ from pathlib import Path
 from lxml import etree
 
 from ..assets.find import roots
+from ..base.files.input_files import is_inside
 from ..errors import FileError, choices
-from ..files.input_files import is_inside
 from ..schema import Diagnostics, Spec, cut, line_of, parse, read
 from .actuation.power import power_errors
 from .hydrodynamics.file.checks import body_errors, thruster_errors

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
+from ..base.geometry import Array
 
 SLENDER = 3.0
 """A set is long and thin if it is longer than this many of its greatest distances from its axis."""

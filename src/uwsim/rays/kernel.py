@@ -10,8 +10,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.jit import njit
+from ..base.geometry import Array
+from ..base.numerics.jit import njit
 from .packet import DX, DY, DZ, GROUP, HIT, LANES, NEAR, fill_lanes, find_nearest
 from .triangle import Trees, Whole, meets_triangle, placed
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import Array
-from ..numerics.jit import njit
+from ..base.geometry import Array
+from ..base.numerics.jit import njit
 from .triangle import TOUCH, Point, Trees, Whole, inverse, placed
 
 GROUP = 16

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array, Pose
-from ..numerics.linear import inverse, product
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import inverse, product
 from .cover import Balls, covering_balls
 from .kernel import Hits, cast_rays
 from .tree import build_tree

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
-from ..numerics.jit import njit
+from ..base.geometry import Array
+from ..base.numerics.jit import njit
 
 Whole = npt.NDArray[np.int32]
 BINS = 16

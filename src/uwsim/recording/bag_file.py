@@ -11,7 +11,7 @@ from typing import Any
 
 from rosbags.rosbag1 import Writer
 
-from ..interrupts import ignoring_interrupts
+from ..base.interrupts import ignoring_interrupts
 from ..middleware.bridge import LATCHED
 from ..middleware.encodings import to_ros1
 from ..middleware.types import WireType, ros1_store

@@ -23,7 +23,7 @@ from rosbags.interfaces import (
 )
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-from ..interrupts import ignoring_interrupts
+from ..base.interrupts import ignoring_interrupts
 from ..middleware.bridge import DEPTH, LATCHED, LATCHED_DEPTH
 from ..middleware.encodings import to_cdr
 from ..middleware.types import WireType, ros2_store

@@ -11,8 +11,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
-from ..numerics.jit import njit
+from ..base.geometry import Array
+from ..base.numerics.jit import njit
 
 Numbers = npt.NDArray[np.intp]
 

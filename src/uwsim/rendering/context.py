@@ -7,7 +7,7 @@ from typing import Any
 
 import moderngl
 
-from ..environment import environment
+from ..base.environment import environment
 from ..errors import NoGraphics
 
 ENVIRONMENT = {

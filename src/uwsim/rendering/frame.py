@@ -5,8 +5,8 @@ from __future__ import annotations
 import moderngl
 import numpy as np
 
-from ..geometry import Array, Intrinsics, Pose
-from ..numerics.linear import product, turned_back
+from ..base.geometry import Array, Intrinsics, Pose
+from ..base.numerics.linear import product, turned_back
 from .lights.sun_shadow import SunShadow
 from .program import Block
 from .water import AMBIENT, SPECULAR, SUN_COLOURS, Light, Water, sun_direction

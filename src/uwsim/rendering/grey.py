@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..numerics.jit import njit
+from ..base.numerics.jit import njit
 
 
 @njit

@@ -8,9 +8,9 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
+from ..base.geometry import Array, Intrinsics, Pose
+from ..base.numerics.linear import determinants, inverse, product
 from ..errors import UnknownName
-from ..geometry import Array, Intrinsics, Pose
-from ..numerics.linear import determinants, inverse, product
 from . import bounds
 from .gpu_model import Batch
 from .minification import needs_no_copies

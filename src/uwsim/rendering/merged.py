@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets.mesh import Mesh, Model, Texture
-from ..geometry import Array
+from ..base.geometry import Array
 from .pieces import crosses, densities, flat_normal, pieces
 
 VERTEX = np.dtype(

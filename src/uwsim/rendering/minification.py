@@ -18,9 +18,9 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array, Intrinsics, Pose
-from ..numerics.jit import njit
-from ..numerics.linear import product
+from ..base.geometry import Array, Intrinsics, Pose
+from ..base.numerics.jit import njit
+from ..base.numerics.linear import product
 from .bounds import seen_from
 
 MAX_TEXELS = 2.0**0.5

@@ -15,7 +15,7 @@ from statistics import NormalDist
 import numpy as np
 import numpy.typing as npt
 
-from ..numerics.jit import njit
+from ..base.numerics.jit import njit
 from .grey import grey_truncated
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)

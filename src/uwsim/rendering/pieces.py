@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
-from ..numerics.linear import length, product
+from ..base.geometry import Array
+from ..base.numerics.linear import length, product
 
 MAX_PIECE_LENGTH = 2.0
 """Pieces are no longer than this ... [m]"""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..geometry import Array, Intrinsics
+from ..base.geometry import Array, Intrinsics
 
 
 def clip_from_camera(intrinsics: Intrinsics) -> Array:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Intrinsics, Pose
+from ..base.geometry import Intrinsics, Pose
 
 
 class PixelBox(NamedTuple):

@@ -14,8 +14,8 @@ import moderngl
 import numpy as np
 
 from ..assets.mesh import Model
+from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
-from ..geometry import Array, Intrinsics, Pose
 from .context import create_context
 from .frame import FRAME, Frame
 from .gpu_model import GpuModels

@@ -8,8 +8,8 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Intrinsics
-from ..numerics.jit import njit
+from ..base.geometry import Intrinsics
+from ..base.numerics.jit import njit
 from .rendered_image import RenderedImage
 
 TARGETS = ("colour", "range", "ids")

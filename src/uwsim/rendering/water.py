@@ -24,9 +24,9 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Intrinsics
-from ..numerics.elementwise import exp
-from ..numerics.linear import length
+from ..base.geometry import Intrinsics
+from ..base.numerics.elementwise import exp
+from ..base.numerics.linear import length
 from ..scene.ocean_state import OceanStateSpec
 
 Colour = tuple[float, float, float]

@@ -19,8 +19,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..base.files.file_names import file_name
 from ..errors import ResultError
-from ..files.file_names import file_name
 from .atomic_file import write_text
 from .result import MAX_VALUE
 

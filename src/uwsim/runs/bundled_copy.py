@@ -6,8 +6,8 @@ from pathlib import Path, PurePosixPath
 
 from ..assets.bundled import bundled
 from ..assets.find import PACKAGE
+from ..base.files.input_files import InputFile, recorded
 from ..errors import BadSetting, UnknownName
-from ..files.input_files import InputFile, recorded
 from ..results.atomic_file import atomic_write
 from ..scene.reader import read_scene
 from ..simulation import Simulation

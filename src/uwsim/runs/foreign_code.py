@@ -6,9 +6,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..base.files.modules import located
+from ..base.terminal import printable
 from ..errors import BadSetting
-from ..files.modules import located
-from ..terminal import printable
 
 if TYPE_CHECKING:
     from ..scene.spec import SceneSpec

@@ -10,8 +10,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
+from ..base.files.input_files import InputFile, hash_of
 from ..errors import RunFailed
-from ..files.input_files import InputFile, hash_of
 from ..results.inputs import NAMED, short_hash
 
 _Stamp = tuple[tuple[int, int, int], ...]

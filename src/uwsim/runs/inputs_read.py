@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from ..base.files.input_files import InputFile, by_name, hash_of, portable, record
+from ..base.files.python_sources import sources_of
 from ..benchmark.plugin import attribute_errors_to, hashes
 from ..benchmark.plugin_checks import files_of
 from ..benchmark.updaters import chain
-from ..files.input_files import InputFile, by_name, hash_of, portable, record
-from ..files.python_sources import sources_of
 from ..results.inputs import Inputs
 from ..simulation import Simulation
 from .planning.plan import Plan
@@ -21,7 +21,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     Args:
         plan: the benchmark to run.
         simulation: its scene.
-        read: the input files that were read to make it (`uwsim.files.input_files.recorded`).
+        read: the input files that were read to make it (`uwsim.base.files.input_files.recorded`).
     """
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     robots = {

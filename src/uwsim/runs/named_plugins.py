@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..base.files.input_files import hash_of
 from ..errors import AssetNotFound, BadSetting, BenchmarkError
-from ..files.input_files import hash_of
 from ..schema import NAMESPACE, Diagnostics, parse
 
 if TYPE_CHECKING:

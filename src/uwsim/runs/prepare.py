@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from ..base.files.input_files import recorded
 from ..benchmark.plugin import attribute_errors_to, check_bound
 from ..benchmark.unknown_names import unknown_names
 from ..errors import BenchmarkError, UwsimError
-from ..files.input_files import recorded
 from ..results.inputs import Inputs
 from ..simulation import RendererPool, Simulation
 from .bind_all import bind_all

@@ -11,9 +11,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..base.files.file_names import file_names
+from ..base.files.input_files import InputFile
+from ..base.terminal import warn
 from ..errors import ResultError
-from ..files.file_names import file_names
-from ..files.input_files import InputFile
 from ..results import journal
 from ..results.inputs import Inputs
 from ..results.log import save_log
@@ -23,7 +24,6 @@ from ..results.result_file import save
 from ..results.run_info import RunInfo
 from ..results.seal import Seal
 from ..results.summary import save_summary
-from ..terminal import warn
 from ..tracks import load_track
 from .collect import collect
 from .described import described

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..terminal import warn
+from ..base.terminal import warn
 
 if TYPE_CHECKING:
     from ..scene.spec import SceneSpec

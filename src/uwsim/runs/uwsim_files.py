@@ -29,6 +29,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from ..base.expression import parse
+from ..base.files.file_names import file_name
 from ..benchmark.measures import (
     CollisionSpec,
     DistanceSpec,
@@ -41,8 +43,6 @@ from ..benchmark.measures import (
     TimeSpec,
 )
 from ..benchmark.plugin_checks import sample_of
-from ..expression import parse
-from ..files.file_names import file_name
 from ..results.atomic_file import write_text
 from ..results.log import TIME, Log
 from ..results.result import Cell, Column, Result

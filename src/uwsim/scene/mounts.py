@@ -11,9 +11,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import dot, length, product, turned, turned_back
 from ..devices.object_picker import ObjectPickerSpec
-from ..geometry import Array, Pose
-from ..numerics.linear import dot, length, product, turned, turned_back
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import LookAt, Mounted

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..acoustics import MaterialName
-from ..geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
-from ..numerics.linear import product
+from ..base.geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
+from ..base.numerics.linear import product
 from ..schema import CLAMPED, MAX_DISTANCE, REQUIRED, Spec, element
 from .checks.plausibility import ObjectWarning
 from .on_floor import OnFloorSpec

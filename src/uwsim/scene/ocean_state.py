@@ -8,8 +8,8 @@ from itertools import pairwise
 import numpy as np
 
 from ..acoustics import SeaWater
+from ..base.geometry import Triple
 from ..currents import CURRENTS, CurrentSpec
-from ..geometry import Triple
 from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Numbers, Original, Spec, element
 from .seawater import sea_water_density
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ..base.geometry import Array, rotation_y, rotation_z
+from ..base.numerics.linear import product
 from ..devices.lamp import LampSpec
 from ..devices.structured_light_projector import StructuredLightProjectorSpec
-from ..geometry import Array, rotation_y, rotation_z
-from ..numerics.linear import product
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.sensor import Looking, Mounted
 from ..sensors.sonar.multibeam_sensor import FanSpec

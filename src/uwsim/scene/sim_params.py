@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from ..geometry import ZERO, Triple
+from ..base.geometry import ZERO, Triple
 from ..schema import MAX_DISTANCE, Original, Spec, element
 
 Integrator = Literal["implicitfast", "RK4"]

@@ -24,10 +24,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import get_args
 
+from ..base.geodesy import Geodetic
+from ..base.geometry import Pose
 from ..devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
-from ..geodesy import Geodetic
-from ..geometry import Pose
 from ..schema import REQUIRED, Expansion, Original, Spec, element
 from ..topics import INTERFACES, InterfaceSpec
 from .object import ObjectSpec, PhysicsSpec

@@ -27,8 +27,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, TypeVar, cast
 
+from ..base.rng import stream
 from ..errors import BadSetting
-from ..rng import stream
 from ..schema import NAMESPACE, Diagnostics, Spec, element
 from .settings import Place, locate, overlaps
 

@@ -18,11 +18,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
+from ..base.geometry import ONE, ZERO, Pose, Triple
 from ..devices import DEVICES
 from ..devices.echo import SimulatedDevicesSpec
 from ..devices.fdm import FdmSpec
 from ..devices.tf import TfSpec
-from ..geometry import ONE, ZERO, Pose, Triple
 from ..schema import CLAMPED, MAX_DISTANCE, Spec, element
 from ..schema.names import local
 from ..sensors import SENSORS

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from lxml import etree
 
+from ..base.files.input_files import read_bytes
 from ..errors import AssetError, Diagnostic, FileError
-from ..files.input_files import read_bytes
 from .diagnostics import Diagnostics
 from .names import NAMESPACE, shown_tag
 

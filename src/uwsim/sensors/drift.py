@@ -28,7 +28,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 from ..schema import Spec, element
 
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)

@@ -11,9 +11,9 @@ from typing import ClassVar
 import numpy as np
 
 from ..acoustics import SeaWater
-from ..geometry import Array, Pose
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import product, turned
 from ..messages import DVL, Header
-from ..numerics.linear import product, turned
 
 GOOD, BAD = "A", "V"
 """Status of a velocity in PD6."""

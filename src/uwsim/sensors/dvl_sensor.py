@@ -20,9 +20,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array, Pose
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import product, turned_back
 from ..messages import DVL, header
-from ..numerics.linear import product, turned_back
 from ..schema import MAX_DISTANCE, element
 from ..world import MovingBody, SensorWorld
 from .dvl_message import Track, dvl_message

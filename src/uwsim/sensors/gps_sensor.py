@@ -20,7 +20,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld

@@ -21,9 +21,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array, quaternion_from_rotation, rotation_from_rpy
+from ..base.geometry import Array, quaternion_from_rotation, rotation_from_rpy
+from ..base.numerics.linear import product, turned_back
 from ..messages import Imu, Quaternion, Vector3, header
-from ..numerics.linear import product, turned_back
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, MovingBody, SensorWorld
 from .drift import Drift, DriftSpec

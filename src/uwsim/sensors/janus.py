@@ -15,8 +15,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
-from ..numerics.linear import product, solve
+from ..base.geometry import Array
+from ..base.numerics.linear import product, solve
 
 ENOUGH = 3
 """Beams from which a velocity follows."""

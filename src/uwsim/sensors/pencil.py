@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from ..geometry import Array
+from ..base.geometry import Array
 
 RINGS = ((0.25, 6), (0.5, 12))
 """Radius of each ring in widths of the beam, and rays on it; one more is on the axis."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array, Intrinsics, Pose
+from ..base.geometry import Array, Intrinsics, Pose
 from ..messages import CameraInfo, RegionOfInterest, header
 from ..world import Rays
 

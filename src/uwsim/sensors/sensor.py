@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
-from ..geometry import Pose
+from ..base.geometry import Pose
 from ..schema import Spec
 from ..world import Body, MovingBody, SensorWorld
 

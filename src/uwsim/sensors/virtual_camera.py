@@ -19,7 +19,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array, Intrinsics, Pose
+from ..base.geometry import Array, Intrinsics, Pose
 from ..messages import CameraInfo, Image, image
 from ..schema import MAX_DISTANCE, Spec, element
 from ..world import Body, SensorWorld

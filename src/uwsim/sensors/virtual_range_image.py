@@ -16,7 +16,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array, Intrinsics, Pose
+from ..base.geometry import Array, Intrinsics, Pose
 from ..messages import CameraInfo, Image, depth_image
 from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld

@@ -11,9 +11,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets import bundled_robot, find, folders_searched, package_remark
+from ..base.geometry import Pose
+from ..base.numerics.linear import placed, product
 from ..errors import AssetNotFound, UnknownName, UwsimError
-from ..geometry import Pose
-from ..numerics.linear import placed, product
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
 from ..scene.urdf.reader import read_urdf

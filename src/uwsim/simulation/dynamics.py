@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal, cast
 
+from ..base.rng import stream
 from ..currents import Place, PythonFunctionSpec
 from ..devices.fault import FaultSpec
 from ..devices.fault_fields import number_fields
@@ -20,7 +21,6 @@ from ..physics.free_objects import MAX_BUOYANCY
 from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ..physics.vehicle_file import VehicleError, read_vehicle_into, set_errors
 from ..physics.vehicle_sets import find_vehicle
-from ..rng import stream
 from ..scene.settings import HydrodynamicsPlace, locate
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
-from ..geometry import Pose
+from ..base.geometry import Pose
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from ..geometry import Pose
+from ..base.geometry import Pose
 from ..messages import JointState, Odometry
 from ..topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
 from ..topics.pat_to_ros_odom import PATToROSOdomSpec

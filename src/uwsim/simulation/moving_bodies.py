@@ -7,8 +7,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array, Pose
-from ..numerics.linear import turned_back
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import turned_back
 from ..world import BodyMotion
 from .bodies import SceneBody
 

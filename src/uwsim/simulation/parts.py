@@ -14,10 +14,10 @@ from ..assets import load_model, painted, primitive, unknown_model
 from ..assets.conventions import robot_scale, with_z_up
 from ..assets.mesh import Model
 from ..assets.weathering import weathered
+from ..base.geometry import Pose
+from ..base.numerics.linear import product
 from ..devices.led_array import COLOURS, LedArraySpec
 from ..errors import AssetNotFound
-from ..geometry import Pose
-from ..numerics.linear import product
 from ..scene.checks.comms import CommsDeviceSpec, comms_devices
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from ..sampling import SampleTimer
+from ..base.sampling import SampleTimer
 
 M = TypeVar("M")
 

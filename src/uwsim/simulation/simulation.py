@@ -18,9 +18,9 @@ from dataclasses import replace
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
+from ..base.geometry import Array, Pose
 from ..bus import Algorithm, Bus
 from ..errors import BadSetting, UwsimError
-from ..geometry import Array, Pose
 from ..network import nanoseconds
 from ..physics.motion import Motion
 from ..rendering.rendered_image import RenderedImage

@@ -11,13 +11,13 @@ from typing import Any, TypeVar
 
 from ..assets import has_model
 from ..assets.pattern import read_pattern
+from ..base.geodesy import Geodetic
+from ..base.geometry import Array, Pose
 from ..devices.device import Device, DeviceSpec
 from ..devices.lamp import MountedLamp
 from ..devices.led_array import Led, LedArray
 from ..devices.structured_light_projector import MountedProjector
 from ..errors import AssetNotFound, SceneError, UnknownName, UwsimError
-from ..geodesy import Geodetic
-from ..geometry import Array, Pose
 from ..messages import SpawnMarker, String
 from ..network import Channel, Network
 from ..scene.sim_params import Integrator

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ..geometry import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
+from ..base.geometry import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 from ..scene.urdf.robot import RobotSpec
 from .parts import Part
 from .world import SceneWorld

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..devices.lamp import MountedLamp
-from ..geometry import Array
 from ..tracks import Signal
 from .stage import SceneStage
 from .tracked_bodies import TrackedBodies, vehicle_labels

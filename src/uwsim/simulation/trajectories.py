@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..geometry import Array, Pose
+from ..base.geometry import Array, Pose
 from ..scene.sim_params import ShowTrajectorySpec
 from ..world import Body
 

@@ -7,9 +7,9 @@ from functools import partial
 
 import numpy as np
 
+from ..base.geometry import Array, Pose
 from ..devices.sway import displaced
 from ..errors import UnknownName
-from ..geometry import Array, Pose
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..physics.kinematics.placed_motion import PlacedMotion

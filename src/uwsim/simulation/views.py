@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ..base.geometry import Array, Intrinsics, Pose
+from ..base.numerics.linear import length, product
 from ..errors import BadSetting, UnknownName
-from ..geometry import Array, Intrinsics, Pose
-from ..numerics.linear import length, product
 from ..scene.mounts import camera_axes
 from ..scene.object import TERRAIN
 from ..scene.sim_params import ViewerCameraSpec

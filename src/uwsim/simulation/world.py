@@ -11,13 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from ..acoustics import SeaWater
+from ..base.geodesy import Geodetic
+from ..base.geometry import Intrinsics, Pose
+from ..base.rng import stream
 from ..bus import Bus
 from ..devices.device import DeviceSpec
 from ..errors import Diagnostic, UnknownName
-from ..geodesy import Geodetic
-from ..geometry import Intrinsics, Pose
 from ..physics.engine import Engine
-from ..rng import stream
 from ..scene.reader import scene_warnings
 from ..scene.spec import SceneSpec
 from ..scene.variation import varied

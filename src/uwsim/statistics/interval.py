@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..geometry import Array
-from ..rng import stream
+from ..base.geometry import Array
+from ..base.rng import stream
 
 N_RESAMPLES = 10_000
 """Drawn once for each number of values, the same for all data."""

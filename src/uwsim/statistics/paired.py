@@ -9,8 +9,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ..geometry import Array
-from ..rng import stream
+from ..base.geometry import Array
+from ..base.rng import stream
 
 MAX_EXACT = 20
 """Up to so many differences every one of the 2^n sign patterns is counted."""

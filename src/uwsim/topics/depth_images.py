@@ -11,8 +11,8 @@ from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
 
+from ..base.geometry import Array, Intrinsics
 from ..errors import UnknownName
-from ..geometry import Array, Intrinsics
 from ..messages import CameraInfo, Image, PointCloud2, depth_image, point_cloud
 from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..geometry import Pose
+from ..base.geometry import Pose
 
 TF = "/tf"
 """The topic of all transforms."""

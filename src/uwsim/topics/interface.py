@@ -10,8 +10,8 @@ from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
+from ..base.geometry import Intrinsics, Pose
 from ..bus import Bus
-from ..geometry import Intrinsics, Pose
 from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera

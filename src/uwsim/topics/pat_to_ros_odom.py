@@ -12,7 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import quaternion_from_rotation
+from ..base.geometry import quaternion_from_rotation
 from ..messages import (
     Odometry,
     Point,

@@ -14,8 +14,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Array
-from ..message_fields import odd_number
+from ..base.geometry import Array
+from ..base.message_fields import odd_number
 from ..messages import JointState
 from ..vehicle import Servos, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec

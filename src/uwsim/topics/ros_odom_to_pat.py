@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..base.external_values import MAX_COMMAND
+from ..base.message_fields import odd_number
 from ..bus import Remark
-from ..message_fields import odd_number
 from ..messages import Odometry
-from ..vehicle import MAX_COMMAND
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_pose_to_pat import PoseCommand, odd_pose
 from .ros_twist_to_pat import TWIST, Gap, TwistCommand

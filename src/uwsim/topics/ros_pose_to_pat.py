@@ -9,12 +9,12 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.external_values import MAX_COMMAND, read_quaternion
+from ..base.geometry import Pose
+from ..base.message_fields import odd_number
 from ..bus import Remark
-from ..external_values import read_quaternion
-from ..geometry import Pose
-from ..message_fields import odd_number
 from ..messages import Pose as PoseMessage
-from ..vehicle import MAX_COMMAND, Vehicle, go_or_place
+from ..vehicle import Vehicle, go_or_place
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 MAX_VALUE = sys.float_info.max

@@ -25,10 +25,11 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..geometry import Pose, rotation_from_xyz
-from ..message_fields import odd_number
+from ..base.external_values import MAX_COMMAND
+from ..base.geometry import Pose, rotation_from_xyz
+from ..base.message_fields import odd_number
 from ..messages import Twist, TwistStamped, Vector3
-from ..vehicle import MAX_COMMAND, Vehicle
+from ..vehicle import Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 TWIST = tuple(f"twist.{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")

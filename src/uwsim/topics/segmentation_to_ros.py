@@ -22,8 +22,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Protocol, runtime_checkable
 
+from ..base.geometry import Intrinsics, Pose
 from ..errors import UnknownName
-from ..geometry import Intrinsics, Pose
 from ..messages import Image, String, label_image
 from .depth_images import CAMERAS
 from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate

@@ -13,12 +13,13 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.external_values import MAX_COMMAND
+from ..base.geometry import Array
+from ..base.message_fields import odd_number
 from ..errors import BadMessage, UnknownName
-from ..geometry import Array
-from ..message_fields import odd_number
 from ..messages import Float64MultiArray, WrenchStamped
 from ..schema import NAMESPACE, Original, element
-from ..vehicle import MAX_COMMAND, Autopilot, Vehicle
+from ..vehicle import Autopilot, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 WRENCH = tuple(f"wrench.{part}.{axis}" for part in ("force", "torque") for axis in "xyz")

@@ -10,8 +10,8 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ..base.sampling import SampleTimer
 from ..messages import CameraInfo, Image, image, pixels_of
-from ..sampling import SampleTimer
 from ..sensors.virtual_camera import VirtualCamera
 from .depth_images import DepthImagePublisher, publish_depth
 from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate

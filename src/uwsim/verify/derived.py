@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ..base.expression import Expression, parse
 from ..benchmark.spec import BenchmarkSpec
-from ..expression import Expression, parse
 from ..results.leaves import leaves
 from ..results.result import Cell, Result
 from ..runs.trial.triggered_measure import finite

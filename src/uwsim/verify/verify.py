@@ -14,12 +14,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from ..files.scratch import scratch_folder
+from ..base.files.scratch import scratch_folder
+from ..base.rng import stream
 from ..results import journal
 from ..results.leaves import leaves
 from ..results.result import Result
 from ..results.result_file import dumps
-from ..rng import stream
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
 from ..runs.executors.worker import IMAGES
 from ..runs.planning.plan import Plan, Trial

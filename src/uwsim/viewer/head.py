@@ -148,8 +148,8 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry import Pose
-from ..numerics.linear import dot, length, product
+from ..base.geometry import Pose
+from ..base.numerics.linear import dot, length, product
 from ..rendering.water import AMBIENT, SPECULAR, SUN_COLOURS, SUN_DIRECTIONS
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import MountedSensor

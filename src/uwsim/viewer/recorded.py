@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..errors import ResultError, UwsimError
-from ..geometry import Array
 from ..results import journal
 from ..results.result import Result
 from ..results.result_file import load

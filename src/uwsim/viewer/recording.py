@@ -15,8 +15,8 @@ from typing import Any
 
 import numpy as np
 
+from ..base.geometry import Array, Pose, rotation_from_quaternion
 from ..errors import BadSetting, names_file
-from ..geometry import Array, Pose, rotation_from_quaternion
 from ..messages import Float64, MarkerArray, String, TFMessage
 from ..messages.build import NANOSECONDS, transform
 from ..middleware.types import wire_type

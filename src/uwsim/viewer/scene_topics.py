@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..geometry import Array
+from ..base.geometry import Array
 from ..messages import String, TFMessage
 from ..messages.build import transform
 from ..simulation import Simulation

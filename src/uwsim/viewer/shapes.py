@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 
 from ..assets.mesh import Mesh
-from ..geometry import Array
+from ..base.geometry import Array
+from ..base.numerics.linear import product
 from ..messages import ColorRGBA, Marker, MarkerArray, Point, Vector3, header
-from ..numerics.linear import product
 from ..simulation import Simulation
 from ..simulation.parts import Part
 

@@ -11,12 +11,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from ..base.terminal import warn
 from ..errors import BadSetting
 from ..recording import ImageStorage, Recorder, check_path
 from ..runs.planning.plan import Plan, Trial
 from ..runs.run import Run
 from ..simulation import Simulation
-from ..terminal import warn
 from .scene_topics import SceneTopics
 
 

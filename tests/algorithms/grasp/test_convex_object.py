@@ -19,7 +19,7 @@ from uwsim.algorithms.grasp import (
     View,
 )
 from uwsim.algorithms.grasp.box import half_turn
-from uwsim.numerics.linear import placed
+from uwsim.base.numerics.linear import placed
 
 WEDGE = np.array(
     [(-0.12, -0.1, 0.0), (0.12, -0.1, 0.0), (0.12, 0.14, 0.0), (-0.12, 0.05, 0.0), (0.0, 0.0, 0.2)]

@@ -7,7 +7,7 @@ import pytest
 
 from uwsim.algorithms.grasp.camera import Pinhole, View
 from uwsim.algorithms.grasp.detector import ColourDetector
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 
 FOG = (5.0, 33.0, 43.0)
 """Colour of the fog of grasp-scene, as a camera shows it."""

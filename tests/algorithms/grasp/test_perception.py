@@ -11,8 +11,8 @@ from uwsim.algorithms.grasp.box_pose import Sighting, pose_from_face, pose_from_
 from uwsim.algorithms.grasp.detector import ColourDetector
 from uwsim.algorithms.grasp.perception import Perception
 from uwsim.algorithms.grasp.target import Target
-from uwsim.geometry import Pose
-from uwsim.numerics.linear import placed
+from uwsim.base.geometry import Pose
+from uwsim.base.numerics.linear import placed
 
 PLACES = [(-0.6, 0.0, 0.0), (-0.5, 0.2, 0.7), (-0.8, -0.3, 1.5), (-0.9, 0.4, 2.4), (-0.4, 0.0, 0.2)]
 

@@ -5,8 +5,8 @@ import numpy as np
 
 from uwsim.algorithms.grasp.box import BoxPose, BoxSpec
 from uwsim.algorithms.grasp.camera import Pinhole, View
-from uwsim.geometry import Pose, rotation_from_rpy
-from uwsim.numerics.linear import placed
+from uwsim.base.geometry import Pose, rotation_from_rpy
+from uwsim.base.numerics.linear import placed
 
 PINHOLE = Pinhole(fx=207.8, fy=207.8, cx=159.5, cy=119.5, width=320, height=240)
 BOX = BoxSpec()

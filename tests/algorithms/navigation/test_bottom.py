@@ -5,7 +5,7 @@ import pytest
 
 from uwsim.algorithms.navigation import BottomPlane
 from uwsim.algorithms.navigation.bottom import BEAMS, ranges_of
-from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.messages import DVL
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uwsim.algorithms.navigation import NavigationFilter, NavigationSpec
-from uwsim.geometry import quaternion_from_rotation, rotation_from_rpy
+from uwsim.base.geometry import quaternion_from_rotation, rotation_from_rpy
 
 RATE = 50.0
 UP = np.array([0.0, 0.0, -9.81])

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from tests.fakes import FakeBody, FakeWorld
+from uwsim.base.geometry import Pose, rotation_z
 from uwsim.benchmark.measures.control import Control, ControlSpec
 from uwsim.errors import BadSetting, UnknownName
-from uwsim.geometry import Pose, rotation_z
 from uwsim.messages import (
     Float64,
     Float64MultiArray,

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from tests.fakes import FakeBody, FakeWorld
+from uwsim.base.geometry import rotation_from_rpy, rotation_z
 from uwsim.benchmark.measures.path_following import PathFollowing, PathFollowingSpec
 from uwsim.benchmark.metrics.polyline import Polyline
 from uwsim.benchmark.reference_path import ReferencePathSpec
 from uwsim.errors import UnknownName
-from uwsim.geometry import rotation_from_rpy, rotation_z
 from uwsim.messages import Path, Point, PoseStamped, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from tests.fakes import FakeBody, FakeWorld
+from uwsim.base.geometry import Pose, rotation_z
 from uwsim.benchmark.measures import PositionErrorSpec
-from uwsim.geometry import Pose, rotation_z
 from uwsim.messages import Point, PoseStamped, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
 

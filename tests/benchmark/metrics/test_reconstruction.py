@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from uwsim.base.geometry import rotation_from_rpy, rotation_z
 from uwsim.benchmark.metrics.coverage import Coverage, original_cells, whole_cells
 from uwsim.benchmark.metrics.reconstruction import Reconstruction, turned_box, upright
 from uwsim.errors import BadSetting
-from uwsim.geometry import rotation_from_rpy, rotation_z
 from uwsim.world import Box
 
 BOX = Box((-0.5, -0.3, 0.0), (0.5, 0.3, 0.4))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.fakes import FakeBody, FakeWorld
+from uwsim.base.geometry import Pose, rotation_from_xyz, rotation_z
 from uwsim.benchmark.triggers import (
     NeverSpec,
     OnInitSpec,
@@ -16,7 +17,6 @@ from uwsim.benchmark.triggers import (
     TopicSpec,
 )
 from uwsim.errors import UnknownName
-from uwsim.geometry import Pose, rotation_from_xyz, rotation_z
 from uwsim.messages import Bool, Empty, EmptyResponse, String, floats, header
 
 LEGACY = frozenset({"thresholds"})

@@ -11,6 +11,7 @@ import pytest
 from tests.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
 from tests.fakes import FakeWorld
 from tests.short_trial import make_plan, rows_of, tank
+from uwsim.base.compatibility import COMPATIBILITY
 from uwsim.benchmark.ground_truth import TopicTruthSpec
 from uwsim.benchmark.measures import EuclideanNormSpec
 from uwsim.benchmark.recorded_truth import RecordedTruthSpec
@@ -18,7 +19,6 @@ from uwsim.benchmark.updaters import BagFogUpdaterSpec
 from uwsim.benchmark.updaters.bag_fog_updater import BagFogUpdater, fogged
 from uwsim.bus import Node
 from uwsim.cli import main
-from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import AssetError, AssetNotFound, BadSetting, RunFailed, UnknownName
 from uwsim.messages import CameraInfo, Float32MultiArray, Image, pixels_of, seconds
 from uwsim.messages.bag_camera import RecordedFrame

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from uwsim.base.environment import without_secrets
 from uwsim.cli.options.client_options import ClientOptions
 from uwsim.cli.options.connections import ConnectionOptions
 from uwsim.cli.options.secrets import MAX_BYTES, client_secret, web_token
-from uwsim.environment import without_secrets
 from uwsim.errors import BadSetting
 
 

@@ -12,7 +12,7 @@ import pytest
 from tests.middleware.ros1.sea import Sea
 from tests.ros1_peers import EXAMPLES, needs_ros1, peers
 from tests.waiting import LIMIT, until
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.messages import Float64MultiArray, JointState, Odometry, TwistStamped
 
 pytestmark = [needs_ros1, pytest.mark.slow]

@@ -13,7 +13,7 @@ import pytest
 
 from tests.middleware.web.test_web import Setting, heard, send
 from tests.waiting import LIMIT
-from uwsim.geometry import Pose, rotation_about
+from uwsim.base.geometry import Pose, rotation_about
 from uwsim.messages import (
     CompressedImage,
     Empty,

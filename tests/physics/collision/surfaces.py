@@ -7,7 +7,7 @@ import trimesh
 from scipy.spatial import Delaunay
 
 from uwsim.assets.mesh import Mesh, Model
-from uwsim.geometry import Array
+from uwsim.base.geometry import Array
 
 
 def dunes(x: Array, y: Array) -> Array:

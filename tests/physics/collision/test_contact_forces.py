@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import uwsim
-from uwsim.geometry import Array
+from uwsim.base.geometry import Array
 from uwsim.simulation import Simulation
 
 

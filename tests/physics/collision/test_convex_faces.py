@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uwsim.assets import load_model, primitive
-from uwsim.geometry import rotation_from_rpy
+from uwsim.base.geometry import rotation_from_rpy
 from uwsim.physics.collision.convex_faces import convex_faces
 
 LEVEL = 0.3  # height of the flat meshes below [m]

@@ -10,8 +10,8 @@ import trimesh
 
 from tests.physics.collision.surfaces import grid, irregular, model_of, rock
 from uwsim.assets import load_model
+from uwsim.base.geometry import Array
 from uwsim.errors import UwsimError
-from uwsim.geometry import Array
 from uwsim.physics.collision import fixed_mesh as fixed_mesh_module
 from uwsim.physics.collision.convex_faces import convex_faces, n_patches
 from uwsim.physics.collision.fixed_mesh import ERROR, MAX_EXACT, MAX_LEFT, FixedMesh, fixed_mesh

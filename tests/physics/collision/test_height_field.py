@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tests.physics.collision.surfaces import grid, irregular, model_of, rock
-from uwsim.geometry import Array, Pose
-from uwsim.numerics.linear import product
+from uwsim.base.geometry import Array, Pose
+from uwsim.base.numerics.linear import product
 from uwsim.physics.collision import height_field as fields
 from uwsim.physics.collision.ground import Ground
 from uwsim.physics.collision.height_field import EXACT, TILE, HeightField, height_field

@@ -9,7 +9,7 @@ import mujoco
 import pytest
 
 from tests.physics.water_models import set_options
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.physics.free_objects import loose_link
 from uwsim.physics.hydrodynamics import BodyHydrodynamics, prepare

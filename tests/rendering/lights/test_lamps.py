@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.rendering.models import ball, block, placed, plate
-from uwsim.geometry import Intrinsics, Pose
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water

@@ -12,11 +12,11 @@ import pytest
 from tests.runs.own_process import programs
 from tests.short_trial import TIME, make_plan, rows_of, with_algorithm
 from tests.waiting import until
+from uwsim.base.rng import stream
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage, BadSetting, NeverStarted, RunFailed
 from uwsim.messages import Float32MultiArray
 from uwsim.results.inputs import Inputs
-from uwsim.rng import stream
 from uwsim.runs.executors.executor import SerialExecutor, run_all
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from tests.short_trial import NEVER, make_plan, rows_of
+from uwsim.base.compatibility import COMPATIBILITY
 from uwsim.bus import Node
-from uwsim.compatibility import COMPATIBILITY
 from uwsim.errors import NeverStarted
 from uwsim.messages import Bool, Empty, Image, String
 

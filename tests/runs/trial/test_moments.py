@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.runs.trial.moments import DISTANCE, observer, with_inset
 
 DOWN = np.diag([1.0, -1.0, -1.0])  # x ahead, y to starboard, z down, in a world with z up

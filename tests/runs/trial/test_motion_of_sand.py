@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.devices.test_dredge_tool import scene
-from uwsim.geometry import Array, Pose
+from uwsim.base.geometry import Array, Pose
 from uwsim.runs.trial.motion_recorder import MotionRecorder
 from uwsim.simulation import Simulation
 from uwsim.tracks import RATE, DugSand, read_track, track_bytes

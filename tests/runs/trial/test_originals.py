@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.scripted import Scripted
+from uwsim.base.compatibility import compatibility
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.spec import BenchmarkSpec
 from uwsim.benchmark.triggers import NeverSpec
@@ -23,7 +24,6 @@ from uwsim.benchmark.updaters import (
     swept_parameters,
 )
 from uwsim.cli import main
-from uwsim.compatibility import compatibility
 from uwsim.errors import BenchmarkError, NeverStarted, UwsimError
 from uwsim.runs.planning.plan import AlgorithmUnderTest, Plan
 from uwsim.runs.trial.level_row import LevelRow

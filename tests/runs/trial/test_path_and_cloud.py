@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from tests.short_trial import DATA, make_plan, rows_of
+from uwsim.base.geometry import Pose
 from uwsim.bus import Node
-from uwsim.geometry import Pose
 from uwsim.messages import Path as PathMessage
 from uwsim.messages import (
     Point,

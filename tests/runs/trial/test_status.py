@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from tests.short_trial import DATA, make_plan, rows_of
+from uwsim.base.inbox import Inbox
 from uwsim.bus import Node
-from uwsim.inbox import Inbox
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, String
 from uwsim.runs.trial.status import StatusMonitor
 from uwsim.scene.object import PhysicsSpec

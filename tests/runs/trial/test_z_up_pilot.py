@@ -11,7 +11,7 @@ import pytest
 from tests.documented import write_files
 from tests.short_benchmark import bench_of, fingerprint, run
 from uwsim.algorithms.pilot import AXES, Pilot
-from uwsim.geometry import Array
+from uwsim.base.geometry import Array
 from uwsim.runs.executors.executor import SerialExecutor, run_all
 from uwsim.runs.trial.pilot_inputs import PilotInputs
 from uwsim.runs.trial.pilot_topics import pilot_topics

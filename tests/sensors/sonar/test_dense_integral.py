@@ -10,7 +10,7 @@ import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate, sphere
 from uwsim.acoustics import MATERIALS, Material, MaterialName
-from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.sensors.sonar.echoes import Echoes
 from uwsim.sensors.sonar.imaging_sonar import ImagingSonarSpec
 from uwsim.sensors.sonar.message import amplitudes

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate
-from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.sensors.pencil import pencil
 from uwsim.sensors.sonar.multibeam_sensor import (
     BeamFan,

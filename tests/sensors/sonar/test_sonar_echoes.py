@@ -10,7 +10,7 @@ from scipy import stats
 
 from tests.sensors.acoustic_world import AcousticWorld, box, plate, sphere
 from uwsim.acoustics import Material, SeaWater
-from uwsim.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.sensors.sonar.echoes import Echoes
 from uwsim.sensors.sonar.spec import SonarSpec
 

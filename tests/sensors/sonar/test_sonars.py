@@ -9,7 +9,7 @@ import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate, sphere
 from uwsim.acoustics import MATERIALS
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.messages import ProjectedSonarImage, pixels_of
 from uwsim.sensors.sonar.fan_image import FanImage
 from uwsim.sensors.sonar.imaging_sonar import ImagingSonar, ImagingSonarSpec

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.simulation.checks.test_plausibility import SCENE, written
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene

@@ -11,8 +11,8 @@ import pytest
 
 from tests.simulation.collision.test_floor import BOX, UP, grid, ground
 from tests.simulation.girona500 import SCENE
+from uwsim.base.geometry import Pose
 from uwsim.errors import SimulationFailed
-from uwsim.geometry import Pose
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec

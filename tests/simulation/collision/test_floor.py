@@ -10,8 +10,8 @@ import pytest
 
 from tests.simulation.girona500 import SCENE, run
 from uwsim.assets import load_model
+from uwsim.base.geometry import Pose
 from uwsim.errors import SceneError
-from uwsim.geometry import Pose
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.on_floor import OnFloorSpec

@@ -12,7 +12,7 @@ from tests.simulation.collision.test_bounces import in_water, relief
 from tests.simulation.collision.test_bounces import loose as on_relief
 from tests.simulation.collision.test_floor import EDGES, UP, grid, ground
 from tests.simulation.girona500 import SCENE
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.physics.kinematics.lift import SPEED
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import read_scene

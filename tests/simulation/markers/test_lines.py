@@ -10,7 +10,7 @@ import pytest
 
 import uwsim
 from tests.viewer.live.desk import Desk
-from uwsim.geometry import Pose as Transform
+from uwsim.base.geometry import Pose as Transform
 from uwsim.messages import ColorRGBA, Marker, Point, Pose, Quaternion, SpawnMarker, Vector3
 from uwsim.simulation.markers import SERVICE, TYPES
 from uwsim.simulation.markers.lines import MAX_POINTS, described, looks_of

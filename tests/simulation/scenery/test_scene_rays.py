@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from uwsim.acoustics import MATERIALS
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.messages import Point
 from uwsim.messages import Pose as PoseMessage
 from uwsim.scene.reader import read_scene

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import begin, joint, scene_of, shape, write_robot
-from uwsim.geometry import Intrinsics, Pose
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import RenderedImage
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.urdf.robot import VisualSpec

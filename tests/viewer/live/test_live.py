@@ -19,8 +19,8 @@ import uwsim
 from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from tests.viewer.live.desk import Desk
 from uwsim.algorithms.pilot import AXES, Pilot
+from uwsim.base.geometry import Pose
 from uwsim.errors import BadSetting
-from uwsim.geometry import Pose
 from uwsim.results import journal
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import SerialExecutor, run_all

@@ -12,7 +12,7 @@ import pytest
 
 import uwsim
 from tests.simulation.test_lamp import LAMP, night
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.messages import Float64
 from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.simulation import Simulation

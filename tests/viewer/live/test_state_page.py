@@ -15,7 +15,7 @@ import pytest
 
 import uwsim
 from tests.viewer.live.test_pilot_page import page_of
-from uwsim.geometry import Pose
+from uwsim.base.geometry import Pose
 from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation

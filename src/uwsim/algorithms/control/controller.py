@@ -19,8 +19,8 @@ from typing import ClassVar, Protocol
 
 import numpy as np
 
+from ...base.geometry import Array
 from ...bus import Node
-from ...geometry import Array
 from ...messages import (
     CameraInfo,
     Float32MultiArray,

@@ -19,8 +19,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...geometry import Array
-from ...numerics.linear import inverse, product
+from ...base.geometry import Array
+from ...base.numerics.linear import inverse, product
 from .alignment_kernel import Settings, iterate
 from .correlation import nearest_zncc
 from .patch import Patch

@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.jit import njit
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
 from .pyramid import Grey
 from .template import Runs
 

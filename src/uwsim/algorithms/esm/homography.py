@@ -12,9 +12,9 @@ import math
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.jit import njit
-from ...numerics.linear import determinant, product, solve
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import determinant, product, solve
 
 
 @njit

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.jit import njit
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
 
 Grey = npt.NDArray[np.float32]
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
+from ...base.geometry import Array
 from .pyramid import Grey
 
 Runs = npt.NDArray[np.int64]

@@ -26,8 +26,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ...geometry import Array, Pose
-from ...numerics.jit import njit
+from ...base.geometry import Array, Pose
+from ...base.numerics.jit import njit
 from .normal_equations import cholesky_solve
 
 JOINTS = ("Slew", "Shoulder", "Elbow", "JawRotate")

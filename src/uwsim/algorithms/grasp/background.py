@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.linear import product, solve
+from ...base.geometry import Array
+from ...base.numerics.linear import product, solve
 
 Layer = npt.NDArray[np.float32]
 """One number for each pixel, (h, w)."""

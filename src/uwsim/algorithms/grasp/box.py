@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array, Pose, rotation_x, rotation_y, rotation_z
-from ...numerics.linear import product, turned
+from ...base.geometry import Array, Pose, rotation_x, rotation_y, rotation_z
+from ...base.numerics.linear import product, turned
 
 
 @dataclass(frozen=True, kw_only=True)

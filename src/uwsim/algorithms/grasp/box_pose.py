@@ -17,9 +17,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.jit import njit
-from ...numerics.linear import inverse
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import inverse
 from .box import BoxPose, BoxSpec
 from .camera import View
 from .detector import DIRECTIONS, Outline

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array, Pose
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import turned
 from ...messages import CameraInfo
-from ...numerics.linear import turned
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from .arm import OPEN
 from .phase import Phase
 from .task import Task

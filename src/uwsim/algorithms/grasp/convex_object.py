@@ -18,8 +18,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import inverse, placed, product, turned
+from ...base.geometry import Array
+from ...base.numerics.linear import inverse, placed, product, turned
 from .box import BoxPose, half_turn
 from .box_pose import LEAN, MIN_KNOWN, Sighting
 from .camera import View

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from ...geometry import Array, Pose
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import length, turned
 from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
-from ...numerics.linear import length, turned
 from .arm import DOWN, FOLDED, JAW, JOINTS, OPEN, Kinematics
 from .station import Motion, StationLaw
 

@@ -22,9 +22,9 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.linear import product
-from ...numerics.opencv import plain_opencv
+from ...base.geometry import Array
+from ...base.numerics.linear import product
+from ...base.numerics.opencv import plain_opencv
 from .background import Background, Layer
 from .camera import View
 

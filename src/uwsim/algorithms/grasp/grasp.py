@@ -16,9 +16,10 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...base.geometry import Array, Pose, rotation_from_rpy
+from ...base.numerics.linear import product
 from ...bus import Node
 from ...errors import BadSetting, UnknownName
-from ...geometry import Array, Pose, rotation_from_rpy
 from ...messages import (
     CameraInfo,
     Empty,
@@ -29,7 +30,6 @@ from ...messages import (
     WrenchStamped,
     pixels_of,
 )
-from ...numerics.linear import product
 from ..direct_tracker import DirectTracker
 from ..esm.alignment import Method
 from ..esm.pyramid import Grey

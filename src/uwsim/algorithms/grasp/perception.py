@@ -13,8 +13,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import placed
+from ...base.geometry import Array
+from ...base.numerics.linear import placed
 from ..esm.pyramid import Grey, grey
 from ..tracker import Tracker, quad_error
 from .box import BoxPose, BoxSpec

@@ -22,8 +22,8 @@ from typing import Protocol
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import length, turned_back
+from ...base.geometry import Array
+from ...base.numerics.linear import length, turned_back
 
 LAG = 0.5
 """Of the velocity of the vehicle behind the command [s]."""

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import dot, inverse, product
+from ...base.geometry import Array
+from ...base.numerics.linear import dot, inverse, product
 from .box import BoxPose, half_turn
 from .box_pose import Sighting
 

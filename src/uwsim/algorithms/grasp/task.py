@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from .arm import CLOSED
 from .craft import Craft
 from .perception import GraspModel, ObjectPerception

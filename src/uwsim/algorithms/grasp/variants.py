@@ -13,8 +13,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import turned
 from ...bus import Node
-from ...geometry import Array, Pose
 from ...messages import (
     Image,
     JointState,
@@ -26,7 +27,6 @@ from ...messages import (
     Vector3,
     header,
 )
-from ...numerics.linear import turned
 from ..navigation import BottomPlane, Navigator
 from ..tracker_node import chosen
 from .arm import CLOSED, DOWN, JAW, JOINTS, OPEN

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 
-from ...geometry import Array, Pose
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import product, solve
 from ...messages import DVL
-from ...numerics.linear import product, solve
 
 BEAM_ANGLE = math.radians(30.0)
 """From the axis of a DVL to each beam [rad]."""

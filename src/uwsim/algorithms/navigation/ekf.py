@@ -26,8 +26,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from ...geometry import Array, rotation_from_quaternion
-from ...numerics.linear import cross, product, turned, turned_back
+from ...base.geometry import Array, rotation_from_quaternion
+from ...base.numerics.linear import cross, product, turned, turned_back
 from .kernel import corrected, distance, propagated, turn_between, turned_by
 
 POSITION, VELOCITY, ATTITUDE = slice(0, 3), slice(3, 6), slice(6, 9)

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.jit import njit
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
 
 
 @njit

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ...base.geometry import Array, Pose
 from ...bus import Node
-from ...geometry import Array, Pose
 from ...messages import DVL, Imu, Pressure, seconds
 from .bottom import BottomPlane, ranges_of
 from .ekf import NavigationFilter, NavigationSpec

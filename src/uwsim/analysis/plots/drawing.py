@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from ...optics import LENGTHS
+from ...base.optics import LENGTHS
 from ...results.per_level import rows_by_level
 from ...results.result import Column, Result
 from .curves import Curve, algorithm_of, curves_of, label_of, repeats_of, written_unit

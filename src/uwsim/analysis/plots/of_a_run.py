@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from ...base.files.file_names import file_names
 from ...errors import ResultError
-from ...files.file_names import file_names
 from ...results.log import load_log, logs_of
 from ...results.per_level import rows_by_level
 from ...results.result import Result

@@ -16,8 +16,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from ...base.files.file_names import file_names
 from ...errors import ResultError
-from ...files.file_names import file_names
 from ...results.result import Result
 from .curves import algorithm_of, curves_of, repeats_of
 from .drawing import (

@@ -1,6 +1,6 @@
 """Overlay: truth and estimate drawn on a camera's image.
 
-Coordinates are those of `uwsim.geometry.Intrinsics`: pixels from the centre of the first one.
+Coordinates are those of `uwsim.base.geometry.Intrinsics`: pixels from the centre of the first one.
 Truth is green and solid, the estimate orange and dashed, so that they are told apart in print and
 by colour-blind readers; lines have a dark rim.
 """

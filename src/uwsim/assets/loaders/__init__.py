@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from ...base.files.input_files import read_bytes, record, recorded
 from ...errors import AssetError
-from ...files.input_files import read_bytes, record, recorded
 from ..mesh import Model
 from .by_trimesh import READABLE, read_meshes
 from .openscenegraph import BY_OSGCONV, converted, has_osgconv, without_osgconv

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...base.files.input_files import read_bytes
 from ...errors import AssetError
-from ...files.input_files import read_bytes
 from ..collada_asset import ColladaAsset, read_collada_asset
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh

@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from ...files import disk_cache
+from ...base.files import disk_cache
 from .. import mesh as mesh_module
 from ..mesh import Mesh
 from ..procedural import shapes

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from ...base.files.scratch import scratch_folder
 from ...errors import AssetError
-from ...files.scratch import scratch_folder
 
 BY_OSGCONV = (".osg", ".osgt", ".osgb", ".ive", ".wrl", ".3ds")
 """Formats that need `osgconv`."""

@@ -11,8 +11,8 @@ import os
 from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
+from ...base.files.input_files import is_inside
 from ...errors import AssetError
-from ...files.input_files import is_inside
 
 
 class References:

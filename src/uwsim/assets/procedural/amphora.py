@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from ...numerics.elementwise import power
+from ...base.numerics.elementwise import power
 from ..mesh import Mesh, Texture
 from .shapes import Shape, lathe, mesh, tube
 from .textures import finished, mixed, noise, plain, step

@@ -13,8 +13,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...geometry import Triple
-from ...numerics.linear import length
+from ...base.geometry import Triple
+from ...base.numerics.linear import length
 from ..mesh import Mesh
 from .shapes import (
     Shape,

@@ -14,8 +14,8 @@ import math
 
 import numpy as np
 
-from ...geometry import rotation_z
-from ...numerics.linear import product
+from ...base.geometry import rotation_z
+from ...base.numerics.linear import product
 from ..mesh import Mesh, Texture
 from .shapes import Shape, cylinder, facing, join, lathe, mesh, quad, rounded_box, tube
 from .textures import finished, mixed, noise, plain, step, worn, write

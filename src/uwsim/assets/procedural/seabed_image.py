@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from ... import rng
+from ...base import rng
 from ..mesh import Texture
 from .textures import Grey, lit, noise, step
 

@@ -11,7 +11,7 @@ from functools import cache
 import cv2
 import numpy as np
 
-from ...geometry import Array, rotation_from_rpy, rotation_y
+from ...base.geometry import Array, rotation_from_rpy, rotation_y
 from ..mesh import Mesh, Texture
 from .shapes import Shape, cylinder, join, mesh, quad, sphere, surface
 from .ships import hull

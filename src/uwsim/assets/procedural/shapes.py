@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array, Triple
-from ...numerics.jit import njit
-from ...numerics.linear import dot, length, product
+from ...base.geometry import Array, Triple
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import dot, length, product
 from ..mesh import Mesh, Texture
 
 CREASE = 0.85

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from ... import rng
+from ...base import rng
 from ..mesh import Texture
 
 Grey = npt.NDArray[np.float32]

@@ -20,9 +20,9 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ...base.geometry import Array
+from ...base.inbox import Inbox
 from ...errors import BadSetting, UnknownName
-from ...geometry import Array
-from ...inbox import Inbox
 from ...messages import Float32MultiArray, Float64, Float64MultiArray
 from ...schema import element
 from ...world import Body, World

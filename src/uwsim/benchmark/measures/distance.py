@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...geometry import Array
-from ...numerics.linear import length
+from ...base.geometry import Array
+from ...base.numerics.linear import length
 from ...schema import element
 from ...world import Body, World
 from .measure import Measure, MeasureSpec

@@ -21,9 +21,9 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
+from ...base.numerics.linear import length
 from ...messages import Float32MultiArray, GTpublish
-from ...numerics.linear import length
 from ...schema import element
 from ...world import World
 from ..ground_truth import GroundTruth, GroundTruthSpec

@@ -19,10 +19,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...geometry import Array, Pose
-from ...inbox import Inbox
+from ...base.geometry import Array, Pose
+from ...base.inbox import Inbox
+from ...base.numerics.linear import length
 from ...messages import String
-from ...numerics.linear import length
 from ...schema import element
 from ...world import Body, World
 from ..metrics.impulse import Impulse

@@ -13,7 +13,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...geometry import image_centre, is_in_image
+from ...base.geometry import image_centre, is_in_image
 from ...schema import element
 from ...world import World
 from ..ground_truth import CentroidFromCamera

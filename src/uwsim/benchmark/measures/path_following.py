@@ -25,10 +25,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...geometry import Array
-from ...inbox import Inbox
+from ...base.geometry import Array
+from ...base.inbox import Inbox
+from ...base.numerics.linear import turned_back
 from ...messages import Path
-from ...numerics.linear import turned_back
 from ...schema import element
 from ...world import Body, World
 from ..metrics.polyline import Polyline

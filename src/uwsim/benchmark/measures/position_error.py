@@ -18,10 +18,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...geometry import Array, Pose
-from ...inbox import Inbox
+from ...base.geometry import Array, Pose
+from ...base.inbox import Inbox
+from ...base.numerics.linear import turned
 from ...messages import PoseStamped
-from ...numerics.linear import turned
 from ...schema import element
 from ...world import Body, World
 from ..metrics.signal import VALUES, Signal

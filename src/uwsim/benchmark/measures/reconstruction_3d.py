@@ -15,10 +15,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import product
 from ...errors import BadSetting
-from ...geometry import Array, Pose
 from ...messages import PointCloud2, points
-from ...numerics.linear import product
 from ...schema import REQUIRED, element
 from ...world import Body, Box, World
 from ..metrics.coverage import Coverage

@@ -19,8 +19,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ...base.geometry import Array
 from ...errors import BadSetting
-from ...geometry import Array
 from ...world import Box
 
 MAX_NODES = 20_000_000

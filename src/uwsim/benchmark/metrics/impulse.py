@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 from collections import deque
 
-from ...geometry import ZERO, Array, Triple
-from ...numerics.linear import length
+from ...base.geometry import ZERO, Array, Triple
+from ...base.numerics.linear import length
 
 WINDOW = 0.05
 """[s]"""

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 
 SAME_AREA = 1e-9
 """Areas nearer to each other than this, relative to the smallest, are a tie."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from ...geometry import Array
+from ...base.geometry import Array
 
 
 class Polyline:

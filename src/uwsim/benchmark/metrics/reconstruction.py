@@ -17,8 +17,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import product
+from ...base.geometry import Array
+from ...base.numerics.linear import product
 from ...world import Box
 from .coverage import Coverage
 

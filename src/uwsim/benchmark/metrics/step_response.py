@@ -29,8 +29,8 @@ from array import array
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import dot, length, product
+from ...base.geometry import Array
+from ...base.numerics.linear import dot, length, product
 
 RISE = (0.1, 0.9)
 """Parts of the step between which the rise time runs [1]."""

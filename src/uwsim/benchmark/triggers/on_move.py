@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.linear import length
+from ...base.numerics.linear import length
 from ...schema import element
 from ...world import Body, World
 from .trigger import Trigger, TriggerSpec

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...numerics.linear import length
+from ...base.numerics.linear import length
 from ...schema import element
 from ...world import Body, World
 from .on_move import MOVED, threshold

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...inbox import Inbox
+from ...base.inbox import Inbox
 from ...messages import Bool
 from ...world import World
 from .trigger import Trigger, TriggerSpec

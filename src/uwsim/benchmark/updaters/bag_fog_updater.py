@@ -38,10 +38,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ...base.numerics.linear import dot
 from ...errors import AssetError, AssetNotFound, BadSetting, RunFailed
 from ...messages import CameraInfo, Float32MultiArray, Image, image, time_from_seconds
 from ...messages.bag_camera import DecodedImage, RecordedFrame, Recording, camera_info
-from ...numerics.linear import dot
 from ...schema import element
 from ...world import Stage
 from ..recorded_truth import RecordedTruth, RecordedTruthSpec

@@ -29,7 +29,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ...optics import DENSITY, LENGTHS
+from ...base.optics import DENSITY, LENGTHS
 from ...schema import Original, element
 from .sweep import SweepSpec, endless
 from .updater import MAX_LEVELS

@@ -10,9 +10,9 @@ import stat
 from functools import cache
 from pathlib import Path
 
-from ...environment import CLIENT_SECRET, WEB_TOKEN
+from ...base.environment import CLIENT_SECRET, WEB_TOKEN
+from ...base.terminal import warn
 from ...errors import BadSetting
-from ...terminal import warn
 
 MAX_BYTES = 4096
 """Longest file that is read."""

@@ -8,7 +8,7 @@ import rich.console
 from rich.console import ConsoleOptions, RenderableType
 from rich.segment import Segment
 
-from ...terminal import legible
+from ...base.terminal import legible
 
 UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""

@@ -8,8 +8,8 @@ from typing import Protocol
 
 import numpy as np
 
+from ...base.geometry import Pose
 from ...errors import BadMessage
-from ...geometry import Pose
 from ...messages import (
     Float64,
     MultiArrayDimension,

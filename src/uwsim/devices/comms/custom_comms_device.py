@@ -19,7 +19,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
-from ... import expression
+from ...base import expression
 from ...messages import Pose
 from ...network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateErrors, Unit
 from ...schema import REQUIRED, Spec, element

@@ -7,8 +7,8 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+from ...base.message_fields import size_of
 from ...errors import BadMessage
-from ...message_fields import size_of
 from ..encodings import to_ros1
 from ..log import Log
 from ..queues import LatestQueue

@@ -12,9 +12,9 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from functools import partial
 
+from ...base.message_fields import size_of
 from ...bus import Bus, TopicEnds
 from ...errors import BadMessage, UwsimError
-from ...message_fields import size_of
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge
 from ..clock_topic import ROS_PERIOD

@@ -21,7 +21,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 
-from ...environment import environment
+from ...base.environment import environment
 from ...errors import UwsimError
 from ..log import Log
 from ..types import WireService

@@ -15,12 +15,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
+from ...base.external_values import read_number, read_position, read_quaternion
+from ...base.geometry import Pose
+from ...base.numerics.linear import length
 from ...errors import BadMessage
-from ...external_values import read_number, read_position, read_quaternion
-from ...geometry import Pose
 from ...messages import TFMessage
 from ...messages.build import transform
-from ...numerics.linear import length
 
 SERVICE = "republish_tfs"
 SOURCES = ("tf", "tf_static")

@@ -20,9 +20,9 @@ from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
+from ...base.message_fields import size_of
 from ...bus import Bus, TopicEnds
 from ...errors import BadSetting, UnknownName, UwsimError
-from ...message_fields import size_of
 from ...messages import CompressedImage, Image, TFMessage
 from ...messages.compressed import as_jpeg
 from ...messages.services import Service

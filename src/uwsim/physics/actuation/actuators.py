@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ...scene.urdf.robot import RobotSpec
 from ..compile import vehicle_joint, vehicle_thruster
 from ..hydrodynamics import VehicleHydrodynamics

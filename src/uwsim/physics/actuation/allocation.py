@@ -22,8 +22,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import dot, length, product, pseudo_inverse, turned
+from ...base.geometry import Array
+from ...base.numerics.linear import dot, length, product, pseudo_inverse, turned
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec
 from ..hydrodynamics.file.spec import ThrusterSpec

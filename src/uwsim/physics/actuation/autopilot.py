@@ -46,9 +46,9 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array, Pose
-from ...numerics.linear import pseudo_inverse
-from ...vehicle import MAX_COMMAND
+from ...base.external_values import MAX_COMMAND
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import pseudo_inverse
 from ..hydrodynamics.file.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 from .allocation import ROLL, Allocation, allocate, curve
 from .records import AUTOPILOT, AUTOPILOT_STATE, POSITION, THRUSTER, THRUSTERS, VELOCITY, WRENCH

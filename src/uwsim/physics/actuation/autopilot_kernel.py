@@ -7,8 +7,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.jit import njit
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
 from .records import POSITION, THRUSTERS, WRENCH
 
 MAX_SPEED = 0.5

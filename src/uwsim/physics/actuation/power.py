@@ -32,7 +32,7 @@ import math
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ...schema import Numbers
 from ..hydrodynamics.file.spec import ThrusterSpec
 

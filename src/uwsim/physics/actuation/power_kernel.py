@@ -7,8 +7,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.jit import njit
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
 from ..hydrodynamics.columns import WATER_COLUMNS
 from ..hydrodynamics.kernel.thrusters import curve
 

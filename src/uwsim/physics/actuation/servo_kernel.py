@@ -14,8 +14,8 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from ...geometry import Array
-from ...numerics.jit import njit
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
 from .records import GEARED, OWN
 
 INTEGRAL = 1.0

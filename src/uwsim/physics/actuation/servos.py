@@ -17,7 +17,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ...scene.urdf.robot import JointSpec, RobotSpec
 from ..compile import vehicle_joint
 from ..joints import servo_gains, stops

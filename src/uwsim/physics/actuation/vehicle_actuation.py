@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import mujoco
 import numpy as np
 
-from ...geometry import Array, Pose
+from ...base.geometry import Array, Pose
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...scene.vehicle import VehicleSpec

@@ -13,9 +13,9 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.jit import njit
-from ...numerics.linear import cross, dot, turned_back
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import cross, dot, turned_back
 from ...scene.spec import SceneSpec
 from ...world import Contact
 

@@ -13,9 +13,9 @@ from collections import deque
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.jit import njit
-from ...numerics.linear import dot, length, product
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import dot, length, product
 
 SAME = 1e-4
 """Corners nearer than this are one, and triangles lower than this are none [m]."""

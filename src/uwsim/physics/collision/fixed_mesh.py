@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from .convex_faces import n_patches
 from .height_field import EXACT, HeightField, height_field
 from .simplification import simplified

@@ -12,10 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from ...files import disk_cache
-from ...files.code_digest import code_digest
-from ...geometry import Array
-from ...numerics import linear
+from ...base.files import disk_cache
+from ...base.files.code_digest import code_digest
+from ...base.geometry import Array
+from ...base.numerics import linear
 from . import convex_faces, fixed_mesh, height_field, simplification
 from .fixed_mesh import MAX_EXACT, FixedMesh
 from .height_field import HeightField

@@ -17,8 +17,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array, Pose
-from ...numerics.linear import length, product, pseudo_inverse, rank
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import length, product, pseudo_inverse, rank
 from .shapes import CollisionShape
 
 STEEPEST = 1e-6

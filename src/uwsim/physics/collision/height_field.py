@@ -22,8 +22,8 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.linear import product
+from ...base.geometry import Array
+from ...base.numerics.linear import product
 
 TILE = 5
 """Cells along each side of a tile."""

@@ -12,8 +12,8 @@ from collections.abc import Callable, Mapping, Sequence
 import mujoco
 import numpy as np
 
-from ...geometry import Array, Pose, quaternion_from_rotation
-from ...numerics.linear import dot, length
+from ...base.geometry import Array, Pose, quaternion_from_rotation
+from ...base.numerics.linear import dot, length
 from ...world import Contact
 from ..compile import ALL, OBJECTS, SHAPES, give_form
 from ..kinematics.jumps import JumpTimes, without_placement

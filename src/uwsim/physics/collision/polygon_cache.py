@@ -11,10 +11,10 @@ import io
 
 import numpy as np
 
-from ...files import disk_cache
-from ...files.code_digest import code_digest
-from ...geometry import Array
-from ...numerics import linear
+from ...base.files import disk_cache
+from ...base.files.code_digest import code_digest
+from ...base.geometry import Array
+from ...base.numerics import linear
 from . import convex_faces
 
 

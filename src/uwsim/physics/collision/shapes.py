@@ -28,9 +28,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...assets.mesh import Model
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import placed, product
 from ...errors import UwsimError
-from ...geometry import Array, Pose
-from ...numerics.linear import placed, product
 from .fixed_mesh import FixedMesh
 from .fixed_mesh_cache import cached_mesh
 from .height_field import HeightField

@@ -19,7 +19,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
+from ...base.geometry import Array
 
 WORLD = 0
 """The engine's number of the body of fixed shapes."""

@@ -23,8 +23,8 @@ import numba
 import numpy as np
 from numba import types
 
+from ...base.numerics.jit import c_function, link_library
 from ...errors import UwsimError
-from ...numerics.jit import c_function, link_library
 from .kernel import free_bodies, kernel, layout
 from .kernel.memory import Floats, Ints64
 

@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ...base.numerics.linear import turned_back
 from ...errors import UnknownName, UwsimError
-from ...numerics.linear import turned_back
 from . import callback
 from . import columns as c
 from .inverse_weights import correct_inverse_weights

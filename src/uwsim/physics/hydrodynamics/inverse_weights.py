@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from ...numerics.linear import inverse
+from ...base.numerics.linear import inverse
 from . import callback
 from . import columns as c
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 
 MAX_JUMP = 1.0
 """A jump after a longer rest counts as made in this time [s]."""

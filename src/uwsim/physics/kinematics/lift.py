@@ -17,7 +17,7 @@ import math
 import mujoco
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 
 SPEED = 0.25
 """Of a body that is lifted [m/s]."""

@@ -15,7 +15,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ...world import BodyMotion
 from .jumps import JumpTimes
 from .link_motion import LinkMotion

@@ -22,9 +22,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array, Pose
-from ...numerics.elementwise import exp
-from ...numerics.linear import product
+from ...base.geometry import Array, Pose
+from ...base.numerics.elementwise import exp
+from ...base.numerics.linear import product
 from ..water import Colour
 
 MAX_HALF_ANGLE = math.radians(80.0)

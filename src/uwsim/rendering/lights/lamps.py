@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
+from ...base.geometry import Array, Intrinsics, Pose, image_centre
+from ...base.numerics.linear import product
 from ...devices.lamp import MAX_LAMPS
-from ...geometry import Array, Intrinsics, Pose, image_centre
-from ...numerics.linear import product
 from ..instance import INSTANCE, Instances, Slots, in_view
 from ..program import Block, build
 from ..projection import clip_from_camera, frustum

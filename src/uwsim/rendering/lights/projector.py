@@ -24,7 +24,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Intrinsics, Pose, image_centre
+from ...base.geometry import Intrinsics, Pose, image_centre
 
 LONGEST_SIDE = 1024
 """Of a projector's shadow map [texels]."""

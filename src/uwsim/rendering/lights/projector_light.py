@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import moderngl
 import numpy as np
 
-from ...geometry import Pose
-from ...numerics.linear import product
+from ...base.geometry import Pose
+from ...base.numerics.linear import product
 from ..instance import INSTANCE, Instances, Slots
 from ..program import Block, build
 from ..projection import clip_from_camera

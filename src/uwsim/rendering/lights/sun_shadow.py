@@ -8,9 +8,9 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array, Pose
-from ...numerics.jit import njit
-from ...numerics.linear import cross, length, product, solve
+from ...base.geometry import Array, Pose
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import cross, length, product, solve
 from ..instance import INSTANCE, Instances, Slots
 from ..program import build
 

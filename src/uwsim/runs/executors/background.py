@@ -15,9 +15,9 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from ...base.terminal import ignore_casts
 from ...benchmark.plugin import raised
 from ...errors import RunFailed, UwsimError
-from ...terminal import ignore_casts
 from ..run import Run
 from .executor import run_all
 from .parent_watch import exit_with_parent, start_ignoring_interrupts

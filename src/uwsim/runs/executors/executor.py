@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from ...base.interrupts import is_of_user, raise_if_interrupted
 from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimError
-from ...interrupts import is_of_user, raise_if_interrupted
 from ...results.journal import path_of
 from ...results.result import Result
 from ...results.seal import deny_access_to_memory

@@ -13,7 +13,7 @@ from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 
-from ...interrupts import ignoring_interrupts
+from ...base.interrupts import ignoring_interrupts
 
 
 def start_ignoring_interrupts(process: BaseProcess) -> None:

@@ -17,10 +17,10 @@ from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 
-from ...environment import environment
-from ...interrupts import is_of_user
+from ...base.environment import environment
+from ...base.interrupts import is_of_user
+from ...base.terminal import ignore_casts
 from ...simulation import BEFORE, Calls, Counter, Cut, RendererPool, open_call
-from ...terminal import ignore_casts
 from ..own_process.process import TOO_LONG, how
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts

@@ -23,9 +23,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ...environment import environment, not_chosen
+from ...base.environment import environment, not_chosen
+from ...base.files.scratch import OWNER, scratch_folder
 from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
-from ...files.scratch import OWNER, scratch_folder
 from ...results import journal
 from ...simulation import RendererPool
 from ..planning.plan import Trial

@@ -15,8 +15,8 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from ...base.files.file_names import file_names
 from ...errors import RunFailed
-from ...files.file_names import file_names
 from ...results import journal
 from ...results.atomic_file import atomic_write
 from ...simulation import Calls, RendererPool

@@ -33,12 +33,12 @@ from typing import Any, NoReturn, TypeVar
 import numpy as np
 
 from ... import errors
+from ...base.files.source_module import source_module
+from ...base.message_fields import unfit
+from ...base.raised import what_was_raised
+from ...base.terminal import ignore_casts
 from ...bus import Bus
 from ...errors import BadSetting, NotAllowed, UwsimError
-from ...files.source_module import source_module
-from ...message_fields import unfit
-from ...raised import what_was_raised
-from ...terminal import ignore_casts
 from .codec import MAX_FRAME, Unknown, decode, encode, message_class
 
 M = TypeVar("M")

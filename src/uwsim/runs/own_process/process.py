@@ -20,12 +20,12 @@ from multiprocessing.connection import Connection
 from types import TracebackType
 from typing import Any, Self
 
+from ...base.environment import without_secrets
+from ...base.interrupts import ignoring_interrupts
+from ...base.raised import RaisedElsewhere
 from ...benchmark.plugin import Plugin
 from ...bus import Node
-from ...environment import without_secrets
 from ...errors import BadSetting, RunFailed, UwsimError
-from ...interrupts import ignoring_interrupts
-from ...raised import RaisedElsewhere
 from ...simulation import Stopped
 from .codec import MAX_FRAME, FrameError, decode, encode
 

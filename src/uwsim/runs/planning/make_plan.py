@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ...assets.bundled import benchmark_file, scene_file
+from ...base.terminal import print_warnings
 from ...errors import AllErrors, AssetNotFound, BadSetting
 from ...scene.settings import OF_XACRO, xacro_arguments
 from ...schema.source_line import line_of
-from ...terminal import print_warnings
 from ...world import TIMESTEP
 from ..foreign_code import announce, refuse_code, refused
 from ..named_plugins import named_plugins

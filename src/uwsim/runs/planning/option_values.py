@@ -33,7 +33,7 @@ def mode_of(mode: str | None) -> Mode:
 
 def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
     """Return the quirks of ``--compat``; an unknown name goes into ``wrong``."""
-    from ...compatibility import compatibility
+    from ...base.compatibility import compatibility
 
     found: frozenset[str] = frozenset()
     for name in [word for words in compat for word in words.replace(",", " ").split()]:

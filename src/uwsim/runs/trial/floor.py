@@ -17,10 +17,10 @@ from typing import Any
 import numpy as np
 from numpy.linalg import LinAlgError
 
+from ...base.geometry import Array
+from ...base.numerics.linear import length, product, solve
 from ...benchmark.ground_truth import CornersFromCameraSpec, FaceCorners, GroundTruth
 from ...benchmark.measures import EuclideanNormSpec
-from ...geometry import Array
-from ...numerics.linear import length, product, solve
 from ...results.result import FLOOR
 from ...simulation import Simulation
 from ..planning.plan import Plan

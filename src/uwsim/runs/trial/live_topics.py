@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from ...base.expression import Expression
 from ...benchmark.spec import FunctionSpec
 from ...benchmark.updaters import Level, steps
-from ...expression import Expression
 from ...messages import Float32MultiArray, String, floats
 from ...simulation import Simulation
 from ..uwsim_files import details

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from ...base.interrupts import is_of_user
 from ...benchmark.plugin_checks import parameters_of
 from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError
-from ...interrupts import is_of_user
 from ...simulation import Calls, what_broke
 from ..planning.plan import Plan
 from .status import legible

@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ...base.geometry import Array, Intrinsics, Pose
+from ...base.numerics.linear import length
 from ...benchmark.measures import Measure
-from ...geometry import Array, Intrinsics, Pose
-from ...numerics.linear import length
 from ...scene.mounts import camera_axes
 from ...simulation import Simulation
 from ...world import Body

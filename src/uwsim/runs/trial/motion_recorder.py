@@ -7,9 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...base.geometry import Array
 from ...benchmark.ground_truth import CornersFromCameraSpec
 from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, MeasureSpec
-from ...geometry import Array
 from ...simulation import Simulation
 from ...simulation.tracked_state import BRIGHTNESS, LAMP, TrackedState
 from ...tracks import RATE, Signal, TrackLevel, track_bytes

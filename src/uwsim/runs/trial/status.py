@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...inbox import Inbox
+from ...base.inbox import Inbox
 from ...messages import String
 from ...simulation import STOPPED, InProcessNode
 from ..own_process.process import PROCESS_ENDED

@@ -14,6 +14,7 @@ from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
+from ...base.expression import parse
 from ...benchmark.plugin import attribute_errors_to
 from ...benchmark.plugin_checks import check_values
 from ...benchmark.spec import MAX_TASK_DURATION
@@ -30,7 +31,6 @@ from ...benchmark.updaters import (
     settling_time,
 )
 from ...errors import NeverStarted, SimulationFailed
-from ...expression import parse
 from ...messages import String
 from ...simulation import Calls, RendererPool, Simulation
 from ...simulation.markers import SERVICE as SPAWN_MARKER

@@ -27,10 +27,10 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
+from ...base.geometry import Array
+from ...base.numerics.linear import length, product
 from ...benchmark.ground_truth import CornersFromCameraSpec, GroundTruth
 from ...benchmark.measures import EuclideanNormSpec
-from ...geometry import Array
-from ...numerics.linear import length, product
 from ...simulation import Simulation
 from ..planning.plan import Plan
 

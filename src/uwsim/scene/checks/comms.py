@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...base.expression import ScoreError
 from ...devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
 from ...devices.comms.comms_channels import (
     AcousticCommsChannelSpec,
@@ -13,7 +14,6 @@ from ...devices.comms.comms_channels import (
 )
 from ...devices.comms.comms_device import MacProtocolSpec
 from ...devices.comms.custom_comms_device import CustomCommsDeviceSpec
-from ...expression import ScoreError
 from ...network import mac_kind
 from ...schema import Diagnostics
 from ..spec import SceneSpec

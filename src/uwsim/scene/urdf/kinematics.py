@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...geometry import Pose, rotation_about
-from ...numerics.linear import length
+from ...base.geometry import Pose, rotation_about
+from ...base.numerics.linear import length
 from .robot import JointSpec, RobotSpec
 
 

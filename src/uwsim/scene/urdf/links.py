@@ -6,7 +6,7 @@ from typing import cast
 
 from lxml import etree
 
-from ...geometry import ZERO, Triple
+from ...base.geometry import ZERO, Triple
 from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, source_line
 from .robot import Colour, LinkSpec, ShapeKind, VisualSpec
 from .values import (

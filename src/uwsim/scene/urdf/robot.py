@@ -20,7 +20,7 @@ import sys
 from dataclasses import dataclass, field
 from typing import Literal
 
-from ...geometry import ZERO, Triple
+from ...base.geometry import ZERO, Triple
 from ...schema import Expansion, Spec
 
 Colour = tuple[float, float, float, float]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from ...geometry import ZERO, Triple
+from ...base.geometry import ZERO, Triple
 from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, number
 from ..checks.angles import degrees_for_radians
 from .robot import Colour

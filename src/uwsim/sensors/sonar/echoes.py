@@ -22,9 +22,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...acoustics import MATERIALS, Material
-from ...geometry import Array, Pose
-from ...numerics.elementwise import log
-from ...numerics.linear import product, turned_back
+from ...base.geometry import Array, Pose
+from ...base.numerics.elementwise import log
+from ...base.numerics.linear import product, turned_back
 from ...rays import Hits
 from ...world import SensorWorld
 from .kernel import Singles, add_echoes, received

@@ -11,8 +11,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.elementwise import arctan2, log10
+from ...base.geometry import Array
+from ...base.numerics.elementwise import arctan2, log10
 from .echoes import MICROPASCAL
 from .kernel import Singles
 from .spec import SonarSpec

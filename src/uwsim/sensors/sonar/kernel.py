@@ -7,7 +7,7 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ...numerics.jit import njit
+from ...base.numerics.jit import njit
 from ...rays import Hits
 
 Array = npt.NDArray[np.float64]

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ...messages import PingInfo, ProjectedSonarImage, SonarImageData, Vector3, header
 from .kernel import Singles
 from .spec import SonarSpec

@@ -11,8 +11,8 @@ import math
 
 import numpy as np
 
-from ...geometry import Array, Pose
-from ...numerics.elementwise import arctan
+from ...base.geometry import Array, Pose
+from ...base.numerics.elementwise import arctan
 from ...world import Rays
 
 NEAR = 0.8

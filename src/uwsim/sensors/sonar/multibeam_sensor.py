@@ -23,7 +23,7 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ...messages import LaserScan, header
 from ...schema import MAX_DISTANCE, element
 from ...world import Body, SensorWorld

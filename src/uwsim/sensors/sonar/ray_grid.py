@@ -19,8 +19,8 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array
-from ...numerics.jit import njit
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
 from .kernel import BLOCK
 from .spec import SonarSpec
 

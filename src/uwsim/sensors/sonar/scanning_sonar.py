@@ -20,7 +20,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...geometry import Array, Pose, rotation_z
+from ...base.geometry import Array, Pose, rotation_z
 from ...messages import Image, ProjectedSonarImage, image
 from ...schema import element
 from ...world import Body, SensorWorld

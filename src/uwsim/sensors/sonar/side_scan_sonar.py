@@ -20,9 +20,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...geometry import Pose, rotation_y, rotation_z
+from ...base.geometry import Pose, rotation_y, rotation_z
+from ...base.numerics.linear import product
 from ...messages import Image, ProjectedSonarImage, image
-from ...numerics.linear import product
 from ...schema import element
 from ...world import Body, SensorWorld
 from ..sensor import Carrier

@@ -20,10 +20,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ...geometry import Array, Pose
-from ...numerics.elementwise import arcsin, arctan2
-from ...numerics.jit import njit
-from ...numerics.linear import product
+from ...base.geometry import Array, Pose
+from ...base.numerics.elementwise import arcsin, arctan2
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import product
 from ...rays import Balls, Hits
 from .kernel import GRAZING, Singles, Whole, backscatter, facing_cosine, spread_echo
 from .ray_grid import MARGIN, RayGrid, beam_pattern, line_pattern

@@ -8,10 +8,10 @@ from numbers import Integral
 
 import numpy as np
 
+from ...base.geometry import Pose
 from ...currents.constant import Constant
 from ...currents.current import MAX_SPEED
 from ...errors import BadSetting
-from ...geometry import Pose
 from ...world import Flow
 
 FARTHEST = 1e6
@@ -44,7 +44,7 @@ def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Po
     if not isinstance(frame_from_body, Pose):
         raise BadSetting(
             f"set_pose({name!r}, {shown(frame_from_body)}): expected a Pose, as "
-            "Pose([0.0, 0.0, -2.0]) of uwsim.geometry."
+            "Pose([0.0, 0.0, -2.0]) of uwsim.base.geometry."
         )
     world_from_body = world_from_frame @ frame_from_body
     position = world_from_body.position

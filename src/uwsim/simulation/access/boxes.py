@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array, Pose
-from ...numerics.linear import cross, dot, length, product
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import cross, dot, length, product
 from ...world import Box
 from ..parts import Part
 from ..scenery.scenery import Scenery

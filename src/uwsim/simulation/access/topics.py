@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from ...base.terminal import warn
 from ...bus import Bus
 from ...errors import UnknownName
-from ...terminal import warn
 
 
 class TopicAccess:

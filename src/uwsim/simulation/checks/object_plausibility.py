@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ...base.geometry import Array
+from ...base.numerics.linear import length
 from ...errors import UwsimError
-from ...geometry import Array
-from ...numerics.linear import length
 from ...physics.collision.shapes import CollisionShape, bounds
 from ...physics.compile import object_body
 from ...scene.checks.plausibility import ObjectWarning

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...geometry import Pose
+from ...base.geometry import Pose
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ..collision.start_depths import StartDepth, StartDepths

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...base.numerics.linear import length, product
 from ...devices.battery import BatterySpec
-from ...numerics.linear import length, product
 from ...physics.actuation.allocation import (
     AXES,
     HEAVE,

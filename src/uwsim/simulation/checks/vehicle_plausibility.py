@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...numerics.linear import dot
+from ...base.numerics.linear import dot
 from ...physics.actuation.allocation import curve, thrusters_on_base
 from ...physics.balance import Balance, balance_of
 from ...physics.compile import MIN_INERTIA

@@ -20,8 +20,8 @@ from typing import NoReturn
 
 import numpy as np
 
+from ...base.geometry import Array, Pose
 from ...errors import SimulationFailed
-from ...geometry import Array, Pose
 from ...physics.collision.shapes import CollisionShape, bounds
 from ...physics.compile import object_body, vehicle_body
 from ...physics.engine import Engine

@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 
 from ...assets.mesh import Model
-from ...geometry import Array, Pose
-from ...numerics.linear import placed, product, turned
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import placed, product, turned
 from ...physics.collision.fixed_mesh import FixedMesh
 from ...physics.collision.ground import triangles_of
 from ...physics.collision.shapes import (

@@ -12,8 +12,8 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
+from ...base.geometry import Array, Pose
 from ...errors import UwsimError
-from ...geometry import Array, Pose
 from ...physics.collision.kinematic_contacts import KinematicContacts
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec

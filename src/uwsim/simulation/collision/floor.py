@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ...base.geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
+from ...base.numerics.linear import length, product
 from ...errors import Diagnostic, SceneError
-from ...geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
-from ...numerics.linear import length, product
 from ...physics.collision.ground import Ground, triangles_of
 from ...physics.compile import object_body
 from ...scene.object import ObjectSpec, PhysicsSpec

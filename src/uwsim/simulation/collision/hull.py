@@ -8,8 +8,8 @@ from pathlib import Path
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import length
+from ...base.geometry import Array
+from ...base.numerics.linear import length
 from ...physics.collision.ground import triangles_of
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ...physics.collision.ground import STEEPEST, Ground
 from ...physics.collision.shapes import THICKNESS, TRIMESHES
 from ...physics.compile import object_body

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ...geometry import Array, Pose
+from ...base.geometry import Array, Pose
 from ...physics.collision.ground import Ground
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec

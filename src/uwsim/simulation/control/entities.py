@@ -10,9 +10,10 @@ from __future__ import annotations
 import re
 
 from ... import messages
+from ...base.external_values import EXPECTED_POSE, read_pose
+from ...base.geometry import Pose, quaternion_from_rotation
+from ...base.numerics.linear import turned
 from ...bus import Bus
-from ...external_values import EXPECTED_POSE, read_pose
-from ...geometry import Pose, quaternion_from_rotation
 from ...messages import Marker, SpawnMarker, Twist, Vector3
 from ...messages.build import header
 from ...messages.simulation_control import (
@@ -29,7 +30,6 @@ from ...messages.simulation_control import (
     SpawnEntity,
     SpawnEntityResponse,
 )
-from ...numerics.linear import turned
 from ..simulation import Simulation
 
 NAMESPACE = "spawned"

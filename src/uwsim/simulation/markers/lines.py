@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from ...external_values import MAX_COORDINATE, read_pose
-from ...geometry import Array, Pose
+from ...base.external_values import MAX_COORDINATE, read_pose
+from ...base.geometry import Array, Pose
 from ...messages import Marker
 from ...tracks import MarkerLook
 

@@ -12,8 +12,8 @@ import math
 from collections.abc import Callable
 from functools import partial
 
+from ...base.external_values import EXPECTED_POSE, read_pose
 from ...errors import AssetError
-from ...external_values import EXPECTED_POSE, read_pose
 from ...messages import Marker, SpawnMarker, SpawnMarkerResponse
 from ...messages.build import NANOSECONDS
 from ...topics.frames import Frame

@@ -9,12 +9,12 @@ from typing import NoReturn, TypeVar
 
 import numpy as np
 
+from ...base.interrupts import is_of_user
+from ...base.message_fields import copied
+from ...base.raised import what_was_raised
+from ...base.terminal import warn
 from ...bus import Algorithm, Bus
 from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed
-from ...interrupts import is_of_user
-from ...message_fields import copied
-from ...raised import what_was_raised
-from ...terminal import warn
 from .calls import Calls, Stopped
 from .undelivered import UndeliveredMessages
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections import deque
 
+from ...base.message_fields import size_of
 from ...errors import NotAllowed
-from ...message_fields import size_of
 
 MAX_MESSAGES = 10_000
 """So many of one algorithm may be on their way: published in this step, or delayed."""

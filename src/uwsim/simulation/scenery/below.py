@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array
-from ...numerics.linear import product
+from ...base.geometry import Array
+from ...base.numerics.linear import product
 from ..parts import Part
 from ..world import SceneWorld
 from .scenery import Scenery

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...assets.mesh import Mesh, Model
-from ...geometry import Array
+from ...base.geometry import Array
 from ...scene.spec import SceneSpec
 from ...tracks import GRAIN, Spot
 

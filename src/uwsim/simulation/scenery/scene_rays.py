@@ -8,8 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from ...acoustics import MATERIALS, Material, MaterialName
-from ...geometry import Array, Pose
-from ...numerics.linear import determinant, placed, product
+from ...base.geometry import Array, Pose
+from ...base.numerics.linear import determinant, placed, product
 from ...physics.engine import Engine
 from ...rays import Balls, Hits, RayScene, Surface
 from ...scene.spec import SceneSpec

@@ -12,12 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 from ...assets.mesh import Model
+from ...base.geometry import Array, Intrinsics, Pose
+from ...base.numerics.linear import product
 from ...devices.lamp import MAX_LAMPS, MountedLamp
 from ...devices.led_array import Led
 from ...devices.structured_light_projector import MountedProjector
 from ...errors import UwsimError
-from ...geometry import Array, Intrinsics, Pose
-from ...numerics.linear import product
 from ...physics.engine import Engine
 from ...rendering.grey import grey_truncated
 from ...rendering.lights.lamp import Lamp

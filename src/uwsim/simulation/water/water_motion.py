@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from ...base.geometry import Array, Pose
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import product
 from ...currents import Place, TotalCurrent, bind_currents
-from ...geometry import Array, Pose
-from ...numerics.jit import njit
-from ...numerics.linear import product
 from ...scene.spec import SceneSpec
 from ...world import Flow
 from ..bodies import find_file

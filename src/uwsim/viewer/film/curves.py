@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...geometry import Array
+from ...base.geometry import Array
 from ..recorded import Curve, RecordedLevel
 from .overlay import COLOURS, DIM, INK, PANEL, Pixels, blend, polyline, write
 

@@ -10,8 +10,8 @@ from typing import Protocol
 
 import numpy as np
 
+from ...base.geometry import Intrinsics
 from ...errors import BadSetting, UnknownName
-from ...geometry import Intrinsics
 from ...rendering.grey import grey_truncated
 from ...simulation import Simulation
 from ..recorded import RecordedLevel, RecordedTrial

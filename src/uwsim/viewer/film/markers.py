@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 from PIL import Image, ImageDraw
 
-from ...geometry import Array, Intrinsics, Pose
+from ...base.geometry import Array, Intrinsics, Pose
 from ...tracks import MarkerLook
 from . import overlay
 from .overlay import Pixels

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image, ImageDraw, ImageFont
 
-from ...geometry import Array
+from ...base.geometry import Array
 
 Pixels = npt.NDArray[np.uint8]
 INK = (240, 244, 248)

@@ -8,9 +8,9 @@ from typing import Literal, get_args
 
 import numpy as np
 
+from ...base.geometry import Array, Intrinsics, Pose, rotation_z
+from ...base.numerics.linear import product
 from ...errors import BadSetting, did_you_mean
-from ...geometry import Array, Intrinsics, Pose, rotation_z
-from ...numerics.linear import product
 from ...scene.mounts import camera_axes
 from ...simulation.views import Size, focus_of, orbit_view
 from .puppets import Puppets, frame_at

@@ -12,7 +12,7 @@ from multiprocessing.connection import Connection
 
 import numpy as np
 
-from ...environment import environment
+from ...base.environment import environment
 from ...errors import RunFailed
 from ...runs.executors.executor import ENVIRONMENT
 from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_interrupts

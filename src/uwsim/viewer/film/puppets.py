@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 
+from ...base.geometry import Array
 from ...devices.lamp import MountedLamp
-from ...geometry import Array
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
 from ...simulation.tracked_state import LAMP

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Callable, Mapping
 
-from ...external_values import read_number
+from ...base.external_values import read_number
 
 MAX_SPEED = 100.0
 """Of simulation time to wall time; above, as fast as it can."""

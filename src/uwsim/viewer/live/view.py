@@ -18,10 +18,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ...algorithms.pilot import AXES
+from ...base.external_values import MAX_COORDINATE, read_number
+from ...base.geometry import Pose, rotation_from_quaternion
+from ...base.terminal import warn
 from ...benchmark.updaters import Level
 from ...errors import BadSetting
-from ...external_values import MAX_COORDINATE, read_number
-from ...geometry import Pose, rotation_from_quaternion
 from ...messages import Marker
 from ...rendering.grey import grey_truncated
 from ...runs.trial.level_row import LevelRow
@@ -31,7 +32,6 @@ from ...simulation.markers.lines import described, looks_of
 from ...simulation.snapshot import packed, put_state, state_of, unpacked
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import FIELD, view_from_pose
-from ...terminal import warn
 from .clock import NAP, Clock
 from .head import head_of
 from .heard_topics import HeardTopics

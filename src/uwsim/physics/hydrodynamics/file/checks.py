@@ -7,8 +7,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from ....base.geometry import Array
 from ....errors import choices, did_you_mean
-from ....geometry import Array
 from ....schema import Numbers
 from ..columns import MAX_POINTS
 from .fin_checks import fin_errors

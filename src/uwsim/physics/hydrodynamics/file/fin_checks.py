@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ....numerics.linear import length
+from ....base.numerics.linear import length
 from ....schema import Numbers
 from ..columns import MAX_POINTS
 from .number_checks import beyond_limits, listed, number_errors

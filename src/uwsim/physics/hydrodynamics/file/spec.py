@@ -16,8 +16,8 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
+from ....base.geometry import ZERO, Triple
 from ....errors import UwsimError
-from ....geometry import ZERO, Triple
 from ....schema import Numbers, Spec, TwoNumbers, element
 
 DragLaw = Literal["axes", "speed", "x", "y", "z"]

@@ -9,8 +9,8 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ....geometry import quaternion_from_rotation
-from ....numerics.linear import length
+from ....base.geometry import quaternion_from_rotation
+from ....base.numerics.linear import length
 from .. import columns as c
 from .checks import body_errors, density_errors, thruster_errors
 from .fin_checks import fin_errors

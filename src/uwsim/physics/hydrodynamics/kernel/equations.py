@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import (
     ABOUT_X,
     ABOUT_Y,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import (
     BODY_COLUMNS,
     CENTRE,

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import BODY_COLUMNS, DRY, KIND, WATER_COLUMNS
 from . import fields as f
 from .equations import Six, Three, to_body

@@ -6,7 +6,7 @@ implicit over a step adds to it.
 
 from __future__ import annotations
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import ADDED
 from .equations import Six, Three
 from .memory import Floats

@@ -31,7 +31,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import (
     ACTUATOR_COLUMNS,
     BODY_COLUMNS,

@@ -11,7 +11,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from .memory import Floats
 
 INERTIA, TWIST, MOMENTUM, SIDE, RATE, SUM = 0, 36, 42, 48, 54, 60

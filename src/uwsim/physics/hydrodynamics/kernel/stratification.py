@@ -7,7 +7,7 @@ that moves through layers does to them.
 
 from __future__ import annotations
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import BODY_COLUMNS, LEVELS, N_LEVELS, SURFACE
 from . import fields as f
 from .memory import Floats, Ints64, floats, word

@@ -11,7 +11,7 @@ import math
 
 import numpy as np
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import BOX, CYLINDER, ELLIPSOID, SHRINKING_SPHERE, SPHERE
 from .memory import Floats
 

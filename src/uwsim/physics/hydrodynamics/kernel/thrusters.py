@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 
-from ....numerics.jit import njit
+from ....base.numerics.jit import njit
 from ..columns import (
     ADVANCE,
     BACKWARD,

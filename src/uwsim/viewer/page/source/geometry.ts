@@ -1,4 +1,4 @@
-// Poses and matrices as in uwsim.geometry: 4 x 4 matrices row by row, quaternions w x y z.
+// Poses and matrices as in uwsim.base.geometry: 4 x 4 matrices row by row, quaternions w x y z.
 
 export type Matrix = Float64Array;
 export type Vector = ArrayLike<number>;

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from .errors import UnknownName
+from ..errors import UnknownName
 
 COMPATIBILITY: dict[str, str] = {
     "bag-fog": "over a recording fog is 1.44 times as thick, of one colour, none on grey images",

@@ -12,8 +12,9 @@ from typing import Protocol
 import numpy as np
 
 from .geometry import Array, Pose
-from .vehicle import MAX_COMMAND
 
+MAX_COMMAND = 1e6
+"""Commands are clipped to this number, which no vehicle reaches [m, m/s, rad/s, N, N m]."""
 MAX_COORDINATE = MAX_COMMAND
 """The largest coordinate of a position that is accepted [m]."""
 EXPECTED_POSE = (

@@ -37,7 +37,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .errors import UwsimError, did_you_mean
+from ..errors import UwsimError, did_you_mean
 from .numerics import elementwise
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import RunFailed
+from ...errors import RunFailed
 
 OWNER = "UWSIM_SCRATCH"
 """Environment variable with a folder's name: who has it is ended with the folder's process."""

@@ -7,7 +7,7 @@ import sys
 import warnings
 from collections.abc import Iterable
 
-from .errors import Diagnostic
+from ..errors import Diagnostic
 
 MAX_QUOTE_LENGTH = 300
 """Greatest number of letters shown of a long word or of a quoted text."""

@@ -20,7 +20,7 @@ from contextvars import ContextVar
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath, PureWindowsPath
 
-from ..errors import AssetError
+from ...errors import AssetError
 
 MAX_BYTES = 512 * 2**20
 """Files above this size [bytes] are refused, unless the reader knows a smaller limit."""
