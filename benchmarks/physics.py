@@ -32,9 +32,10 @@ from measure import main
 from mujoco import batch
 
 from uwsim.physics.compile import compile_scene
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, callback, prepare
+from uwsim.physics.hydrodynamics import callback, prepare
 from uwsim.physics.hydrodynamics.columns import WATER_COLUMNS
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.simulation.bodies import read_robots

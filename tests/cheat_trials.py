@@ -36,12 +36,12 @@ from uwsim.bus import Node
 from uwsim.errors import ResultError
 from uwsim.messages import Empty, Float32MultiArray, GTpublish, GTpublishResponse, Image, floats
 from uwsim.results.inputs import Inputs
+from uwsim.results.motion import load_track
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import Outcome, run_each
 from uwsim.runs.executors.processes import ProcessExecutor
 from uwsim.runs.run import Run
 from uwsim.scene.reader import read_scene
-from uwsim.tracks import load_track
 
 SERVICE = "<type>service</type> <target>startBench</target>"
 MEASURE = """<euclideanNorm u:value="mean" u:autoInit="once"> <name>corners</name>

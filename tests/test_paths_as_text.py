@@ -10,10 +10,10 @@ import pytest
 from uwsim.assets.bundled import benchmark_file, scene_file
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, FileError, UwsimError
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.results.log import load_log
 from uwsim.results.result_file import load
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.simulation import Simulation

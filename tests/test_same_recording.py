@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from uwsim.assets.bundled import bundled
-from uwsim.recording import Recorder
+from uwsim.middleware.recording import Recorder
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.sensors.imu import ImuSpec

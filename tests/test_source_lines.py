@@ -7,8 +7,8 @@ import pickle
 from pathlib import Path
 
 from uwsim.assets.bundled import scene_file
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import find_vehicle
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.schema import line_of

@@ -15,9 +15,9 @@ from uwsim.benchmark.measures import MEASURES
 from uwsim.cli import main
 from uwsim.cli.list import KINDS, limit_in
 from uwsim.cli.options.descriptions import first_line, head_comment, without_title
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.tables import bundled_tables
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.unsupported import UNSUPPORTED, not_simulated
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.schema import Diagnostics

@@ -10,7 +10,7 @@ import pytest
 
 from uwsim.cli import main
 from uwsim.messages import Odometry
-from uwsim.recording import BagReader
+from uwsim.middleware.recording import BagReader
 
 DRIVE = '''
 from uwsim.messages import Odometry, JointState, TwistStamped, Twist, Vector3

@@ -10,8 +10,8 @@ from tests.physics.water_models import free_body
 from uwsim.base.geometry import Pose
 from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.physics.free_objects import box_added_mass, loose_hydrodynamics
-from uwsim.physics.hydrodynamics import BodyHydrodynamics
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
 from uwsim.scene.object import PhysicsSpec
 
 

@@ -11,8 +11,9 @@ import pytest
 
 from tests.physics.water_models import FAR_BELOW, free_body, set_options
 from tests.simulation.girona500 import SCENE, make, run
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, callback, prepare
+from uwsim.physics.hydrodynamics import callback, prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import parts

@@ -9,16 +9,16 @@ import numpy as np
 import pytest
 
 from uwsim.errors import UnknownName
-from uwsim.physics.hydrodynamics import (
+from uwsim.scene.hydrodynamics import (
     BodyHydrodynamics,
     ThrusterSpec,
     VehicleHydrodynamics,
     vehicle_errors,
 )
-from uwsim.physics.hydrodynamics.file.checks import body_errors
-from uwsim.physics.hydrodynamics.file.spec import matrix
-from uwsim.physics.vehicle_file import VehicleError, read_vehicle
-from uwsim.physics.vehicle_sets import find_vehicle, vehicle_sets
+from uwsim.scene.hydrodynamics.checks import body_errors
+from uwsim.scene.hydrodynamics.spec import matrix
+from uwsim.scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle, vehicle_sets
 from uwsim.scene.urdf.reader import read_urdf
 
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data"

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 
 from uwsim.errors import SceneError
-from uwsim.physics.hydrodynamics.file.spec import (
+from uwsim.runs.check import diagnostics_of
+from uwsim.scene.hydrodynamics.spec import (
     BodyHydrodynamics,
     ThrusterSpec,
     VehicleHydrodynamics,
 )
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.schema import fields_of
 from uwsim.simulation import Simulation

@@ -9,15 +9,10 @@ import mujoco
 import numpy as np
 
 from uwsim.base.geometry import Pose, rotation_about
-from uwsim.physics.hydrodynamics import (
-    BodyHydrodynamics,
-    FinSpec,
-    ThrusterSpec,
-    VehicleHydrodynamics,
-    prepare,
-)
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.physics.hydrodynamics import prepare
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, FinSpec, ThrusterSpec, VehicleHydrodynamics
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 from uwsim.scene.urdf.reader import read_urdf
 
 FAR_BELOW = 1000.0  # a surface that nothing reaches [m]

@@ -16,7 +16,7 @@ from tests.ros1_peers import needs_ros1
 from uwsim.bus import Bus
 from uwsim.errors import AssetError, BadSetting
 from uwsim.messages import MeshFile, Odometry, header
-from uwsim.recording import BagReader, Recorder, check_path
+from uwsim.middleware.recording import BagReader, Recorder, check_path
 
 
 def read(path: Path) -> list[tuple[float, str, object]]:

@@ -8,7 +8,7 @@ import pytest
 
 from uwsim.bus import Bus
 from uwsim.errors import AssetError, BadSetting
-from uwsim.recording import BagReader, Recorder
+from uwsim.middleware.recording import BagReader, Recorder
 
 
 @pytest.mark.parametrize(

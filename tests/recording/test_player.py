@@ -11,8 +11,8 @@ from rosbags.rosbag2 import StoragePlugin, Writer
 from tests.bags import sample_pixels, write_bag
 from uwsim.messages import Float64, Odometry, Pose, header
 from uwsim.middleware.encodings import to_cdr
+from uwsim.middleware.recording import BagReader, Player, Recorder
 from uwsim.middleware.types import ros2_store
-from uwsim.recording import BagReader, Player, Recorder
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
 

@@ -19,9 +19,9 @@ from uwsim import messages
 from uwsim.bus import Bus
 from uwsim.errors import RunFailed
 from uwsim.messages import Float64, Image, PingInfo, ProjectedSonarImage, String, image
+from uwsim.middleware.recording import ImageStorage, Recorder, TopicRates
+from uwsim.middleware.recording.recorder import FILES
 from uwsim.middleware.types import wire_type
-from uwsim.recording import ImageStorage, Recorder, TopicRates
-from uwsim.recording.recorder import FILES
 
 PIXELS = (np.arange(4 * 5 * 3) * 13 % 256).astype(np.uint8).reshape(4, 5, 3)
 
@@ -140,8 +140,8 @@ def test_a_latched_topic_has_the_quality_with_which_ros2_bag_plays_it_latched(
 
 def test_what_ros2_publishes_has_the_recorded_quality() -> None:
     pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
+    from uwsim.middleware.recording.mcap_file import quality_of as recorded
     from uwsim.middleware.ros2.quality import quality_of as offered
-    from uwsim.recording.mcap_file import quality_of as recorded
 
     for topic in ("tf_static", "robot_description", "scene", "odom"):
         mine, theirs = offered(topic), recorded(f"/{topic}")

@@ -15,11 +15,11 @@ import pytest
 
 from tests.cheat_trials import Holds, bench_of
 from tests.short_benchmark import write_benchmark
+from uwsim.results.motion import load_track
 from uwsim.results.seal import PR_SET_DUMPABLE, deny_access_to_memory
 from uwsim.runs.executors.executor import run_each
 from uwsim.runs.run import Run
 from uwsim.runs.sealed import is_foreign
-from uwsim.tracks import load_track
 
 IS_DUMPABLE = 3
 """Number of a request to prctl."""

@@ -11,8 +11,8 @@ import pytest
 from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
 from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Twist, TwistStamped, Vector3, header
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 

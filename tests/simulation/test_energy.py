@@ -16,10 +16,10 @@ from uwsim.errors import UnknownName
 from uwsim.messages import Float64MultiArray, JointState, MultiArrayLayout, header
 from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
-from uwsim.physics.hydrodynamics import VehicleHydrodynamics
 from uwsim.physics.joints import servo_gains
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.scene.hydrodynamics import VehicleHydrodynamics
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation
 from uwsim.topics.arm_to_ros_joint_state import ArmToROSJointStateSpec

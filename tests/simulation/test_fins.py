@@ -12,8 +12,8 @@ import pytest
 from uwsim.assets.bundled import bundled
 from uwsim.errors import BadMessage
 from uwsim.messages import Float64MultiArray, MultiArrayLayout
-from uwsim.physics.vehicle_sets import vehicle_sets
 from uwsim.runs.check import diagnostics_of
+from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 

@@ -21,10 +21,10 @@ from uwsim.physics.actuation.allocation import (
     thrusters_on_base,
 )
 from uwsim.physics.balance import balance_of
-from uwsim.physics.hydrodynamics.file.spec import ThrusterSpec
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import find_vehicle
 from uwsim.runs.check import diagnostics_of
+from uwsim.scene.hydrodynamics.spec import ThrusterSpec
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.simulation import Simulation

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.recording import TopicRate, TopicRates
+from uwsim.middleware.recording import TopicRate, TopicRates
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.schema.names import local
 from uwsim.simulation import Simulation

@@ -8,7 +8,7 @@ import pytest
 
 from tests.topics.test_every_interface import SCENE
 from uwsim.errors import SceneError
-from uwsim.recording.topic_rates import TopicRate, TopicRates
+from uwsim.middleware.recording.topic_rates import TopicRate, TopicRates
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.simulation import Simulation
 

@@ -11,7 +11,7 @@ from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
 from uwsim.messages import Image
-from uwsim.recording.recorder import ImageStorage, Recorder
+from uwsim.middleware.recording.recorder import ImageStorage, Recorder
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.simulation import Simulation
 

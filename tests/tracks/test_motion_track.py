@@ -10,9 +10,9 @@ import pytest
 from tests.short_benchmark import run, write_benchmark
 from uwsim.errors import ResultError
 from uwsim.results.journal import track_path
-from uwsim.tracks import Signal, TrackLevel, load_track, read_track, track_bytes
-from uwsim.tracks.motion_track import quantised, steps_of
-from uwsim.tracks.packing import shuffled, unshuffled
+from uwsim.results.motion import Signal, TrackLevel, load_track, read_track, track_bytes
+from uwsim.results.motion.motion_track import quantised, steps_of
+from uwsim.results.motion.packing import shuffled, unshuffled
 
 LEVELS = (TrackLevel(values={"fog": 0.5}, began=1.0, duration=2.0, status="ok"),)
 SIGNALS = (Signal(name="fog", unit="1/m"),)

@@ -14,7 +14,7 @@ import pytest
 import uwsim
 from uwsim.rendering.grey import grey_truncated
 from uwsim.results import journal
-from uwsim.tracks import load_track
+from uwsim.results.motion import load_track
 from uwsim.viewer.document import document
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob, packed

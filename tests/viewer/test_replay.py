@@ -12,7 +12,7 @@ from tests.short_benchmark import run, write_benchmark
 from tests.short_trial import DATA
 from uwsim.errors import ResultError
 from uwsim.results.log import load_log
-from uwsim.tracks import TrackLevel
+from uwsim.results.motion import TrackLevel
 from uwsim.viewer.document import FOLDER, document
 from uwsim.viewer.pack import Blob, from_text, numbers, unpacked
 from uwsim.viewer.recorded import RecordedLevel, _level

@@ -13,8 +13,8 @@ import pytest
 from tests.devices.test_dredge_tool import scene
 from tests.runs.trial.test_motion_of_sand import recorded
 from tests.viewer.live.desk import Desk
+from uwsim.results.motion import read_track
 from uwsim.simulation import Simulation
-from uwsim.tracks import read_track
 from uwsim.viewer.document import document
 from uwsim.viewer.film.puppets import Puppets
 from uwsim.viewer.head import scene_head

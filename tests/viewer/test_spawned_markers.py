@@ -18,9 +18,16 @@ from tests.simulation.markers.test_lines import marker
 from uwsim.errors import ResultError
 from uwsim.messages import Marker, Point, SpawnMarker
 from uwsim.results.journal import track_path
+from uwsim.results.motion import (
+    MarkerChange,
+    MarkerLook,
+    load_track,
+    markers_at,
+    read_track,
+    track_bytes,
+)
 from uwsim.runs.trial import motion_events
 from uwsim.runs.trial.motion_events import MarkerLog
-from uwsim.tracks import MarkerChange, MarkerLook, load_track, markers_at, read_track, track_bytes
 from uwsim.viewer.film.film import Film, FilmSpec
 from uwsim.viewer.film.markers import ahead
 from uwsim.viewer.recorded import RecordedTrial

@@ -10,9 +10,9 @@ import pytest
 
 from uwsim.errors import FileError, SceneError
 from uwsim.scene.urdf.reader import read_urdf
-from uwsim.xacro import parse_expanded
-from uwsim.xacro.expression import evaluate
-from uwsim.xacro.value import ExpressionError, Value
+from uwsim.scene.xacro import parse_expanded
+from uwsim.scene.xacro.expression import evaluate
+from uwsim.scene.xacro.value import ExpressionError, Value
 
 NAMES: dict[str, Value] = {
     "place": [1.0, -2.5, 0.25],

@@ -10,9 +10,9 @@ from lxml import etree
 from uwsim.errors import SceneError
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.scene.urdf.reader import read_urdf
-from uwsim.xacro import parse_expanded
-from uwsim.xacro.expression import evaluate
-from uwsim.xacro.value import ExpressionError
+from uwsim.scene.xacro import parse_expanded
+from uwsim.scene.xacro.expression import evaluate
+from uwsim.scene.xacro.value import ExpressionError
 
 NAMESPACES = 'xmlns:xacro="http://ros.org/wiki/xacro" xmlns:xi="http://www.w3.org/2001/XInclude"'
 

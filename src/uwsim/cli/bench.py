@@ -190,7 +190,7 @@ def recordings_of(
     Raises:
         BadSetting: nothing can be recorded there.
     """
-    from ..recording import image_storage
+    from ..middleware.recording import image_storage
     from ..runs.executors.choose import RAY
 
     images, file = image_storage(options.recorded.images), options.recorded.record

@@ -21,7 +21,7 @@ from .render import scene_of
 from .run import run_and_report, settings_of_scene, wanted_of
 
 if TYPE_CHECKING:
-    from ..recording import BagReader, Player
+    from ..middleware.recording import BagReader, Player
     from ..simulation import Simulation
 
 
@@ -62,7 +62,7 @@ def play(
     they would have seen. What both have is played as /recorded/TOPIC. With --commands the recorded
     commands drive the vehicles.
     """
-    from ..recording import BagReader
+    from ..middleware.recording import BagReader
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
 
@@ -94,7 +94,7 @@ def play(
 
 def player_of(reader: BagReader, simulation: Simulation, obeys: bool) -> Player:
     """Return what plays the recording in a scene, with its ghosts."""
-    from ..recording import Player
+    from ..middleware.recording import Player
     from ..simulation.ghosts import commanded_topics, follow_recorded, odometry_vehicles
 
     published = {f"/{name}" for name in simulation.topics if _is_published(simulation, name)}

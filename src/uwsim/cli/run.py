@@ -30,7 +30,7 @@ from .render import scene_of
 
 if TYPE_CHECKING:
     from ..bus import Algorithm
-    from ..recording import ImageStorage, Recorder, TopicRates
+    from ..middleware.recording import ImageStorage, Recorder, TopicRates
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
     from ..viewer.scene_topics import SceneTopics
@@ -174,7 +174,7 @@ def wanted_of(
 ) -> Wanted:
     """Check the options; collects their errors."""
     from ..algorithms import ALGORITHMS
-    from ..recording import check_path, image_storage
+    from ..middleware.recording import check_path, image_storage
 
     duration, program, images = 0.0, None, image_storage("raw")
     own = [each for each in changes.all_settings if each.startswith(OF_ALGORITHM)]
@@ -227,7 +227,7 @@ def run_and_report(
     scene_topics: SceneTopics | None = None,
 ) -> None:
     """Run, and print what came; also of a run that fails or is interrupted."""
-    from ..recording import Recorder, TopicRates
+    from ..middleware.recording import Recorder, TopicRates
 
     node = None
     if wanted.program is not None:

@@ -18,10 +18,10 @@ import numpy as np
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import dot, product
+from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.urdf.kinematics import link_poses
 from ..scene.urdf.robot import RobotSpec
 from ..world import GRAVITY
-from .hydrodynamics.file.spec import VehicleHydrodynamics
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -18,6 +18,7 @@ from ..base.geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..base.numerics.linear import product
 from ..devices.object_picker import ObjectPickerSpec
 from ..errors import BadSetting, SceneError, UwsimError
+from ..scene.hydrodynamics import BodyHydrodynamics, FinSpec, ThrusterSpec, VehicleHydrodynamics
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import LinkSpec, RobotSpec
@@ -27,13 +28,7 @@ from .collision.world_tree import rebuild_world_tree
 from .compiled_models import cached_model
 from .engine_warnings import hush
 from .free_objects import loose_hydrodynamics, loose_link, object_errors
-from .hydrodynamics import (
-    BodyHydrodynamics,
-    FinSpec,
-    ThrusterSpec,
-    VehicleHydrodynamics,
-    prepare,
-)
+from .hydrodynamics import prepare
 from .joints import add_gear, add_joint, add_servo, is_geared
 from .restitution import contact_spring
 

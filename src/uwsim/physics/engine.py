@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..base.geometry import Array, Pose, quaternion_from_rotation
 from ..base.numerics.linear import turned_back
 from ..errors import UwsimError
+from ..scene.hydrodynamics import VehicleHydrodynamics
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec
@@ -25,7 +26,6 @@ from .collision.world_tree import place_fixed_shapes
 from .compile import compile_scene, loose_joint, vehicle_joint
 from .engine_warnings import StepCheck
 from .grips import Grips
-from .hydrodynamics import VehicleHydrodynamics
 from .joint_wrench import JointWrench
 from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion

@@ -18,11 +18,11 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..errors import Diagnostic
+from ..scene.hydrodynamics import BodyHydrodynamics
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.urdf.robot import LinkSpec
 from ..schema import diagnostic_at
 from .collision.shapes import CollisionShape, bounds
-from .hydrodynamics import BodyHydrodynamics
 
 BOX_DRAG = 1.05
 """Of a cube face on [1]."""

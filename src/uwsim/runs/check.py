@@ -42,8 +42,8 @@ def diagnostics_of(
     are values of xacro arguments, by name.
     """
     from ..scene.reader import ROOT, check_robot, check_scene
+    from ..scene.xacro import library_of
     from ..schema import parse, shown_tag
-    from ..xacro import library_of
 
     try:
         node = parse(file).root
@@ -87,7 +87,7 @@ def _of_library(
     arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
     """State that a file is a library of macros or properties; with errors of its expansion."""
-    from ..xacro import parse_expanded
+    from ..scene.xacro import parse_expanded
 
     try:
         document = parse_expanded(file, data_path=data_path, arguments=arguments)
@@ -104,7 +104,7 @@ def _of_library(
 
 def _of_hydrodynamics_file(file: Path) -> list[Diagnostic]:
     """Return everything wrong with a hydrodynamics file; its links are looked up with a scene."""
-    from ..physics.vehicle_file import read_vehicle_into
+    from ..scene.hydrodynamics.vehicle_file import read_vehicle_into
     from ..schema import Diagnostics
 
     diagnostics = Diagnostics(file)

@@ -19,12 +19,12 @@ from ..results import journal
 from ..results.inputs import Inputs
 from ..results.log import save_log
 from ..results.measures_file import save_measures
+from ..results.motion import load_track
 from ..results.result import Result
 from ..results.result_file import save
 from ..results.run_info import RunInfo
 from ..results.seal import Seal
 from ..results.summary import save_summary
-from ..tracks import load_track
 from .collect import collect
 from .described import described
 from .measure_notes import notes_of

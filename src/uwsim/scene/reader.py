@@ -9,7 +9,6 @@ from pathlib import Path
 
 from ..errors import AssetError, Diagnostic, SceneError, choices
 from ..schema import Diagnostics, Document, check_head, diagnostic_at, read
-from ..xacro import parse_expanded
 from .checks.angles import check_angles
 from .checks.looks import check_looks
 from .checks.models import MAX_FILES, Library, check_models
@@ -22,6 +21,7 @@ from .unsupported import not_simulated
 from .urdf.reader import read_robot, read_urdf
 from .urdf.robot import RobotSpec, VisualSpec
 from .variation import check_variations
+from .xacro import parse_expanded
 
 ROOT = "UWSimScene"
 """Name of the root element."""

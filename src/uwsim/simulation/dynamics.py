@@ -18,9 +18,9 @@ from ..devices.fault_fields import number_fields
 from ..errors import BadSetting, Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..physics.compile import MIN_MASS
 from ..physics.free_objects import MAX_BUOYANCY
-from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
-from ..physics.vehicle_file import VehicleError, read_vehicle_into, set_errors
-from ..physics.vehicle_sets import find_vehicle
+from ..scene.hydrodynamics.spec import VehicleHydrodynamics
+from ..scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle_into, set_errors
+from ..scene.hydrodynamics.vehicle_sets import find_vehicle
 from ..scene.settings import HydrodynamicsPlace, locate
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec

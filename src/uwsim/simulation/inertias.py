@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from ..errors import Diagnostic
-from ..physics.hydrodynamics.file.checks import inertia_errors
-from ..physics.hydrodynamics.file.spec import VehicleHydrodynamics
+from ..scene.hydrodynamics.checks import inertia_errors
+from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..schema import diagnostic_at

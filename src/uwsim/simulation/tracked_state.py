@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..devices.lamp import MountedLamp
-from ..tracks import Signal
+from ..results.motion import Signal
 from .stage import SceneStage
 from .tracked_bodies import TrackedBodies, vehicle_labels
 

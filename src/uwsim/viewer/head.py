@@ -59,7 +59,7 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
 
 ``pose`` of a body is where it is at step 0; a body that is not in a track stays there.
 
-**Motion of a trial** (``units/NNNNN.motion``, `uwsim.tracks`): gzip (mtime 0) of a line of JSON
+**Motion of a trial** (``units/NNNNN.motion``, `uwsim.results.motion`): gzip (mtime 0) of a line of JSON
 that ends with a line feed, then bytes::
 
     {"uwsim_motion": 1, "rate": 30.0, "n": 3600, "start": 0.0,
@@ -79,7 +79,7 @@ corner in grains. From that frame on each column whose top is nearer than ``reac
 ``bite`` lower, down to the corner; a place of int32 minima puts all sand of the heap back.
 
 Where programs spawned markers the version is 2, too, and ``"markers"`` is in the line, as
-`uwsim.tracks.marker_log` says.
+`uwsim.results.motion.marker_log` says.
 
 Names of bodies: ``vehicle/link``, of links that fixed joints hold together the one nearest to the
 root (`uwsim.simulation.tracked_bodies`); the object's name for objects; none is there twice, as the

@@ -12,13 +12,13 @@ import numpy as np
 from ..base.geometry import Array
 from ..errors import ResultError, UwsimError
 from ..results import journal
+from ..results.motion import MotionTrack, TrackLevel, load_track
 from ..results.result import Result
 from ..results.result_file import load
 from ..runs.planning.make_plan import OF_ALGORITHM
 from ..scene.reader import read_scene
 from ..scene.settings import apply_setting, xacro_arguments
 from ..scene.spec import SceneSpec
-from ..tracks import MotionTrack, TrackLevel, load_track
 from ..verify.recorded_plan import (
     FileOverrides,
     find_input,

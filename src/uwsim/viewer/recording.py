@@ -19,8 +19,8 @@ from ..base.geometry import Array, Pose, rotation_from_quaternion
 from ..errors import BadSetting, names_file
 from ..messages import Float64, MarkerArray, String, TFMessage
 from ..messages.build import NANOSECONDS, transform
+from ..middleware.recording.mcap_file import McapFile
 from ..middleware.types import wire_type
-from ..recording.mcap_file import McapFile
 from ..simulation import Simulation
 from ..simulation.parts import Part
 from ..simulation.tracked_bodies import TrackedBodies

@@ -28,7 +28,7 @@ from ..topics.world_to_ros_tf import WorldToROSTFSpec
 from .shapes import SCENE, shapes
 
 if TYPE_CHECKING:
-    from ..recording import Recorder
+    from ..middleware.recording import Recorder
 
 UP = "map"
 """Frame of W, as REP 105 calls a frame of the world: z up."""

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from ..base.terminal import warn
 from ..errors import BadSetting
-from ..recording import ImageStorage, Recorder, check_path
+from ..middleware.recording import ImageStorage, Recorder, check_path
 from ..runs.planning.plan import Plan, Trial
 from ..runs.run import Run
 from ..simulation import Simulation

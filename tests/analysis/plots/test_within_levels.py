@@ -16,8 +16,8 @@ from uwsim.analysis.plots.panels import MAX_PANELS, panels_of
 from uwsim.analysis.plots.track_plot import read_tracks, track_plot
 from uwsim.analysis.report import render
 from uwsim.results.log import Log, save_log
+from uwsim.results.motion.motion_track import TrackLevel, quantised, steps_of, track_bytes
 from uwsim.results.result import Result
-from uwsim.tracks.motion_track import TrackLevel, quantised, steps_of, track_bytes
 
 LEVELS = (0.0, 0.05, 1.2)
 

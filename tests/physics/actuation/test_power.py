@@ -10,10 +10,10 @@ import pytest
 
 from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
-from uwsim.physics.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_errors
-from uwsim.physics.hydrodynamics.file.spec import JointDrive
-from uwsim.physics.vehicle_file import VehicleError, read_vehicle
-from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.scene.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_errors
+from uwsim.scene.hydrodynamics.spec import JointDrive
+from uwsim.scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 
 T200 = [  # thrust [kgf] and power [W] at 12 V, Blue Robotics, September 2019
     (-2.90, 204.4), (-2.34, 144.0), (-1.53, 74.4), (-0.87, 28.9),

@@ -8,9 +8,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from tests.physics.water_models import FAR_BELOW, random_added_mass, set_options
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, prepare
 from uwsim.physics.hydrodynamics import columns as c
+from uwsim.physics.hydrodynamics import prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
 
 N = 5
 RNG = np.random.default_rng(5)

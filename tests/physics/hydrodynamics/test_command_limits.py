@@ -9,8 +9,8 @@ import mujoco
 import pytest
 
 from tests.physics.water_models import free_body
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec
 
 LAG = 0.2
 SCREW = ThrusterSpec(name="screw", link="body", forward=(0.0, 100.0), time_constant=LAG)

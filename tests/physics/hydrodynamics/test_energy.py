@@ -15,11 +15,12 @@ from scipy.integrate import solve_ivp
 from tests.physics.fossen import Fossen, angle_between, rotation
 from tests.physics.water_models import FAR_BELOW, ROBOTS, free_body, random_added_mass, set_options
 from uwsim.physics.free_objects import box_added_mass, box_drag, ellipsoid_added_mass
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, VehicleHydrodynamics, prepare
-from uwsim.physics.hydrodynamics.file.spec import matrix
+from uwsim.physics.hydrodynamics import prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, VehicleHydrodynamics
+from uwsim.scene.hydrodynamics.spec import matrix
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 from uwsim.scene.urdf.reader import read_urdf
 
 TAG = BodyHydrodynamics(  # a plate of steel, 10 x 10 x 0.2 cm

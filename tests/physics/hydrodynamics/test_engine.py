@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import FAR_BELOW, free_body, random_added_mass, set_options
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec, callback, prepare
+from uwsim.physics.hydrodynamics import callback, prepare
 from uwsim.physics.hydrodynamics.callback import CallbackTaken
 from uwsim.physics.hydrodynamics.hydrodynamics import NoWater, install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec
 
 LINKS = ("base", "upper", "fore")
 EXTRA = {"base": 40.0, "upper": 3.0, "fore": 2.0, "box": 4.0}  # isotropic added mass [kg]

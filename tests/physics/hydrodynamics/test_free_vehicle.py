@@ -10,8 +10,8 @@ import pytest
 
 from tests.physics.fossen import Fossen, angle_between
 from tests.physics.water_models import free_body
-from uwsim.physics.hydrodynamics import BodyHydrodynamics
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
 
 MASS, DISPLACED = 150.0, 152.0
 CENTRE_OF_MASS, CENTRE_OF_BUOYANCY = (0.01, -0.02, -0.05), (-0.01, 0.01, 0.06)

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import FAR_BELOW, free_body, set_options
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, prepare
+from uwsim.physics.hydrodynamics import prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
 
 G = 9.81
 SPHERE = 4 / 3 * math.pi * 0.1**3  # volume, radius 0.1 m [m3]

@@ -12,8 +12,9 @@ from tests.physics.water_models import set_options
 from uwsim.base.geometry import Pose
 from uwsim.physics.collision.shapes import CollisionShape
 from uwsim.physics.free_objects import loose_link
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, prepare
+from uwsim.physics.hydrodynamics import prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
 from uwsim.scene.object import PhysicsSpec
 
 RADIUS, MASS, ADDED, SLOPE = 0.1, 6.0, 2.0, 0.1

@@ -11,8 +11,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from tests.physics.water_models import bundled, free_body
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, FinSpec, ThrusterSpec
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, FinSpec, ThrusterSpec
 
 LAG, MASS, ADDED, DRAG = 0.2, 40.0, 25.0, 90.0
 PERIOD, DURATION = 0.1, 2.0  # of a held command, of a test [s]

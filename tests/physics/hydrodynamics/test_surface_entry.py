@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import free_body
-from uwsim.physics.hydrodynamics import BodyHydrodynamics
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
 
 MASS, ADDED, SPEED = 3.0, 2.0, 2.0  # [kg], [kg], [m/s]
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import free_body
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, ThrusterSpec
-from uwsim.physics.hydrodynamics.file.checks import thruster_errors
 from uwsim.physics.hydrodynamics.hydrodynamics import install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec
+from uwsim.scene.hydrodynamics.checks import thruster_errors
 
 DENSITY, DIAMETER = 1025.0, 0.2
 LINE = (0.0, 0.45, 0.9, 0.0)

@@ -11,10 +11,10 @@ import numpy as np
 
 from tests.devices.test_dredge_tool import scene
 from uwsim.base.geometry import Array, Pose
+from uwsim.results.motion import RATE, DugSand, read_track, track_bytes
+from uwsim.results.motion.dug_sand import NOTHING
 from uwsim.runs.trial.motion_recorder import MotionRecorder
 from uwsim.simulation import Simulation
-from uwsim.tracks import RATE, DugSand, read_track, track_bytes
-from uwsim.tracks.dug_sand import NOTHING
 
 
 def recorded(folder: Path) -> tuple[bytes, list[Array]]:

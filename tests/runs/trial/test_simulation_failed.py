@@ -12,11 +12,11 @@ from uwsim.bus import Node
 from uwsim.cli import main
 from uwsim.errors import SimulationFailed
 from uwsim.results.journal import path_of
+from uwsim.results.motion import load_track
 from uwsim.results.result_file import load
 from uwsim.runs.trial.level_row import LevelRow, TrialEnd
 from uwsim.runs.trial.trial import execute
 from uwsim.simulation import Simulation
-from uwsim.tracks import load_track
 
 WHY = "'ball' moves at 200 m/s"
 THREE = "<repeat> <iterations>3</iterations> <interval>1</interval> </repeat>"

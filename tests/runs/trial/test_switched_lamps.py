@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from uwsim.results.motion import Signal, read_track, track_bytes
+from uwsim.results.motion.motion_track import quantised, steps_of
 from uwsim.runs.trial.motion_recorder import switched
-from uwsim.tracks import Signal, read_track, track_bytes
-from uwsim.tracks.motion_track import quantised, steps_of
 
 SIGNALS = (
     Signal(name="fog"),

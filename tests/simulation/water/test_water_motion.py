@@ -12,9 +12,9 @@ import pytest
 
 from uwsim.currents import Constant, Place, TargetCurrent, TotalCurrent, UwsimSinusoidSpec
 from uwsim.currents.current import Current
-from uwsim.physics.hydrodynamics import BodyHydrodynamics
-from uwsim.physics.vehicle_file import read_vehicle
-from uwsim.physics.vehicle_sets import vehicle_sets
+from uwsim.scene.hydrodynamics import BodyHydrodynamics
+from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
+from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 from uwsim.scene.reader import read_scene
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation import Simulation

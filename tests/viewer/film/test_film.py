@@ -18,8 +18,8 @@ from tests.simulation.test_lamp import LAMP, night
 from uwsim.cli import main
 from uwsim.rendering.grey import grey_truncated
 from uwsim.results.journal import recorded_trials, track_path
+from uwsim.results.motion import Signal
 from uwsim.simulation.views import focus_of
-from uwsim.tracks import Signal
 from uwsim.viewer.film.curves import chosen, short_name
 from uwsim.viewer.film.film import Film, FilmSpec, record
 from uwsim.viewer.film.puppets import Puppets

@@ -18,8 +18,8 @@ from matplotlib.lines import Line2D
 
 from ...errors import ResultError
 from ...results.journal import recorded_trials, track_path
+from ...results.motion.motion_track import MotionTrack, load_track
 from ...results.result import Result
-from ...tracks.motion_track import MotionTrack, load_track
 from .over_time import level_title
 from .panels import panels_of
 from .style import INK, PALETTE, cut, plain, styled_figure, write_note

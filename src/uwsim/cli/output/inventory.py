@@ -16,7 +16,7 @@ from ...devices import DEVICES
 from ...devices.lamp import LampSpec
 from ...devices.sway import SwaySpec
 from ...errors import Diagnostic
-from ...physics.hydrodynamics import FinSpec, VehicleHydrodynamics
+from ...scene.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ...scene.mounts import MountFrames
 from ...scene.object import ObjectSpec
 from ...scene.pointing import describe_direction, looking

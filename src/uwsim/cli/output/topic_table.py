@@ -14,7 +14,7 @@ from rich.text import Text
 from .console import standard_output
 
 if TYPE_CHECKING:
-    from ...recording import TopicRate
+    from ...middleware.recording import TopicRate
     from ...simulation import Simulation
 
 NUMBERS = ("messages", "rate [Hz]", "min gap [s]", "max gap [s]", "std [s]")

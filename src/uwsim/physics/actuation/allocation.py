@@ -24,9 +24,9 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.linear import dot, length, product, pseudo_inverse, turned
+from ...scene.hydrodynamics.spec import ThrusterSpec
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec
-from ..hydrodynamics.file.spec import ThrusterSpec
 
 AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 UNITS = ("N", "N", "N", "N m", "N m", "N m")

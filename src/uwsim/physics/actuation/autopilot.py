@@ -49,7 +49,7 @@ import numpy.typing as npt
 from ...base.external_values import MAX_COMMAND
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import pseudo_inverse
-from ..hydrodynamics.file.spec import ThrusterSpec, VehicleHydrodynamics, matrix
+from ...scene.hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 from .allocation import ROLL, Allocation, allocate, curve
 from .records import AUTOPILOT, AUTOPILOT_STATE, POSITION, THRUSTER, THRUSTERS, VELOCITY, WRENCH
 

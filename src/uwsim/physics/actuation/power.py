@@ -33,8 +33,8 @@ import math
 import numpy as np
 
 from ...base.geometry import Array
-from ...schema import Numbers
-from ..hydrodynamics.file.spec import ThrusterSpec
+from ...scene.hydrodynamics.power_checks import greatest_thrust, polynomial
+from ...scene.hydrodynamics.spec import ThrusterSpec
 
 DEFAULT_EFFICIENCY = 0.4
 """Of a thruster whose file says nothing [1]."""
@@ -71,43 +71,7 @@ def greatest_power(thruster: ThrusterSpec, density: float) -> float:
     table = power_table(thruster, density)
     found = []
     for row, forward in enumerate((True, False)):
-        thrusts = np.linspace(0.0, _greatest(thruster, forward=forward), 201)
+        thrusts = np.linspace(0.0, greatest_thrust(thruster, forward=forward), 201)
         law = table[row, 0] * thrusts**1.5
-        found.append(float((law + _polynomial(tuple(table[row, 1:]), thrusts)).max()))
+        found.append(float((law + polynomial(tuple(table[row, 1:]), thrusts)).max()))
     return max(found)
-
-
-def power_errors(thruster: ThrusterSpec) -> list[str]:
-    """Report where the power that a file gives would be below 0."""
-    errors = []
-    for name, curve, forward in (
-        ("power", thruster.power, True),
-        ("powerBackward", thruster.power_backward, False),
-    ):
-        if curve is None:
-            continue
-        thrusts = np.linspace(0.0, _greatest(thruster, forward=forward), 201)
-        powers = _polynomial(curve, thrusts)
-        worst = int(np.argmin(powers))
-        if powers[worst] < -1e-9:
-            errors.append(
-                f"thruster {thruster.name!r}: {name} is {powers[worst]:.3g} W at "
-                f"{thrusts[worst]:.3g} N; expected none below 0"
-            )
-    return errors
-
-
-def _greatest(thruster: ThrusterSpec, *, forward: bool) -> float:
-    """The greatest thrust in a direction [N]."""
-    backward = thruster.forward if thruster.backward is None else thruster.backward
-    end = thruster.limits[1] if forward else -thruster.limits[0]
-    commands = np.maximum(np.linspace(0.0, end, 201) - thruster.dead_zone, 0.0)
-    most = float(_polynomial(thruster.forward if forward else backward, commands).max())
-    if thruster.saturation is not None:
-        most = min(most, thruster.saturation[1] if forward else -thruster.saturation[0])
-    return max(most, 0.0)
-
-
-def _polynomial(coefficients: Numbers, x: Array) -> Array:
-    """``c1 x + c2 x^2 + ...``."""
-    return np.asarray(np.polynomial.polynomial.polyval(x, (0.0, *coefficients)), dtype=np.float64)

@@ -39,8 +39,6 @@ BY_AXIS, BY_SPEED, ABOUT_X, ABOUT_Y, ABOUT_Z = 0.0, 1.0, 2.0, 3.0, 4.0
 
 # an actuator: none of ours, a thruster or a fin
 ROLE, NO_ROLE, PROPELLER, FIN = 0, 0.0, 1.0, 2.0
-MAX_POINTS = 12
-"""Of a table over the advance ratio or the angle of attack."""
 
 # a thruster
 DEAD_ZONE, MIN_THRUST, MAX_THRUST, TORQUE, RADIUS, LAG, FORWARD, BACKWARD = 1, 2, 3, 4, 5, 6, 8, 18

@@ -7,10 +7,10 @@ import functools
 import mujoco
 import numpy as np
 
+from ...scene.hydrodynamics.spec import BodyHydrodynamics, matrix
 from . import callback
-from .file.spec import BodyHydrodynamics, matrix
-from .file.table import prepare
 from .kernel.layout import MujocoChanged
+from .table import prepare
 
 STEP, LOSS = 0.01, 1e-9
 """Of the step that is tried [s], and what it may change of the energy, relative to it."""

@@ -61,7 +61,7 @@ class TrialEnd:
     checkpoints: Checkpoints
     """Fingerprints on the way."""
     motion: bytes
-    """The motion track (`uwsim.tracks`)."""
+    """The motion track (`uwsim.results.motion`)."""
     inputs: bytes = b""
     """What a pilot did (`pilot_inputs`); empty where nobody pilots."""
 

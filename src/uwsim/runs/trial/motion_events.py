@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from ...messages import Marker
+from ...results.motion import DugSand, MarkerChange, MarkerLook, Spot
+from ...results.motion.dug_sand import COLUMNS, NOTHING
 from ...simulation import Simulation
 from ...simulation.markers.lines import MAX_POINTS, look_of, n_points
-from ...tracks import DugSand, MarkerChange, MarkerLook, Spot
-from ...tracks.dug_sand import COLUMNS, NOTHING
 
 MAX_CHANGES = 100_000
 """Of markers in a trial; those after it are not kept."""

@@ -10,11 +10,11 @@ import numpy as np
 from ...base.geometry import Array
 from ...benchmark.ground_truth import CornersFromCameraSpec
 from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, MeasureSpec
+from ...results.motion import RATE, Signal, TrackLevel, track_bytes
+from ...results.motion.motion_track import quantised, steps_of
+from ...results.motion.packing import Table
 from ...simulation import Simulation
 from ...simulation.tracked_state import BRIGHTNESS, LAMP, TrackedState
-from ...tracks import RATE, Signal, TrackLevel, track_bytes
-from ...tracks.motion_track import quantised, steps_of
-from ...tracks.packing import Table
 from .level_row import LevelRow
 from .motion_events import MarkerLog, SandLog
 from .triggered_measure import TriggeredMeasure

@@ -22,7 +22,7 @@ from lxml import etree
 
 from ...errors import SceneError
 from ...schema import Diagnostics, source_line
-from ...xacro import parse_expanded
+from ..xacro import parse_expanded
 from .joints import check_mimics, read_joint, with_leader
 from .links import read_link, read_materials
 from .robot import JointSpec, LinkSpec, RobotSpec

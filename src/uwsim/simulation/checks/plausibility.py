@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Literal
 
 from ...errors import Diagnostic, UwsimError
-from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
 from ...scene.checks.plausibility import VehicleWarning, unless_meant
+from ...scene.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.object import PhysicsSpec
 from ...scene.reader import scene_warnings
 from ...scene.spec import SceneSpec

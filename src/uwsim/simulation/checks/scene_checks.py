@@ -9,7 +9,7 @@ from pathlib import Path
 from ...errors import Diagnostic, SceneError, UwsimError
 from ...physics.compile import object_body
 from ...physics.free_objects import object_errors
-from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
+from ...scene.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
 from ...scene.urdf.reader import read_urdf
 from ...scene.urdf.robot import RobotSpec

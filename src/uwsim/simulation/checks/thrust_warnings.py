@@ -22,7 +22,7 @@ from ...physics.actuation.allocation import (
 )
 from ...physics.actuation.power import greatest_power
 from ...physics.balance import Balance, balance_of
-from ...physics.hydrodynamics.file.spec import VehicleHydrodynamics
+from ...scene.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 

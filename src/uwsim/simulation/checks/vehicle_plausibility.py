@@ -16,8 +16,8 @@ from ...base.numerics.linear import dot
 from ...physics.actuation.allocation import curve, thrusters_on_base
 from ...physics.balance import Balance, balance_of
 from ...physics.compile import MIN_INERTIA
-from ...physics.hydrodynamics.file.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.checks.plausibility import VehicleWarning
+from ...scene.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import LinkSpec, RobotSpec

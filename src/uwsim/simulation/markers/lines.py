@@ -15,7 +15,7 @@ import numpy as np
 from ...base.external_values import MAX_COORDINATE, read_pose
 from ...base.geometry import Array, Pose
 from ...messages import Marker
-from ...tracks import MarkerLook
+from ...results.motion import MarkerLook
 
 MAX_POINTS = 2000
 """Of all markers together; lines beyond are left out."""

@@ -19,8 +19,8 @@ import numpy as np
 
 from ...assets.mesh import Mesh, Model
 from ...base.geometry import Array
+from ...results.motion import GRAIN, Spot
 from ...scene.spec import SceneSpec
-from ...tracks import GRAIN, Spot
 
 CELL = 0.01
 """Width of a column, and what is taken of one at once [m]."""

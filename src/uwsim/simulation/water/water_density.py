@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...physics.hydrodynamics import VehicleHydrodynamics
+from ...scene.hydrodynamics import VehicleHydrodynamics
 from ...scene.ocean_state import MILD, OceanStateSpec
 from ...scene.seawater import sea_water_density
 

@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from ...base.geometry import Array, Intrinsics, Pose
-from ...tracks import MarkerLook
+from ...results.motion import MarkerLook
 from . import overlay
 from .overlay import Pixels
 

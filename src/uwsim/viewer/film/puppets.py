@@ -8,10 +8,10 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...devices.lamp import MountedLamp
+from ...results.motion import MarkerLook, MotionTrack, markers_at
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
 from ...simulation.tracked_state import LAMP
-from ...tracks import MarkerLook, MotionTrack, markers_at
 from ..recorded import RecordedTrial
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
+from ...results.motion import RATE
+from ...results.motion.motion_track import LENGTH, TURN
 from ...simulation import Simulation
 from ...simulation.tracked_state import TrackedState
-from ...tracks import RATE
-from ...tracks.motion_track import LENGTH, TURN
 from ..head import scene_head
 from ..pack import Blob, packed
 

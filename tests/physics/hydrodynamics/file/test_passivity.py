@@ -7,9 +7,9 @@ import pytest
 
 from tests.physics.water_models import free_body
 from uwsim.base.rng import stream
-from uwsim.physics.hydrodynamics import BadHydrodynamics, BodyHydrodynamics
-from uwsim.physics.hydrodynamics.file.checks import body_errors
-from uwsim.physics.hydrodynamics.file.passivity import Kind, bearable_share, driving_motion
+from uwsim.scene.hydrodynamics import BadHydrodynamics, BodyHydrodynamics
+from uwsim.scene.hydrodynamics.checks import body_errors
+from uwsim.scene.hydrodynamics.passivity import Kind, bearable_share, driving_motion
 
 DIAGONAL = (5.0, 8.0, 8.0, 0.5, 0.5, 0.5)
 

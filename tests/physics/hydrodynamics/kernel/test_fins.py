@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import free_body
-from uwsim.physics.hydrodynamics import BadHydrodynamics, BodyHydrodynamics, FinSpec
-from uwsim.physics.hydrodynamics.file.fin_checks import fin_errors
-from uwsim.physics.hydrodynamics.file.table import fin_row
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.physics.hydrodynamics.kernel.fins import FADE, coefficients
+from uwsim.physics.hydrodynamics.table import fin_row
+from uwsim.scene.hydrodynamics import BadHydrodynamics, BodyHydrodynamics, FinSpec
+from uwsim.scene.hydrodynamics.fin_checks import fin_errors
 
 FIN = FinSpec(name="fin", link="body", area=0.02, lift_slope=3.0, drag=0.01, induced_drag=0.1)
 SPEED, DENSITY = 2.0, 1025.0

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from tests.physics.water_models import set_options
-from uwsim.physics.hydrodynamics import BodyHydrodynamics, FinSpec, prepare
+from uwsim.physics.hydrodynamics import prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
+from uwsim.scene.hydrodynamics import BodyHydrodynamics, FinSpec
 
 LEVELS = ((0.0, 1000.0), (10.0, 1010.0), (20.0, 1030.0))
 VOLUME = 0.01

@@ -16,9 +16,12 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ....base.geometry import ZERO, Triple
-from ....errors import UwsimError
-from ....schema import Numbers, Spec, TwoNumbers, element
+from ...base.geometry import ZERO, Triple
+from ...errors import UwsimError
+from ...schema import Numbers, Spec, TwoNumbers, element
+
+MAX_POINTS = 12
+"""Of a table over the advance ratio or the angle of attack."""
 
 DragLaw = Literal["axes", "speed", "x", "y", "z"]
 Shape = Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"]

@@ -41,14 +41,14 @@ from pathlib import Path
 
 from lxml import etree
 
-from ..assets.find import roots
-from ..base.files.input_files import is_inside
-from ..errors import FileError, choices
-from ..schema import Diagnostics, Spec, cut, line_of, parse, read
-from .actuation.power import power_errors
-from .hydrodynamics.file.checks import body_errors, thruster_errors
-from .hydrodynamics.file.fin_checks import fin_errors
-from .hydrodynamics.file.spec import (
+from ...assets.find import roots
+from ...base.files.input_files import is_inside
+from ...errors import FileError, choices
+from ...schema import Diagnostics, Spec, cut, line_of, parse, read
+from .checks import body_errors, thruster_errors
+from .fin_checks import fin_errors
+from .power_checks import power_errors
+from .spec import (
     SIZES,
     BodyHydrodynamics,
     FinSpec,

@@ -7,15 +7,15 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from ....base.geometry import Array
-from ....errors import choices, did_you_mean
-from ....schema import Numbers
-from ..columns import MAX_POINTS
+from ...base.geometry import Array
+from ...errors import choices, did_you_mean
+from ...schema import Numbers
 from .fin_checks import fin_errors
 from .number_checks import beyond_limits, listed, number_errors, words
 from .passivity import Kind, bearable_share, driving_motion
 from .spec import (
     LIQUIDS,
+    MAX_POINTS,
     N_CURVE,
     SIZES,
     BodyHydrodynamics,

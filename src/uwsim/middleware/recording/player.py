@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Mapping
 
-from ..bus import Node
+from ...bus import Node
 from .bag_reader import BagReader
 
 PREFIX = "/recorded"

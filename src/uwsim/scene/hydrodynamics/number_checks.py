@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
-from ....schema import fields_of
+from ...schema import fields_of
 
 if TYPE_CHECKING:
     from _typeshed import DataclassInstance

@@ -23,10 +23,10 @@ from rosbags.interfaces import (
 )
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-from ..base.interrupts import ignoring_interrupts
-from ..middleware.bridge import DEPTH, LATCHED, LATCHED_DEPTH
-from ..middleware.encodings import to_cdr
-from ..middleware.types import WireType, ros2_store
+from ...base.interrupts import ignoring_interrupts
+from ..bridge import DEPTH, LATCHED, LATCHED_DEPTH
+from ..encodings import to_cdr
+from ..types import WireType, ros2_store
 
 SUFFIX = ".mcap"
 BAG = "recording"

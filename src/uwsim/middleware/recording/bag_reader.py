@@ -15,11 +15,11 @@ from typing import Any, Self
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
-from ..errors import AssetError, BadMessage, UnknownName
-from ..messages.build import NANOSECONDS
-from ..middleware.encodings import of_class
-from ..middleware.stamps import moved
-from ..middleware.types import message_class
+from ...errors import AssetError, BadMessage, UnknownName
+from ...messages.build import NANOSECONDS
+from ..encodings import of_class
+from ..stamps import moved
+from ..types import message_class
 
 WALL_TIME = 10**8 * NANOSECONDS
 """Later than this is a time of the wall clock [ns]; no simulation is as long."""

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..base.files.input_files import read_bytes
-from ..errors import AssetError
+from ...base.files.input_files import read_bytes
+from ...errors import AssetError
 from .expression import CONSTANTS, evaluate
 from .value import ExpressionError, Value, checked
 

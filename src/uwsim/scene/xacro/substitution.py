@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..errors import did_you_mean
+from ...errors import did_you_mean
 from .expression import CONSTANTS, evaluate
 from .functions import FUNCTIONS
 from .scope import literal_of

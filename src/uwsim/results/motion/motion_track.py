@@ -31,7 +31,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..errors import ResultError
+from ...errors import ResultError
 from .dug_sand import COLUMNS, GRAIN, NOTHING, DugSand
 from .marker_log import MarkerChange, as_json, from_json
 from .packing import BYTES, Table, shuffled, unshuffled

@@ -11,10 +11,10 @@ from typing import Any
 
 from rosbags.rosbag1 import Writer
 
-from ..base.interrupts import ignoring_interrupts
-from ..middleware.bridge import LATCHED
-from ..middleware.encodings import to_ros1
-from ..middleware.types import WireType, ros1_store
+from ...base.interrupts import ignoring_interrupts
+from ..bridge import LATCHED
+from ..encodings import to_ros1
+from ..types import WireType, ros1_store
 
 SUFFIX = ".bag"
 

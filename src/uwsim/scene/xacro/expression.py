@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from ..errors import did_you_mean
+from ...errors import did_you_mean
 from .functions import FUNCTIONS, formatted, method, repeated
 from .value import MAX_LENGTH, ExpressionError, Value, checked, written
 

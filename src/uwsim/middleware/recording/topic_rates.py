@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from ..bus import OBSERVER, Bus
+from ...bus import OBSERVER, Bus
 
 
 @dataclass(frozen=True, kw_only=True)

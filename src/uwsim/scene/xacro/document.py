@@ -8,8 +8,8 @@ from pathlib import Path, PurePosixPath
 
 from lxml import etree
 
-from ..errors import AssetError, FileError
-from ..schema import Document, Expansion, parse
+from ...errors import AssetError, FileError
+from ...schema import Document, Expansion, parse
 from .expander import XACRO, XINCLUDE, Expander, NotFound, namespace_of
 from .value import ExpressionError
 
@@ -65,7 +65,7 @@ class _NamedFiles:
         Of a package that is not found only a file of the same path counts: the content of another
         file of that name, or of the one that names it, would be taken without a word.
         """
-        from ..assets import find, searched_for
+        from ...assets import find, searched_for
 
         try:
             found = find(name, named_by=named_by, data_path=self._data_path)
@@ -82,14 +82,14 @@ class _NamedFiles:
 
     def place_remark(self, name: str, path: Path, named_by: Path) -> str:
         """Say that a file was found elsewhere than its name states; empty if it is there."""
-        from ..assets import place_remark
+        from ...assets import place_remark
 
         return place_remark(name, path, named_by=named_by, data_path=self._data_path)
 
 
 def _is_guess(name: str, found: Path, named_by: Path) -> bool:
     """Whether a file of a package has another path than its name states, or names itself."""
-    from ..assets.packages import OURS, package_of
+    from ...assets.packages import OURS, package_of
 
     in_package = package_of(name)
     if in_package is None or in_package[0] == OURS:

@@ -9,12 +9,18 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ....base.geometry import quaternion_from_rotation
-from ....base.numerics.linear import length
-from .. import columns as c
-from .checks import body_errors, density_errors, thruster_errors
-from .fin_checks import fin_errors
-from .spec import BadHydrodynamics, BodyHydrodynamics, FinSpec, ThrusterSpec, matrix
+from ...base.geometry import quaternion_from_rotation
+from ...base.numerics.linear import length
+from ...scene.hydrodynamics.checks import body_errors, density_errors, thruster_errors
+from ...scene.hydrodynamics.fin_checks import fin_errors
+from ...scene.hydrodynamics.spec import (
+    BadHydrodynamics,
+    BodyHydrodynamics,
+    FinSpec,
+    ThrusterSpec,
+    matrix,
+)
+from . import columns as c
 
 _SHAPES = {
     "sphere": c.SPHERE, "ellipsoid": c.ELLIPSOID, "box": c.BOX, "cylinder": c.CYLINDER,

@@ -18,8 +18,8 @@ from typing import Literal
 
 import numpy as np
 
-from ....base.geometry import Array
-from ....base.rng import stream
+from ...base.geometry import Array
+from ...base.rng import stream
 
 TOLERANCE = 1e-6
 """Of a power below 0, where each axis alone takes 1 [1]."""

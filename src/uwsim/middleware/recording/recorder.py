@@ -7,12 +7,12 @@ from pathlib import Path
 from types import TracebackType
 from typing import Literal, Self, get_args
 
-from ..bus import OBSERVER, Bus
-from ..errors import BadSetting, RunFailed, did_you_mean
-from ..messages import CompressedImage, Image, PointCloud2
-from ..messages.build import NANOSECONDS
-from ..messages.compressed import as_png
-from ..middleware.types import WireType, wire_type
+from ...bus import OBSERVER, Bus
+from ...errors import BadSetting, RunFailed, did_you_mean
+from ...messages import CompressedImage, Image, PointCloud2
+from ...messages.build import NANOSECONDS
+from ...messages.compressed import as_png
+from ..types import WireType, wire_type
 from .bag_file import BagFile
 from .mcap_file import McapFile
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
-from ..errors import did_you_mean
+from ...errors import did_you_mean
 from .expression import CONSTANTS, Functions, evaluate, literal
 from .value import MAX_LENGTH, ExpressionError, Value, written
 

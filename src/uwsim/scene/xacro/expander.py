@@ -14,8 +14,8 @@ from typing import Protocol, cast
 
 from lxml import etree
 
-from ..errors import Diagnostic, FileError, choices
-from ..schema import MAX_NODES, Diagnostics
+from ...errors import Diagnostic, FileError, choices
+from ...schema import MAX_NODES, Diagnostics
 from .functions import FUNCTIONS
 from .macro import Macro, parameters_of
 from .scope import Scope, literal_of

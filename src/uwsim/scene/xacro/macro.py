@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from lxml import etree
 
-from ..errors import did_you_mean
+from ...errors import did_you_mean
 from .scope import Scope, literal_of
 from .value import ExpressionError, Value
 

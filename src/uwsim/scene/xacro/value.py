@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import ItemsView, KeysView, ValuesView
 from typing import Any
 
-from ..errors import UwsimError
+from ...errors import UwsimError
 
 Value = int | float | bool | str | list[Any] | dict[Any, Any] | None
 """A list holds values, a dictionary values by texts or numbers; None is YAML's null."""

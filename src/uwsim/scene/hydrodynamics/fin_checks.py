@@ -6,11 +6,10 @@ import math
 
 import numpy as np
 
-from ....base.numerics.linear import length
-from ....schema import Numbers
-from ..columns import MAX_POINTS
+from ...base.numerics.linear import length
+from ...schema import Numbers
 from .number_checks import beyond_limits, listed, number_errors
-from .spec import FinSpec
+from .spec import MAX_POINTS, FinSpec
 
 ALONG = 0.1
 """A chord that is turned less than this out of the axis is along it [rad]."""

@@ -6,7 +6,7 @@ from contextlib import suppress
 from importlib.resources import files
 from pathlib import Path
 
-from ..errors import UnknownName
+from ...errors import UnknownName
 
 HEAD = 65536
 """Bytes of a file in which its root element begins."""

@@ -1,1 +1,0 @@
-"""What a hydrodynamics file says: specs, their errors, and the numbers for the kernel."""

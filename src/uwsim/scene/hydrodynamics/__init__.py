@@ -1,0 +1,21 @@
+"""What a hydrodynamics file says of a vehicle: specs, their reader, and their errors."""
+
+from __future__ import annotations
+
+from .checks import vehicle_errors
+from .spec import (
+    BadHydrodynamics,
+    BodyHydrodynamics,
+    FinSpec,
+    ThrusterSpec,
+    VehicleHydrodynamics,
+)
+
+__all__ = [
+    "BadHydrodynamics",
+    "BodyHydrodynamics",
+    "FinSpec",
+    "ThrusterSpec",
+    "VehicleHydrodynamics",
+    "vehicle_errors",
+]
