@@ -13,7 +13,7 @@ from tests.documented import commands
 from uwsim.assets.bundled import bundled
 from uwsim.cli import COMMANDS
 from uwsim.cli.app import build
-from uwsim.reference import reference
+from scripts.reference import command_line
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted(
@@ -61,7 +61,7 @@ def test_every_call_within_a_sentence_names_a_command_that_has_those_options(pag
     for call in INLINE.findall(page.read_text()):
         words = call.split()
         if words[1] in COMMANDS:
-            known = set(OPTION.findall(reference.section("", words[1], "--help")))
+            known = set(OPTION.findall(command_line.section("", words[1], "--help")))
             assert set(OPTION.findall(call)) <= known, call
 
 
@@ -116,7 +116,7 @@ def test_every_link_to_a_heading_leads_to_one(page: Path) -> None:
 
 def test_the_page_of_the_command_line_is_what_the_program_prints() -> None:
     written = (ROOT / "docs" / "command-line.md").read_text()
-    assert written == reference.page(), "run scripts/docs"
+    assert written == command_line.page(), "run scripts/docs"
 
 
 def test_every_document_is_reached_from_the_index() -> None:

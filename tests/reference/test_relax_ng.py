@@ -10,7 +10,7 @@ import pytest
 from lxml import etree
 
 from uwsim.benchmark.reader import check_benchmark
-from uwsim.reference.relax_ng import benchmark_grammar, scene_grammar
+from scripts.reference.relax_ng import benchmark_grammar, scene_grammar
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "src" / "uwsim" / "data"

@@ -10,7 +10,7 @@ from lxml import etree
 
 from uwsim.base.geometry import Pose
 from uwsim.messages import LaserScan, PointCloud2, Twist, Vector3, points
-from uwsim.reference.relax_ng import scene_grammar
+from scripts.reference.relax_ng import scene_grammar
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.simulation import Simulation
 

@@ -11,12 +11,12 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from ..cli.list import clark, devices, limit_in, sensors
-from ..runs.tables import bundled_tables
-from ..schema import fields_of
-from ..schema.names import local
-from ..sensors import SENSORS
-from ..topics import INTERFACES
+from uwsim.cli.list import clark, devices, limit_in, sensors
+from uwsim.runs.tables import bundled_tables
+from uwsim.schema import fields_of
+from uwsim.schema.names import local
+from uwsim.sensors import SENSORS
+from uwsim.topics import INTERFACES
 
 TABLE = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
 COMMON = ("name", "relativeTo")

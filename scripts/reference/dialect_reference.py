@@ -14,9 +14,9 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from ..cli.list import clark
-from ..schema import Field, fields_of
-from ..schema.names import local
+from uwsim.cli.list import clark
+from uwsim.schema import Field, fields_of
+from uwsim.schema.names import local
 from .relax_ng import benchmark_grammar, scene_grammar
 
 HEAD = """\
@@ -52,9 +52,9 @@ today's names only, without the limits of numbers and the elements of plugins.
 
 def page() -> str:
     """Return ``docs/dialect.md``."""
-    from ..scene.reader import ROOT
-    from ..scene.spec import SceneSpec
-    from ..scene.unsupported import limit_of
+    from uwsim.scene.reader import ROOT
+    from uwsim.scene.spec import SceneSpec
+    from uwsim.scene.unsupported import limit_of
 
     parts = [HEAD]
     done: set[type] = set()
@@ -68,7 +68,7 @@ def page() -> str:
 
 def _plausibility_warnings() -> str:
     """The plausibility warnings of `uwsim check`."""
-    from ..scene.checks.plausibility import PLAUSIBILITY_WARNINGS
+    from uwsim.scene.checks.plausibility import PLAUSIBILITY_WARNINGS
 
     lines = [
         "## Plausibility warnings", "",
@@ -86,7 +86,7 @@ def _plausibility_warnings() -> str:
 
 def _old_names() -> str:
     """Elements of files from 2011 to 2019."""
-    from ..scene.legacy import ANYWHERE, RULES
+    from uwsim.scene.legacy import ANYWHERE, RULES
 
     by_parent: dict[str, list[str]] = {}
     for parent, element in RULES:
@@ -105,11 +105,11 @@ def _old_names() -> str:
 
 def benchmark_page() -> str:
     """Return ``docs/benchmark-dialect.md``."""
-    from ..benchmark.ground_truth import GROUND_TRUTHS
-    from ..benchmark.measures import MEASURES
-    from ..benchmark.spec import BenchmarkSpec, FunctionSpec
-    from ..benchmark.triggers import TRIGGERS
-    from ..benchmark.updaters import UPDATERS
+    from uwsim.benchmark.ground_truth import GROUND_TRUTHS
+    from uwsim.benchmark.measures import MEASURES
+    from uwsim.benchmark.spec import BenchmarkSpec, FunctionSpec
+    from uwsim.benchmark.triggers import TRIGGERS
+    from uwsim.benchmark.updaters import UPDATERS
 
     families: tuple[tuple[str, str, Mapping[str, type]], ...] = (
         ("Measures", "<{}>", MEASURES),
@@ -134,8 +134,8 @@ def benchmark_page() -> str:
 
 def _scene_homes() -> dict[type, str]:
     """Where the section of each spec of a scene is: that of the first name it has in files."""
-    from ..scene.reader import ROOT
-    from ..scene.spec import SceneSpec
+    from uwsim.scene.reader import ROOT
+    from uwsim.scene.spec import SceneSpec
 
     homes: dict[type, str] = {}
     for _, name, cls in _specs("", ROOT, SceneSpec):
@@ -171,7 +171,7 @@ def _section(
         limit: how far it is simulated; empty: wholly.
         homes: where the sections of specs are; of others under their own name on this page.
     """
-    from ..scene.unsupported import limit_of
+    from uwsim.scene.unsupported import limit_of
 
     doc = (inspect.getdoc(cls) or "").strip()
     module = sys.modules[cls.__module__].__doc__ or ""

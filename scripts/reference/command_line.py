@@ -7,7 +7,7 @@ import io
 import os
 import unittest.mock
 
-from ..cli.app import COMMANDS, main
+from uwsim.cli.app import COMMANDS, main
 
 HEAD = """\
 # The command line

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 
 from lxml import etree
 
-from ..schema import NAMESPACE, TOKENS, Field, fields_of
+from uwsim.schema import NAMESPACE, TOKENS, Field, fields_of
 
 RNG = "http://relaxng.org/ns/structure/1.0"
 TYPES = "http://www.w3.org/2001/XMLSchema-datatypes"
@@ -30,19 +30,19 @@ Members = Callable[[etree._Element, Family], None]
 
 def scene_grammar() -> str:
     """Return ``docs/grammar/uwsim-scene.rng``."""
-    from ..scene.reader import ROOT
-    from ..scene.spec import SceneSpec
+    from uwsim.scene.reader import ROOT
+    from uwsim.scene.spec import SceneSpec
 
     return _grammar(ROOT, SceneSpec, {})
 
 
 def benchmark_grammar() -> str:
     """Return ``docs/grammar/uwsim-benchmark.rng``."""
-    from ..benchmark.ground_truth import GROUND_TRUTHS, GroundTruthSpec
-    from ..benchmark.measures import MEASURES, MeasureSpec
-    from ..benchmark.spec import BenchmarkSpec
-    from ..benchmark.triggers import TRIGGERS, TriggerSpec
-    from ..benchmark.updaters import UPDATERS, SceneUpdaterSpec
+    from uwsim.benchmark.ground_truth import GROUND_TRUTHS, GroundTruthSpec
+    from uwsim.benchmark.measures import MEASURES, MeasureSpec
+    from uwsim.benchmark.spec import BenchmarkSpec
+    from uwsim.benchmark.triggers import TRIGGERS, TriggerSpec
+    from uwsim.benchmark.updaters import UPDATERS, SceneUpdaterSpec
 
     families: dict[type, tuple[Family, Members]] = {
         MeasureSpec: (MEASURES, _by_element),
