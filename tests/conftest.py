@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-pytest_plugins = ["tests.crashed_processes"]
+pytest_plugins = ["tests.support.crashed_processes"]
 
 settings.register_profile(
     "any computer", deadline=None, suppress_health_check=[HealthCheck.too_slow]

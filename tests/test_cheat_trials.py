@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cheat_trials import (
+from tests.support.cheat_trials import (
     CHEATS,
     GAINS,
     Bursts,
@@ -17,7 +17,7 @@ from tests.cheat_trials import (
     errors,
     trial,
 )
-from tests.short_trial import rows_of
+from tests.support.short_trial import rows_of
 
 
 @pytest.mark.slow

@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 from typer.main import get_command
 
-from tests.documented import commands
+from scripts.reference import command_line
+from tests.support.documented import commands
 from uwsim.assets.bundled import bundled
 from uwsim.cli import COMMANDS
 from uwsim.cli.app import build
-from scripts.reference import command_line
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted(

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.documented import commands, is_said, write_files
+from tests.support.documented import commands, is_said, write_files
 from uwsim.cli import main
 from uwsim.scene.reader import read_scene
 

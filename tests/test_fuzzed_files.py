@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.fuzzed_files import TARGETS, trial
+from tests.support.fuzzed_files import TARGETS, trial
 
 
 @pytest.mark.parametrize("target", sorted(TARGETS))

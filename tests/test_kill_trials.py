@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.kill_trials import KINDS, Workplace, prepare, trial
+from tests.support.kill_trials import KINDS, Workplace, prepare, trial
 
 SEED = 9
 

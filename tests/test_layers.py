@@ -12,15 +12,16 @@ PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
 
 MAX_MODULES = 20
 
-GROUND = {"errors", "base", "acoustics", "rays", "schema", "tracks"}
+GROUND = {"errors", "version", "base", "acoustics", "rays", "schema"}
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
-PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets", "xacro"}
+PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}
 ENGINES = PARTS | {"physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
 MAY_IMPORT: dict[str, set[str]] = {
     **{room: GROUND for room in GROUND},
     "errors": {"errors"},
+    "version": {"version"},
     "base": {"errors", "base"},
     "network": GROUND | {"network"},
     "messages": BASE,
@@ -29,17 +30,15 @@ MAY_IMPORT: dict[str, set[str]] = {
     "vehicle": BASE,
     "statistics": GROUND | {"statistics"},
     "middleware": BASE | {"middleware"},
-    "recording": BASE | {"middleware", "recording"},
     "currents": BASE | {"currents"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
     "topics": BASE | {"sensors", "devices", "topics"},
-    "scene": BASE | {"currents", "sensors", "devices", "topics", "scene", "xacro"},
+    "scene": BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"},
     "assets": BASE | {"assets"},
-    "xacro": GROUND | {"assets", "xacro"},
     "physics": PARTS | {"physics"},
     "rendering": PARTS | {"rendering"},
-    "simulation": ENGINES | {"simulation"},
+    "simulation": ENGINES | {"results", "simulation"},
     "algorithms": {
         *("messages", "bus", "base", "errors", "algorithms"),
     },
@@ -49,17 +48,14 @@ MAY_IMPORT: dict[str, set[str]] = {
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
-    "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "recording", "viewer"},
+    "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
     "__main__": {"cli", "base"},
     "cli": (
-        TASKS
-        | ENGINES
-        | {"runs", "analysis", "envelope", "verify", "middleware", "recording", "viewer", "cli"}
+        TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "middleware", "viewer", "cli"}
     ),
-    "reference": PARTS | {"algorithms", "benchmark", "runs", "cli", "reference"},
 }
 MAY_IMPORT["api"] = MAY_IMPORT["cli"]
-"""Room -> rooms it may import from. The package itself (``__version__``) is open to all."""
+"""Room -> rooms it may import from."""
 
 
 def modules() -> list[Path]:
@@ -101,7 +97,7 @@ def test_a_module_imports_only_from_its_own_room_and_from_those_above_it() -> No
         f"{path.relative_to(PACKAGE)}:{line} imports {target}"
         for path in modules()
         for line, target in rooms_imported(path)
-        if target not in may_import(room_of(path)) | {"__version__"}
+        if target not in may_import(room_of(path))
     ]
     assert wrong == []
 

@@ -98,7 +98,7 @@ same, too, and takes minutes to compile: ``benchmarks/`` has it."""
 def hashes(**variables: str) -> dict[str, str]:
     """Play a little of everything in a process of its own, and return what came out, as hashes."""
     done = subprocess.run(
-        [sys.executable, "-m", "tests.byte_hashes"],
+        [sys.executable, "-m", "tests.support.byte_hashes"],
         cwd=PACKAGE.parent.parent,
         env={**os.environ, **variables},
         capture_output=True,

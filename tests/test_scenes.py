@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.whole_scene import SceneRun, run_scene
+from tests.support.whole_scene import SceneRun, run_scene
 from uwsim.assets.bundled import bundled
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.sonar.message import amplitudes

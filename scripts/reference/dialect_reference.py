@@ -17,6 +17,7 @@ from types import MappingProxyType
 from uwsim.cli.list import clark
 from uwsim.schema import Field, fields_of
 from uwsim.schema.names import local
+
 from .relax_ng import benchmark_grammar, scene_grammar
 
 HEAD = """\

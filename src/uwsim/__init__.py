@@ -15,6 +15,8 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
+from .version import __version__
+
 if TYPE_CHECKING:
     from . import messages
     from .api import bench, check, compare, load, read_result
@@ -26,8 +28,6 @@ if TYPE_CHECKING:
     from .simulation import Simulation
     from .simulation.access.boxes import OrientedBox
     from .viewer.replay import Replay
-
-__version__ = "0.2.0.dev0"
 
 __all__ = [
     "Algorithm",

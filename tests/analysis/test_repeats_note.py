@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.compared_results import entries, noisy
-from tests.short_benchmark import write_benchmark
+from tests.support.compared_results import entries, noisy
+from tests.support.short_benchmark import write_benchmark
 from uwsim.analysis.comparison import compare, shared_column
 from uwsim.analysis.repeats_note import repeats_note
 from uwsim.cli import main
@@ -18,7 +18,14 @@ def test_bench_says_at_the_start_how_many_repeats_a_comparison_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     benchmark = str(write_benchmark(tmp_path, "0.1"))
-    call = ["bench", benchmark, "--algorithm", "frozen", "--algorithm", "tests.failing:Raises"]
+    call = [
+        "bench",
+        benchmark,
+        "--algorithm",
+        "frozen",
+        "--algorithm",
+        "tests.support.failing:Raises",
+    ]
     main([*call, "--level", "fog=0", "--out", str(tmp_path / "out")])
     first = capsys.readouterr().err.splitlines()[0]
     assert first == (

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.fuzzed_obj import trial
+from tests.support.fuzzed_obj import trial
 from uwsim.assets import why_unreadable
 from uwsim.assets.loaders import read_model
 from uwsim.errors import AssetError

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.fuzzed_results import FILES, TARGETS, Sound, damaged, made, trial
+from tests.support.fuzzed_results import FILES, TARGETS, Sound, damaged, made, trial
 from uwsim.errors import ResultError
 from uwsim.results.result_file import load, loads
 

@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from tests.short_benchmark import BENCHMARK, run
-from tests.synthetic_results import visibility
+from tests.support.short_benchmark import BENCHMARK, run
+from tests.support.synthetic_results import visibility
 from uwsim.analysis.plots import draw_plots
 from uwsim.assets.bundled import bundled
 from uwsim.cli.bench import folders_of

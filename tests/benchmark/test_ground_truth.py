@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.fakes import FakeBody, FakeCamera, FakeWorld
+from tests.support.fakes import FakeBody, FakeCamera, FakeWorld
 from uwsim.base.geometry import Pose, rotation_from_rpy, rotation_from_xyz, rotation_z
 from uwsim.benchmark.ground_truth import (
     CentroidFromCameraSpec,

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.hostile import ATTACKS, TOPIC, Attacker, Dies, Hangs, Honest, Patches
-from tests.short_trial import INIT, TIME, make_plan, rows_of, with_algorithm
+from tests.support.hostile import ATTACKS, TOPIC, Attacker, Dies, Hangs, Honest, Patches
+from tests.support.short_trial import INIT, TIME, make_plan, rows_of, with_algorithm
 from uwsim.bus import Node
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float32MultiArray, PoseStamped, floats, header

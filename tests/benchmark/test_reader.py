@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 import uwsim
-from tests.fakes import FakeBody, FakeCamera, FakeWorld
+from tests.support.fakes import FakeBody, FakeCamera, FakeWorld
 from uwsim.benchmark.ground_truth import (
     CentroidFromCameraSpec,
     ConstantSpec,

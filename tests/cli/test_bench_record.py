@@ -10,7 +10,7 @@ import pytest
 from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
-from tests.short_benchmark import fingerprint, write_benchmark
+from tests.support.short_benchmark import fingerprint, write_benchmark
 from uwsim.cli import main
 from uwsim.results.journal import path_of
 from uwsim.results.result_file import load

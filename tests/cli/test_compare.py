@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.compared_results import made, noisy, saved
+from tests.support.compared_results import made, noisy, saved
 from uwsim.analysis.comparison import write
 from uwsim.cli import main
 from uwsim.results.result_file import save

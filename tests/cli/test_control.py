@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import bench_of, write_benchmark
-from tests.short_trial import with_algorithm
+from tests.support.short_benchmark import bench_of, write_benchmark
+from tests.support.short_trial import with_algorithm
 from uwsim.cli import main
 from uwsim.runs import control
 from uwsim.runs.control import control_of, image_topic

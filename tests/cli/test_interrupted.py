@@ -15,8 +15,8 @@ from typing import Any
 
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
-from tests.waiting import LIMIT
+from tests.support.short_benchmark import run, write_benchmark
+from tests.support.waiting import LIMIT
 from uwsim.base import interrupts
 from uwsim.base.numerics.compiling import one_is_compiled
 from uwsim.runs.executors import executor

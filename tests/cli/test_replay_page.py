@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
+from tests.support.short_benchmark import run, write_benchmark
 from uwsim.analysis.report import write_report
 from uwsim.cli.replay import opened, recorded, show_page
 from uwsim.errors import BadSetting, UwsimError

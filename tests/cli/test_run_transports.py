@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.waiting import free_port
+from tests.support.waiting import free_port
 from uwsim.cli import main
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from tests.short_benchmark import write_benchmark
+from tests.support.short_benchmark import write_benchmark
 from uwsim.assets.bundled import bundled
 from uwsim.cli import main
 from uwsim.results.leaves import leaves

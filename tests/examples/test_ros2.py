@@ -15,9 +15,9 @@ from typing import Any
 
 import pytest
 
-from tests.byte_hashes import short_currents
-from tests.keep_station import LEVELS, scored_in_process, short_benchmark
-from tests.ros2_peers import (
+from tests.support.byte_hashes import short_currents
+from tests.support.keep_station import LEVELS, scored_in_process, short_benchmark
+from tests.support.ros2_peers import (
     BOUND_S,
     PYTHON,
     ROOT,
@@ -30,7 +30,7 @@ from tests.ros2_peers import (
     peer,
     until,
 )
-from tests.short_benchmark import BENCHMARK, write_benchmark
+from tests.support.short_benchmark import BENCHMARK, write_benchmark
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
+from tests.support.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
 from uwsim.errors import AssetError, UnknownName
 from uwsim.messages import Time
 from uwsim.messages.bag_camera import Recording, camera_info

@@ -8,7 +8,7 @@ import subprocess
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from tests.ros1_peers import PYTHON, needs_ros1
+from tests.support.ros1_peers import PYTHON, needs_ros1
 from uwsim import messages
 from uwsim.messages.services import GTpublish, SpawnMarker
 from uwsim.middleware.types import service_of, wire_service, wire_type

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.middleware.hosts import Host, two_hosts
-from tests.ros1_peers import EXAMPLES, PYTHON, needs_ros1
-from tests.waiting import LIMIT
+from tests.support.ros1_peers import EXAMPLES, PYTHON, needs_ros1
+from tests.support.waiting import LIMIT
 
 pytestmark = pytest.mark.slow
 ROSPY_WATCHER = """

@@ -12,7 +12,7 @@ from rosbags.highlevel import AnyReader
 from rosbags.typesys import Stores, get_typestore
 
 from tests.recording.test_recorder import PIXELS, record
-from tests.ros1_peers import needs_ros1
+from tests.support.ros1_peers import needs_ros1
 from uwsim.bus import Bus
 from uwsim.errors import AssetError, BadSetting
 from uwsim.messages import MeshFile, Odometry, header

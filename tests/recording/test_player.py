@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 
-from tests.bags import sample_pixels, write_bag
+from tests.support.bags import sample_pixels, write_bag
 from uwsim.messages import Float64, Odometry, Pose, header
 from uwsim.middleware.encodings import to_cdr
 from uwsim.middleware.recording import BagReader, Player, Recorder

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from scripts.reference import dialect_reference
 from uwsim.benchmark.ground_truth import GROUND_TRUTHS
 from uwsim.benchmark.measures import MEASURES
 from uwsim.benchmark.triggers import TRIGGERS
 from uwsim.benchmark.updaters import UPDATERS
-from scripts.reference import dialect_reference
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.schema import fields_of
 

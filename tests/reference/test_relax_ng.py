@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
-from uwsim.benchmark.reader import check_benchmark
 from scripts.reference.relax_ng import benchmark_grammar, scene_grammar
+from uwsim.benchmark.reader import check_benchmark
 
 ROOT = Path(__file__).parents[2]
 DATA = ROOT / "src" / "uwsim" / "data"

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from scripts.reference.sensor_tables import filled
 from uwsim import messages
 from uwsim.devices import DEVICES
-from scripts.reference.sensor_tables import filled
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.unsupported import UNSUPPORTED, limit_of
 from uwsim.schema.names import local

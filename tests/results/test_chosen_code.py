@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.compared_results import made
-from tests.stored_rows import stored_row
+from tests.support.compared_results import made
+from tests.support.stored_rows import stored_row
 from uwsim.analysis.report.configuration import machine as shown
 from uwsim.errors import ReplayDiffers
 from uwsim.results import journal

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from tests.stored_rows import stored_end, stored_row
+from tests.support.stored_rows import stored_end, stored_row
 from uwsim.errors import ReplayDiffers, ResultError
 from uwsim.results.journal import Journal, Stored, path_of, read
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from tests.compared_results import made
-from tests.stored_rows import stored_end, stored_row
+from tests.support.compared_results import made
+from tests.support.stored_rows import stored_end, stored_row
 from uwsim.analysis.comparison import read_entries, remarks
 from uwsim.analysis.report import write_report
 from uwsim.cli import main

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 
-from tests.synthetic_results import one_level, visibility
+from tests.support.synthetic_results import one_level, visibility
 from uwsim.results.inputs import Inputs
 from uwsim.results.per_level import per_level, rows_by_level, seeds_of, success_per_level
 from uwsim.results.result import Column, Missing, Result

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.errors import ResultError
 from uwsim.results import journal
 from uwsim.results.seal import Keeper, Seal

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from tests.synthetic_results import WHY, nested, nothing_measured, one_level, visibility
+from tests.support.synthetic_results import WHY, nested, nothing_measured, one_level, visibility
 from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Remark, Result

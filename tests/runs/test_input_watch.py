@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_trial import INIT, make_plan, with_algorithm
+from tests.support.short_trial import INIT, make_plan, with_algorithm
 from uwsim.base.files.input_files import InputFile, hash_of
 from uwsim.bus import Node
 from uwsim.errors import RunFailed

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import bench_of, fingerprint, write_benchmark
+from tests.support.short_benchmark import bench_of, fingerprint, write_benchmark
 from uwsim.errors import ReplayDiffers
 from uwsim.results.journal import path_of, track_path
 from uwsim.runs.executors.executor import run_all

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
+from tests.support.short_benchmark import run, write_benchmark
 from uwsim.analysis.report import render
 from uwsim.results.result_file import dumps
 from uwsim.results.table import lines

@@ -13,8 +13,8 @@ from typing import Any, ClassVar
 
 import pytest
 
-from tests.cheat_trials import Holds, bench_of
-from tests.short_benchmark import write_benchmark
+from tests.support.cheat_trials import Holds, bench_of
+from tests.support.short_benchmark import write_benchmark
 from uwsim.results.motion import load_track
 from uwsim.results.seal import PR_SET_DUMPABLE, deny_access_to_memory
 from uwsim.runs.executors.executor import run_each

@@ -15,7 +15,7 @@ SOAK = """
 import ctypes, gc, sys
 from pathlib import Path
 sys.path.insert(0, sys.argv[1])
-from tests.short_benchmark import bench_of
+from tests.support.short_benchmark import bench_of
 from uwsim.runs.executors.executor import Job, run_and_record
 from uwsim.simulation import Calls, RendererPool
 
@@ -39,7 +39,7 @@ for i, trial in enumerate(run.begin(), 1):
 
 @pytest.mark.slow
 def test_a_hundred_trials_of_a_scene_that_varies_take_no_more_memory(tmp_path: Path) -> None:
-    from tests.short_benchmark import BENCHMARK
+    from tests.support.short_benchmark import BENCHMARK
 
     text = BENCHMARK.replace("visibility-scene.xml", "visibility-moving-scene.xml")
     text = text.replace("<finalValue>1.0</finalValue>", "<finalValue>0.0</finalValue>")

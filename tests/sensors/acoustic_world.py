@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from tests.fakes import FakeBody
+from tests.support.fakes import FakeBody
 from uwsim.acoustics import MATERIALS, Material, SeaWater
 from uwsim.base import rng
 from uwsim.base.geodesy import Geodetic

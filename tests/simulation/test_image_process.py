@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import uwsim
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.messages import Image, Odometry
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation

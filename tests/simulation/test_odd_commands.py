@@ -13,7 +13,7 @@ from tests.middleware.ros1.nodes import Graph
 from tests.middleware.test_bridge import Seen
 from tests.middleware.web.test_web import Setting, send
 from tests.simulation.girona500 import make
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.bus import Node
 from uwsim.messages import (
     Float64MultiArray,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from lxml import etree
 
+from scripts.reference.relax_ng import scene_grammar
 from uwsim.base.geometry import Pose
 from uwsim.messages import LaserScan, PointCloud2, Twist, Vector3, points
-from scripts.reference.relax_ng import scene_grammar
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.simulation import Simulation
 

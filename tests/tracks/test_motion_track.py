@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
+from tests.support.short_benchmark import run, write_benchmark
 from uwsim.errors import ResultError
 from uwsim.results.journal import track_path
 from uwsim.results.motion import Signal, TrackLevel, load_track, read_track, track_bytes

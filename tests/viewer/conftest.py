@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
+from tests.support.short_benchmark import run, write_benchmark
 
 CHROMIUM = "/usr/bin/chromium"
 ARGUMENTS = [

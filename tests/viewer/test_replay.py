@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
-from tests.short_trial import DATA
+from tests.support.short_benchmark import run, write_benchmark
+from tests.support.short_trial import DATA
 from uwsim.errors import ResultError
 from uwsim.results.log import load_log
 from uwsim.results.motion import TrackLevel

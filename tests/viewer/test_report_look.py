@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.synthetic_results import visibility
+from tests.support.synthetic_results import visibility
 from uwsim.analysis.report import write_report
 from uwsim.results.result_file import save
 

@@ -13,7 +13,7 @@ from mcap_ros2.decoder import DecoderFactory
 from websockets.sync.client import connect
 
 import uwsim
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.cli import main
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions

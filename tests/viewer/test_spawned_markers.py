@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import uwsim
-from tests import marking
-from tests.marking import BEGIN, BOX, FLASH, GONE, MOVED
-from tests.short_benchmark import run, write_benchmark
 from tests.simulation.markers.test_lines import marker
+from tests.support import marking
+from tests.support.marking import BEGIN, BOX, FLASH, GONE, MOVED
+from tests.support.short_benchmark import run, write_benchmark
 from uwsim.errors import ResultError
 from uwsim.messages import Marker, Point, SpawnMarker
 from uwsim.results.journal import track_path

@@ -14,9 +14,9 @@ from typing import Annotated
 
 import typer
 
-from .. import __version__
 from ..base.numerics.compiling import when_many_are_compiled
 from ..base.terminal import ignore_casts
+from ..version import __version__
 from .exit_status import INTERRUPTED, exit_status, one_line
 from .old_options import refuse_old_options
 from .options.completion import words_typed

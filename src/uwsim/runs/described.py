@@ -6,8 +6,8 @@ from importlib.metadata import version
 
 import numpy as np
 
-from .. import __version__
 from ..results.run_info import RunInfo
+from ..version import __version__
 from .own_process.program import clients_of
 from .planning.plan import Plan
 

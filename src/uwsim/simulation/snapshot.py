@@ -17,8 +17,8 @@ from typing import Any
 
 import numpy as np
 
-from .. import __version__
 from ..errors import UwsimError
+from ..version import __version__
 
 Values = Mapping[str, Any]
 ARRAYS = {

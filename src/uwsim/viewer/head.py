@@ -59,8 +59,8 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
 
 ``pose`` of a body is where it is at step 0; a body that is not in a track stays there.
 
-**Motion of a trial** (``units/NNNNN.motion``, `uwsim.results.motion`): gzip (mtime 0) of a line of JSON
-that ends with a line feed, then bytes::
+**Motion of a trial** (``units/NNNNN.motion``, `uwsim.results.motion`): gzip (mtime 0) of a line of
+JSON that ends with a line feed, then bytes::
 
     {"uwsim_motion": 1, "rate": 30.0, "n": 3600, "start": 0.0,
      "bodies": ["girona500/base_link", "blackbox"], "length": 1e-4, "quaternion": 1e-4,

@@ -16,8 +16,8 @@ import pytest
 from rich.console import Console
 from scipy import stats
 
-from tests.compared_results import INPUTS, entries, made, noisy
-from tests.synthetic_results import frozen, nested, nothing_measured, one_level, visibility
+from tests.support.compared_results import INPUTS, entries, made, noisy
+from tests.support.synthetic_results import frozen, nested, nothing_measured, one_level, visibility
 from uwsim.analysis.comparison import (
     Comparison,
     compare,

@@ -13,7 +13,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-from tests.synthetic_results import (
+from tests.support.synthetic_results import (
     F_STAR,
     WHY,
     frozen,

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.synthetic_results import one_level, visibility
+from tests.support.synthetic_results import one_level, visibility
 from uwsim.analysis.plots import INK, draw_run_plots
 from uwsim.analysis.plots.one_level import one_level_plot
 from uwsim.analysis.plots.over_time import over_time_plot, samples_of

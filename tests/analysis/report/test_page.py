@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from tests.synthetic_results import (
+from tests.support.synthetic_results import (
     F_STAR,
     WHY,
     frozen,

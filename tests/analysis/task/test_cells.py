@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from tests.grasp_results import CURRENTS, FOGS, grasping, succeeds
-from tests.synthetic_results import visibility
+from tests.support.grasp_results import CURRENTS, FOGS, grasping, succeeds
+from tests.support.synthetic_results import visibility
 from uwsim.analysis.report.task_section import task_section
 from uwsim.analysis.task import (
     along,

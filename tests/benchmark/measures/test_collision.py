@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures.collision import Collision, CollisionSpec
 from uwsim.benchmark.triggers import NeverSpec
 from uwsim.errors import UnknownName

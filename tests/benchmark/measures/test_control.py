@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.base.geometry import Pose, rotation_z
 from uwsim.benchmark.measures.control import Control, ControlSpec
 from uwsim.errors import BadSetting, UnknownName

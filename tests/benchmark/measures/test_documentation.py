@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures import (
     MEASURES,
     CollisionSpec,

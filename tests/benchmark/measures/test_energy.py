@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.fakes import FakeActuators, FakeWorld
+from tests.support.fakes import FakeActuators, FakeWorld
 from uwsim.benchmark.measures.energy import BatterySpec, Energy, EnergySpec
 from uwsim.errors import UnknownName
 

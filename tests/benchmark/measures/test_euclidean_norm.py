@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeCamera, FakeWorld
+from tests.support.fakes import FakeBody, FakeCamera, FakeWorld
 from uwsim.benchmark.ground_truth import (
     CentroidFromCameraSpec,
     ConstantSpec,

@@ -8,8 +8,8 @@ import pytest
 from lxml import etree
 
 import uwsim
-from tests.fakes import FakeActuators, FakeBody, FakeWorld
-from tests.short_benchmark import run
+from tests.support.fakes import FakeActuators, FakeBody, FakeWorld
+from tests.support.short_benchmark import run
 from uwsim.benchmark.measures import ControlSpec, EnergySpec, MeasureSpec
 from uwsim.benchmark.measures.energy import BatterySpec
 from uwsim.benchmark.reader import check_benchmark, read_benchmark

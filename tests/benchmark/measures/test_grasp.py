@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim import check
 from uwsim.assets.bundled import benchmark_file
 from uwsim.benchmark.measures.grasp import Grasp, GraspSpec

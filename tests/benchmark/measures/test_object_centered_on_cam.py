@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeCamera, FakeWorld
+from tests.support.fakes import FakeBody, FakeCamera, FakeWorld
 from uwsim.benchmark.measures import ObjectCenteredOnCam, ObjectCenteredOnCamSpec
 
 F = 120.0 / np.tan(np.radians(25.0))

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeCamera, FakeWorld
+from tests.support.fakes import FakeBody, FakeCamera, FakeWorld
 from uwsim.benchmark.ground_truth import CentroidFromCameraSpec, ConstantSpec, RelativeLocationSpec
 from uwsim.benchmark.measures import EuclideanNorm, EuclideanNormSpec
 from uwsim.messages import Float32MultiArray, floats

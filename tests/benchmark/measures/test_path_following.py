@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.base.geometry import rotation_from_rpy, rotation_z
 from uwsim.benchmark.measures.path_following import PathFollowing, PathFollowingSpec
 from uwsim.benchmark.metrics.polyline import Polyline

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.base.geometry import Pose, rotation_from_rpy, rotation_y, rotation_z
 from uwsim.benchmark.measures.reconstruction_3d import Reconstruction3D, Reconstruction3DSpec
 from uwsim.errors import BadSetting, UnknownName

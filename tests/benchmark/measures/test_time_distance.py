@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.benchmark.measures import Distance, DistanceSpec, TimeSpec
 from uwsim.benchmark.triggers import NeverSpec, ServiceSpec, TopicSpec
 from uwsim.errors import UnknownName

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.fakes import FakeBody, FakeWorld
+from tests.support.fakes import FakeBody, FakeWorld
 from uwsim.base.geometry import Pose, rotation_from_xyz, rotation_z
 from uwsim.benchmark.triggers import (
     NeverSpec,

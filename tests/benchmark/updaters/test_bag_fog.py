@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
-from tests.fakes import FakeWorld
-from tests.short_trial import make_plan, rows_of, tank
+from tests.support.bags import IMAGE, INFO, KINDS, sample_pixels, write_bag
+from tests.support.fakes import FakeWorld
+from tests.support.short_trial import make_plan, rows_of, tank
 from uwsim.base.compatibility import COMPATIBILITY
 from uwsim.benchmark.ground_truth import TopicTruthSpec
 from uwsim.benchmark.measures import EuclideanNormSpec

@@ -7,7 +7,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from tests.fakes import FakeWorld
+from tests.support.fakes import FakeWorld
 from uwsim.benchmark.updaters import (
     CurrentForceUpdaterSpec,
     Level,

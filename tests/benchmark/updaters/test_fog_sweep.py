@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.fakes import FakeWorld
-from tests.short_trial import make_plan, rows_of
+from tests.support.fakes import FakeWorld
+from tests.support.short_trial import make_plan, rows_of
 from uwsim.benchmark.reader import check_benchmark
 from uwsim.benchmark.updaters import (
     SceneFogUpdaterSpec,

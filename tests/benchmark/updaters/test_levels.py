@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.fakes import FakeWorld
+from tests.support.fakes import FakeWorld
 from uwsim.benchmark.updaters import (
     ArmMoveUpdaterSpec,
     BagFogUpdaterSpec,

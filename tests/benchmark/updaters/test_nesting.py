@@ -11,9 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.bags import IMAGE, INFO, write_bag
-from tests.fakes import FakeWorld
-from tests.short_trial import make_plan, rows_of, tank
+from tests.support.bags import IMAGE, INFO, write_bag
+from tests.support.fakes import FakeWorld
+from tests.support.short_trial import make_plan, rows_of, tank
 from uwsim.benchmark.updaters import (
     UPDATERS,
     ArmMoveUpdaterSpec,

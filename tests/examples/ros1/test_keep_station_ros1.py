@@ -10,15 +10,15 @@ from typing import Any
 
 import pytest
 
-from tests.keep_station import (
+from tests.support.keep_station import (
     LIMIT,
     bench_words,
     result_in,
     scored_in_process,
     short_benchmark,
 )
-from tests.ros1_peers import EXAMPLES, PYTHON, Peers, needs_ros1, peers
-from tests.waiting import until
+from tests.support.ros1_peers import EXAMPLES, PYTHON, Peers, needs_ros1, peers
+from tests.support.waiting import until
 from uwsim.middleware.ros1.xmlrpc import call
 
 pytestmark = [needs_ros1, pytest.mark.slow]

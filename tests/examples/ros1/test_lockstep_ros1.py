@@ -12,10 +12,10 @@ from typing import Any
 
 import pytest
 
-from tests.byte_hashes import short_currents
-from tests.ros1_peers import EXAMPLES, Peers, needs_ros1, peers
-from tests.short_benchmark import write_benchmark
-from tests.waiting import LIMIT
+from tests.support.byte_hashes import short_currents
+from tests.support.ros1_peers import EXAMPLES, Peers, needs_ros1, peers
+from tests.support.short_benchmark import write_benchmark
+from tests.support.waiting import LIMIT
 
 FORGETFUL = f"""
 import sys

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from tests.middleware.ros1.sea import Sea
-from tests.ros1_peers import EXAMPLES, needs_ros1, peers
-from tests.waiting import LIMIT, until
+from tests.support.ros1_peers import EXAMPLES, needs_ros1, peers
+from tests.support.waiting import LIMIT, until
 from uwsim.base.geometry import Pose
 from uwsim.messages import Float64MultiArray, JointState, Odometry, TwistStamped
 

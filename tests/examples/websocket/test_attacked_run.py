@@ -15,7 +15,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from tests.short_benchmark import write_benchmark
+from tests.support.short_benchmark import write_benchmark
 
 EXAMPLES = Path(__file__).parents[3] / "examples" / "websocket"
 LIMIT = 240.0

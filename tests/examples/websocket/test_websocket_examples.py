@@ -11,10 +11,10 @@ from typing import Any
 
 import pytest
 
-from tests.byte_hashes import short_currents
-from tests.keep_station import LEVELS, scored_in_process, short_benchmark
-from tests.short_benchmark import write_benchmark
-from tests.waiting import free_port, until
+from tests.support.byte_hashes import short_currents
+from tests.support.keep_station import LEVELS, scored_in_process, short_benchmark
+from tests.support.short_benchmark import write_benchmark
+from tests.support.waiting import free_port, until
 from uwsim import load
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions

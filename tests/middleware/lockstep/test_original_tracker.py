@@ -14,11 +14,11 @@ from typing import Any
 
 import pytest
 
-from tests import original_tracker
-from tests.keep_station import LIMIT, result_in
-from tests.ros1_peers import PYTHON, needs_ros1, peers
-from tests.short_benchmark import write_benchmark
-from tests.waiting import free_port, until
+from tests.support import original_tracker
+from tests.support.keep_station import LIMIT, result_in
+from tests.support.ros1_peers import PYTHON, needs_ros1, peers
+from tests.support.short_benchmark import write_benchmark
+from tests.support.waiting import free_port, until
 from uwsim.messages import GTpublish
 from uwsim.middleware.ros1.xmlrpc import call
 from uwsim.middleware.types import service_of, wire_service

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from tests.waiting import LIMIT, free_port, until
+from tests.support.waiting import LIMIT, free_port, until
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import Master, Ros1Bridge, Waits

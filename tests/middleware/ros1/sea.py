@@ -5,8 +5,8 @@ from __future__ import annotations
 import subprocess
 
 import uwsim
-from tests.ros1_peers import Peers
-from tests.waiting import LIMIT
+from tests.support.ros1_peers import Peers
+from tests.support.waiting import LIMIT
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import Ros1Bridge
 from uwsim.simulation import Simulation

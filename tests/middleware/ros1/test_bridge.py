@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.middleware.ros1.nodes import TIMESTEP, Graph
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.errors import UwsimError
 from uwsim.messages import (
     DVL,

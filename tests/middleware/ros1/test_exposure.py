@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import master as master_module
 from uwsim.middleware.ros1 import parameters, xmlrpc

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros1_peers import PYTHON, needs_ros1, peers
-from tests.waiting import LIMIT, until
+from tests.support.ros1_peers import PYTHON, needs_ros1, peers
+from tests.support.waiting import LIMIT, until
 from uwsim.bus import Bus
 from uwsim.messages import Float64
 from uwsim.middleware.log import Log

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, until
 from uwsim.messages import Float64, Image, JointState, image
 from uwsim.middleware.encodings import to_ros1
 from uwsim.middleware.log import Log

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from tests.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1.master import Master
 from uwsim.middleware.ros1.tcpros import PeerError

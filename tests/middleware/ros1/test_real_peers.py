@@ -11,8 +11,8 @@ import pytest
 
 import uwsim
 from tests.middleware.ros1.sea import Sea
-from tests.ros1_peers import needs_ros1, peers
-from tests.waiting import LIMIT, until
+from tests.support.ros1_peers import needs_ros1, peers
+from tests.support.waiting import LIMIT, until
 from uwsim.middleware.types import wire_type
 
 pytestmark = [needs_ros1, pytest.mark.slow]

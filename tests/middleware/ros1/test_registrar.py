@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.messages import Float64
 from uwsim.middleware.ros1 import Master
 from uwsim.middleware.ros1.xmlrpc import Answer, call

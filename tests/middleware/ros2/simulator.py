@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from tests.ros2_peers import free_domain
+from tests.support.ros2_peers import free_domain
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros2.adapter import Ros2

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.ros2_peers import needs_rclpy, peer, until
+from tests.support.ros2_peers import needs_rclpy, peer, until
 from uwsim.messages import Image, Odometry, String, TwistStamped
 from uwsim.messages.build import image
 

@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
 from tests.middleware.ros2.simulator import Simulator, running
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.messages import Empty, EmptyResponse, String
 from uwsim.middleware.admission import Joined
 from uwsim.middleware.encodings import to_cdr

@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from tests.ros2_peers import BOUND_S, until
+from tests.support.ros2_peers import BOUND_S, until
 from uwsim.messages import Image
 from uwsim.messages.build import image
 

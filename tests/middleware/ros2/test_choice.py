@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros2_peers import free_domain
+from tests.support.ros2_peers import free_domain
 from uwsim.errors import BadSetting, MissingExtra, UwsimError
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros2.choice import check, open_node

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.ros2_peers import needs_rclpy, peer, until
+from tests.support.ros2_peers import needs_rclpy, peer, until
 from uwsim.messages import Empty, EmptyResponse, Image, String
 from uwsim.messages.build import image
 

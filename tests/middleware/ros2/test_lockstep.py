@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from tests.ros2_peers import BOUND_S, needs_rclpy, peer
+from tests.support.ros2_peers import BOUND_S, needs_rclpy, peer
 from uwsim.messages import Float32MultiArray, Image
 from uwsim.messages.build import image
 

@@ -11,7 +11,7 @@ import pytest
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
-from tests.ros2_peers import free_domain
+from tests.support.ros2_peers import free_domain
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros2.choice import open_node
 from uwsim.middleware.ros2.loopback import bind_to_loopback, open_sockets

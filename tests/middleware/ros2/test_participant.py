@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.ros2_peers import free_domain, until
+from tests.support.ros2_peers import free_domain, until
 from uwsim.errors import UwsimError
 from uwsim.messages import String
 from uwsim.middleware.encodings import from_cdr, to_cdr

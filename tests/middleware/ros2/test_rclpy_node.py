@@ -10,7 +10,7 @@ from types import ModuleType
 import pytest
 
 from tests.middleware.ros2.simulator import Simulator, running
-from tests.ros2_peers import peer, until
+from tests.support.ros2_peers import peer, until
 from uwsim.errors import UwsimError
 from uwsim.messages import Float32MultiArray, Odometry, ProjectedSonarImage, TwistStamped
 from uwsim.messages.services import Empty, EmptyResponse, GTpublish

@@ -7,7 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from tests.ros2_peers import BOUND_S, PYTHON, ROOT, beside_rclpy, needs_rclpy, of_one_version
+from tests.support.ros2_peers import (
+    BOUND_S,
+    PYTHON,
+    ROOT,
+    beside_rclpy,
+    needs_rclpy,
+    of_one_version,
+)
 
 HERE = Path(__file__).parent
 FILES = ("test_adapter.py", "test_hostile.py", "test_lockstep.py", "test_rclpy_node.py")

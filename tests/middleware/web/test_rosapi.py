@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from tests.middleware.web.test_web import Setting, heard, send
-from tests.waiting import LIMIT
+from tests.support.waiting import LIMIT
 from uwsim.base.geometry import Pose, rotation_about
 from uwsim.messages import (
     CompressedImage,

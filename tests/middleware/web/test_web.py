@@ -18,7 +18,7 @@ import pytest
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
-from tests.waiting import LIMIT
+from tests.support.waiting import LIMIT
 from uwsim.bus import Bus
 from uwsim.errors import BadSetting, RunFailed, UwsimError
 from uwsim.messages import (

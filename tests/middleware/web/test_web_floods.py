@@ -8,7 +8,7 @@ import json
 import pytest
 from websockets.sync.client import connect
 
-from tests.waiting import until
+from tests.support.waiting import until
 from uwsim.bus import Bus
 from uwsim.messages import TwistStamped
 from uwsim.middleware.log import Log

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
-from tests.synthetic_results import one_level
+from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
+from tests.support.synthetic_results import one_level
 from uwsim.cli.bench import load_reporter
 from uwsim.errors import RunFailed
 from uwsim.results import journal

@@ -11,8 +11,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
-from tests.stored_rows import stored_end, stored_row
+from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
+from tests.support.stored_rows import stored_end, stored_row
 from uwsim.errors import NeverStarted, RunFailed
 from uwsim.results.journal import Journal
 from uwsim.results.result_file import load
@@ -87,7 +87,9 @@ def test_what_kills_every_worker_is_reported_in_its_row_and_tried_again_when_res
 def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
     benchmark: Path, tmp_path: Path, executor: executor.Executor
 ) -> None:
-    absent = bench_of(benchmark, tmp_path / "absent", algorithm="tests.failing:Absent", repeat=2)
+    absent = bench_of(
+        benchmark, tmp_path / "absent", algorithm="tests.support.failing:Absent", repeat=2
+    )
     good = bench_of(benchmark, tmp_path / "good")
     with pytest.raises(NeverStarted, match="10 s of simulation time"):
         run_all([absent, good], executor)

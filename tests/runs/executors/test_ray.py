@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from tests.runs.executors.test_executor import killing_its_worker
-from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
+from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from uwsim.errors import BadSetting, MissingExtra
 from uwsim.runs.executors.ray import RayExecutor, RayWorker, address
 from uwsim.runs.executors.worker import LevelEnded, TrialEnded, TrialFailed
@@ -22,7 +22,7 @@ needs_ray = pytest.mark.skipif(
 SCRIPT = """
 import sys
 from pathlib import Path
-from tests.short_benchmark import bench_of
+from tests.support.short_benchmark import bench_of
 from tests.runs.executors.test_executor import killing_its_worker
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.executors.ray import RayExecutor

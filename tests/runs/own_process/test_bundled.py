@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import run, write_benchmark
+from tests.support.short_benchmark import run, write_benchmark
 from uwsim.algorithms import ALGORITHMS
 
 TRACKERS = ("ecc", "frozen", "ic", "orb", "ssd-esm")

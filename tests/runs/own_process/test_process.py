@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.runs.own_process import programs
-from tests.short_trial import TIME, make_plan, rows_of, with_algorithm
-from tests.waiting import until
+from tests.support.short_trial import TIME, make_plan, rows_of, with_algorithm
+from tests.support.waiting import until
 from uwsim.base.rng import stream
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage, BadSetting, NeverStarted, RunFailed

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.short_trial import DATA, make_plan, rows_of
+from tests.support.short_trial import DATA, make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.messages import GTpublish, GTpublishResponse
 from uwsim.runs.trial.level_row import LevelRow

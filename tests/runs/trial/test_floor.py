@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.short_benchmark import bench_of, write_benchmark
+from tests.support.short_benchmark import bench_of, write_benchmark
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.trial.floor import crossing, homography, largest, through
 

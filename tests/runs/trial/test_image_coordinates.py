@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.short_trial import DATA, make_plan, rows_of
+from tests.support.short_trial import DATA, make_plan, rows_of
 from uwsim.bus import Algorithm, Node
 from uwsim.messages import CameraInfo, Float32MultiArray, Image, floats, pixels_of
 from uwsim.scene.object import ObjectSpec

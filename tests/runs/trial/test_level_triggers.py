@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_trial import NEVER, make_plan, rows_of
+from tests.support.short_trial import NEVER, make_plan, rows_of
 from uwsim.base.compatibility import COMPATIBILITY
 from uwsim.bus import Node
 from uwsim.errors import NeverStarted

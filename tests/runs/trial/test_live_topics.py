@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from tests.short_trial import make_plan, rows_of
+from tests.support.short_trial import make_plan, rows_of
 from uwsim.bus import Node
 from uwsim.messages import Float32MultiArray, String
 from uwsim.runs.trial import trial

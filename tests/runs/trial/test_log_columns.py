@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import bench_of, write_benchmark
+from tests.support.short_benchmark import bench_of, write_benchmark
 from uwsim.benchmark.measures import Measure
 from uwsim.results.log import load_log, logs_of
 from uwsim.runs.executors.executor import run_all

@@ -58,8 +58,8 @@ def play(
         path.write_text(plain.replace("</rosInterfaces>", f"{TWIST}</rosInterfaces>"))
         scene = str(path)
     status = main(
-        ["bench", str(file), "--scene", scene, "--algorithm", "tests.scripted:Scripted", "--set",
-         f"algorithm.file={file}", "--out", str(out), *words]
+        ["bench", str(file), "--scene", scene, "--algorithm", "tests.support.scripted:Scripted",
+         "--set", f"algorithm.file={file}", "--out", str(out), *words]
     )  # fmt: skip
     assert status == 0
     return Played(out, load(out))

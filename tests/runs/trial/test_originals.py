@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.scripted import Scripted
+from tests.support.scripted import Scripted
 from uwsim.base.compatibility import compatibility
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.spec import BenchmarkSpec
@@ -199,8 +199,8 @@ def test_an_original_is_played_by_the_public_command(file: Path, tmp_path: Path)
         chosen += ["--level", f"{name}={updater.values()[0]!r}"]
     out = tmp_path / "out"
     status = main(
-        ["bench", str(file), "--scene", str(scene), "--algorithm", "tests.scripted:Scripted",
-         "--set", f"algorithm.file={file}", "--out", str(out), *chosen]
+        ["bench", str(file), "--scene", str(scene),
+         "--algorithm", "tests.support.scripted:Scripted", "--set", f"algorithm.file={file}", "--out", str(out), *chosen]
     )  # fmt: skip
     assert status == 0
     lines = (out / "result.dat").read_text().split("\n")

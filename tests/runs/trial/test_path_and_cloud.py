@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.short_trial import DATA, make_plan, rows_of
+from tests.support.short_trial import DATA, make_plan, rows_of
 from uwsim.base.geometry import Pose
 from uwsim.bus import Node
 from uwsim.messages import Path as PathMessage

@@ -6,8 +6,8 @@ import json
 
 import pytest
 
-from tests.short_trial import DATA
 from tests.simulation.test_lamp import LAMP, night
+from tests.support.short_trial import DATA
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.errors import ResultError
 from uwsim.runs.trial.pilot_inputs import PilotInputs, read_inputs

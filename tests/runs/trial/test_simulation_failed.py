@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import fingerprint, write_benchmark
-from tests.short_trial import make_plan
+from tests.support.short_benchmark import fingerprint, write_benchmark
+from tests.support.short_trial import make_plan
 from uwsim.bus import Node
 from uwsim.cli import main
 from uwsim.errors import SimulationFailed

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.short_trial import DATA, make_plan, rows_of
+from tests.support.short_trial import DATA, make_plan, rows_of
 from uwsim.base.inbox import Inbox
 from uwsim.bus import Node
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, String

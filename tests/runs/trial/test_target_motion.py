@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.short_benchmark import bench_of, write_benchmark
+from tests.support.short_benchmark import bench_of, write_benchmark
 from uwsim.runs.executors.executor import run_all
 
 

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tests import failing
-from tests.short_benchmark import fingerprint, run, write_benchmark
+from tests.support import failing
+from tests.support.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, shared_column
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.results.result_file import load
@@ -110,20 +110,23 @@ def test_an_algorithm_that_never_starts_the_benchmark_stops_it(
     benchmark: Path, tmp_path: Path
 ) -> None:
     with pytest.raises(NeverStarted, match="10 s of simulation time"):
-        run(benchmark, tmp_path / "a", algorithm="tests.failing:Absent")
+        run(benchmark, tmp_path / "a", algorithm="tests.support.failing:Absent")
     assert load(tmp_path / "a").rows == ()
 
 
 def test_an_algorithm_that_raises_fails_its_rows_and_no_other_measure(
     benchmark: Path, tmp_path: Path
 ) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm="tests.failing:Raises")
+    result = run(benchmark, tmp_path / "a", algorithm="tests.support.failing:Raises")
     assert result.values("status") == ("algorithm error",) * 3
     assert result.values("corners") == (None,) * 3
     assert result.values("total") == (None,) * 3
     assert result.numbers("taskTime") == pytest.approx((0.2, 0.2, 0.2))
     line = inspect.getsource(failing).split("no focus")[0].count("\n") + 1
-    raised = f"tests.failing:Raises raised at 0.1 s: failing.py:{line}: ZeroDivisionError: no focus"
+    raised = (
+        "tests.support.failing:Raises raised at 0.1 s: "
+        f"failing.py:{line}: ZeroDivisionError: no focus"
+    )
     assert result.why(0, "corners") == raised
 
 
@@ -141,7 +144,7 @@ def test_an_error_of_a_library_is_put_on_the_line_of_the_algorithm_that_called_i
 
 
 def test_an_algorithm_that_reports_its_failure_has_failed(benchmark: Path, tmp_path: Path) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm="tests.failing:Fails")
+    result = run(benchmark, tmp_path / "a", algorithm="tests.support.failing:Fails")
     assert result.values("status")[0] == "algorithm error"
     assert "no template" in str(result.why(0, "corners"))
 
@@ -150,7 +153,7 @@ def test_silence_for_more_than_a_second_is_a_timeout(tmp_path: Path) -> None:
     result = run(
         write_benchmark(tmp_path, "1.2"),
         tmp_path / "a",
-        algorithm="tests.failing:Silent",
+        algorithm="tests.support.failing:Silent",
         levels=["fog=0"],
         in_process=True,
     )
@@ -177,7 +180,7 @@ def test_the_last_estimate_received_is_valid_in_the_original(tmp_path: Path) -> 
     never = run(
         file,
         tmp_path / "never",
-        algorithm="tests.failing:Silent",
+        algorithm="tests.support.failing:Silent",
         levels=spoke,
         compat=["last-norm"],
         in_process=True,

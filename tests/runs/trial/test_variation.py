@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.fakes import FakeWorld
-from tests.short_benchmark import run
-from tests.short_trial import DATA
+from tests.support.fakes import FakeWorld
+from tests.support.short_benchmark import run
+from tests.support.short_trial import DATA
 from uwsim.analysis.report import write_report
 from uwsim.benchmark.ground_truth import CornersFromCamera, FaceCorners
 from uwsim.benchmark.reader import check_benchmark, read_benchmark

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.documented import write_files
-from tests.short_benchmark import bench_of, fingerprint, run
+from tests.support.documented import write_files
+from tests.support.short_benchmark import bench_of, fingerprint, run
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.base.geometry import Array
 from uwsim.runs.executors.executor import SerialExecutor, run_all

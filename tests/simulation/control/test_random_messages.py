@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import uwsim
-from tests.random_messages import RandomMessages
+from tests.support.random_messages import RandomMessages
 from tests.topics.test_every_interface import SCENE
 from uwsim.errors import UwsimError
 from uwsim.messages import JointState, Odometry, Pose

@@ -16,7 +16,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 import uwsim
-from tests.short_benchmark import bench_of, fingerprint, run, write_benchmark
+from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from tests.viewer.live.desk import Desk
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.base.geometry import Pose

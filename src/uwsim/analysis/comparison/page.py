@@ -6,10 +6,10 @@ import base64
 from collections.abc import Sequence
 from pathlib import Path
 
-from ... import __version__
 from ...results.per_level import rows_by_level, success_per_level
 from ...results.result import Result
 from ...statistics import Interval
+from ...version import __version__
 from ..plots import written_unit
 from ..templates import template
 from .matrix import matrix, note, too_few

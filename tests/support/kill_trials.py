@@ -29,7 +29,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tests.short_benchmark import fingerprint, write_benchmark
+from tests.support.short_benchmark import fingerprint, write_benchmark
 
 MARK = "UWSIM_TRIAL"
 """Environment variable by which all processes of a trial are known, whatever their parents."""

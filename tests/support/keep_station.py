@@ -11,7 +11,7 @@ from typing import Any
 from uwsim.bus import Node
 from uwsim.messages import Empty, Odometry, TwistStamped
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 BENCHMARK = ROOT / "examples" / "ros1" / "keep_station.xml"
 GOAL, KP, PERIOD = (-9.0, -8.0, 10.0), 0.4, 0.1
 LIMIT = 240.0

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from tests.short_benchmark import bench_of, write_benchmark
+from tests.support.short_benchmark import bench_of, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, remarks, shared_column
 from uwsim.analysis.comparison.page import render as render_comparison
 from uwsim.analysis.report.page import render

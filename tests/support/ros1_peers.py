@@ -13,12 +13,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.waiting import LIMIT, free_port, until
+from tests.support.waiting import LIMIT, free_port, until
 from uwsim.middleware.ros1.tcpros import PeerError
 from uwsim.middleware.ros1.xmlrpc import call
 
 PYTHON = "/usr/bin/python3"
-EXAMPLES = Path(__file__).parent.parent / "examples" / "ros1"
+EXAMPLES = Path(__file__).parents[2] / "examples" / "ros1"
 
 
 @functools.cache

@@ -21,7 +21,7 @@ from uwsim.currents import read_grid
 from uwsim.errors import UwsimError
 from uwsim.runs.check import diagnostics_of
 
-TESTS = Path(__file__).parent
+TESTS = Path(__file__).parents[1]
 DATA = TESTS.parent / "src" / "uwsim" / "data"
 WORDS = (
     "", "x", "nan", "inf", "-1", "0", "1e400", "-1e39", "5e-324", "9" * 20, "true", "../x", "/",

@@ -18,7 +18,7 @@ from typing import Any
 
 import pytest
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 PYTHON = ROOT / "build" / "ros2-peers" / "bin" / "python"
 BOUND_S = 200.0
 """How long a test waits for what must come [s]; nothing that works takes nearly as long."""

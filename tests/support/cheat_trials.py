@@ -29,7 +29,7 @@ from typing import Any
 
 import numpy as np
 
-from tests.short_trial import DATA, make_plan, with_algorithm
+from tests.support.short_trial import DATA, make_plan, with_algorithm
 from uwsim.base.environment import environment
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node

@@ -12,7 +12,7 @@ from importlib import resources
 from pathlib import Path
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate, sphere
-from tests.short_benchmark import fingerprint, run, write_benchmark
+from tests.support.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.assets.model_cache import _make
 from uwsim.assets.stand_ins import STAND_INS
 from uwsim.base.expression import parse

@@ -24,7 +24,7 @@ LARGE = 200
 
 def results(trials: int, seed: int) -> Counter[str]:
     """Results that `report`, `compare`, `verify` and `bench --resume` read."""
-    from tests.fuzzed_results import TARGETS, made, trial
+    from tests.support.fuzzed_results import TARGETS, made, trial
 
     wrong: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="uwsim-fuzz-") as folder:
@@ -40,7 +40,7 @@ def results(trials: int, seed: int) -> Counter[str]:
 
 def obj(trials: int, seed: int) -> Counter[str]:
     """OBJ files and their materials, that models are read from."""
-    from tests.fuzzed_obj import trial
+    from tests.support.fuzzed_obj import trial
 
     wrong: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="uwsim-fuzz-") as folder:
@@ -54,7 +54,7 @@ def obj(trials: int, seed: int) -> Counter[str]:
 
 def files(target: str, trials: int, seed: int) -> Counter[str]:
     """Files that a scene or a benchmark is made of; each within a bound of time and memory."""
-    from tests.fuzzed_files import trial
+    from tests.support.fuzzed_files import trial
 
     wrong: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="uwsim-fuzz-") as folder:
