@@ -52,14 +52,8 @@ def test_a_crash_leaves_the_stacks_of_all_threads(tmp_path: Path) -> None:
 def run_tests(folder: Path, code: str) -> subprocess.CompletedProcess[str]:
     """Run tests in a worker, with this folder as the only one."""
     (folder / "test_crash.py").write_text(code)
-    options = [
-        "--numprocesses",
-        "1",
-        "-p",
-        "no:cacheprovider",
-        "-p",
-        "tests.support.crashed_processes",
-    ]
+    plugins = ["-p", "no:cacheprovider", "-p", "tests.support.crashed_processes"]
+    options = ["--numprocesses", "1", *plugins]
     command = [sys.executable, "-m", "pytest", *options, str(folder)]
     environment = os.environ | {"PYTHONPATH": str(ROOT)}
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=environment)

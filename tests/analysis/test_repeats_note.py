@@ -18,14 +18,8 @@ def test_bench_says_at_the_start_how_many_repeats_a_comparison_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     benchmark = str(write_benchmark(tmp_path, "0.1"))
-    call = [
-        "bench",
-        benchmark,
-        "--algorithm",
-        "frozen",
-        "--algorithm",
-        "tests.support.failing:Raises",
-    ]
+    algorithms = ["--algorithm", "frozen", "--algorithm", "tests.support.failing:Raises"]
+    call = ["bench", benchmark, *algorithms]
     main([*call, "--level", "fog=0", "--out", str(tmp_path / "out")])
     first = capsys.readouterr().err.splitlines()[0]
     assert first == (

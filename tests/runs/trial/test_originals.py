@@ -200,7 +200,8 @@ def test_an_original_is_played_by_the_public_command(file: Path, tmp_path: Path)
     out = tmp_path / "out"
     status = main(
         ["bench", str(file), "--scene", str(scene),
-         "--algorithm", "tests.support.scripted:Scripted", "--set", f"algorithm.file={file}", "--out", str(out), *chosen]
+         "--algorithm", "tests.support.scripted:Scripted", "--set", f"algorithm.file={file}",
+         "--out", str(out), *chosen]
     )  # fmt: skip
     assert status == 0
     lines = (out / "result.dat").read_text().split("\n")
