@@ -31,6 +31,9 @@ import steps
 from measure import main
 from mujoco import batch
 
+from uwsim.model.collision.scene_shapes import simulated_shapes
+from uwsim.model.dynamics import read_dynamics
+from uwsim.model.robots import read_robots
 from uwsim.physics.compile import compile_scene
 from uwsim.physics.hydrodynamics import callback, prepare
 from uwsim.physics.hydrodynamics.columns import WATER_COLUMNS
@@ -38,9 +41,6 @@ from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
 from uwsim.scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.simulation.bodies import read_robots
-from uwsim.simulation.collision.collision_shapes import simulated_shapes
-from uwsim.simulation.dynamics import read_dynamics
 
 STEPS_PER_SECOND, RATIO = 60_000, 1.35
 BATCHES, STEPS = 15, 4000

@@ -15,7 +15,7 @@ MAX_MODULES = 20
 GROUND = {"errors", "version", "base", "acoustics", "rays", "schema"}
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}
-ENGINES = PARTS | {"physics", "rendering"}
+ENGINES = PARTS | {"model", "physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
 MAY_IMPORT: dict[str, set[str]] = {
@@ -36,15 +36,16 @@ MAY_IMPORT: dict[str, set[str]] = {
     "topics": BASE | {"sensors", "devices", "topics"},
     "scene": BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"},
     "assets": BASE | {"assets"},
-    "physics": PARTS | {"physics"},
-    "rendering": PARTS | {"rendering"},
+    "model": PARTS | {"model"},
+    "physics": PARTS | {"model", "physics"},
+    "rendering": PARTS | {"model", "rendering"},
     "simulation": ENGINES | {"results", "simulation"},
     "algorithms": {
         *("messages", "bus", "base", "errors", "algorithms"),
     },
     "benchmark": PARTS | {"benchmark"},
     "results": GROUND | {"statistics", "results"},
-    "runs": TASKS | {"middleware", "physics", "runs"},
+    "runs": TASKS | {"middleware", "model", "physics", "runs"},
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},

@@ -9,11 +9,11 @@ import pytest
 
 from tests.assets.test_limits import dae
 from uwsim.assets.collada_asset import read_collada_asset
+from uwsim.model.collision.scene_shapes import collision_shapes
+from uwsim.model.parts import parts_of
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.urdf.reader import read_urdf
-from uwsim.simulation.collision.collision_shapes import collision_shapes
-from uwsim.simulation.parts import parts_of
 
 NODE = '<node> {transform} <instance_geometry url="#g"/> </node>'
 CORNERS = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])  # of the triangle

@@ -15,13 +15,13 @@ from uwsim.benchmark.measures import MEASURES
 from uwsim.cli import main
 from uwsim.cli.list import KINDS, limit_in
 from uwsim.cli.options.descriptions import first_line, head_comment, without_title
+from uwsim.model.robots import find_file
 from uwsim.runs.tables import bundled_tables
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.unsupported import UNSUPPORTED, not_simulated
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.schema import Diagnostics
-from uwsim.simulation.bodies import find_file
 
 YOUR_OWN = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
 

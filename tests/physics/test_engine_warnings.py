@@ -12,8 +12,9 @@ import pytest
 
 from uwsim.base.geometry import Pose
 from uwsim.errors import RunFailed
-from uwsim.physics.collision.shapes import CollisionShape
-from uwsim.physics.compile import compile_scene, object_body
+from uwsim.model.body_names import object_body
+from uwsim.model.collision.shapes import CollisionShape
+from uwsim.physics.compile import compile_scene
 from uwsim.physics.engine_warnings import hush, say_too_fast, speeds_of, too_fast, why_untrue
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene

@@ -8,7 +8,7 @@ import pytest
 
 from tests.physics.water_models import free_body
 from uwsim.base.geometry import Pose
-from uwsim.physics.collision.shapes import CollisionShape
+from uwsim.model.collision.shapes import CollisionShape
 from uwsim.physics.free_objects import box_added_mass, loose_hydrodynamics
 from uwsim.physics.hydrodynamics.hydrodynamics import install
 from uwsim.scene.hydrodynamics import BodyHydrodynamics

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 
 from uwsim.errors import SceneError
+from uwsim.model.dynamics import Search, read_dynamics
+from uwsim.model.robots import read_robots
 from uwsim.scene.ocean_state import OceanStateSpec, ProfileSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.simulation.bodies import read_robots
-from uwsim.simulation.dynamics import Search, read_dynamics
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
 PROFILE = ProfileSpec(depth=(0.0, 10.0), density=(1000.0, 1025.0))

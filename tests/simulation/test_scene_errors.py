@@ -191,7 +191,7 @@ def test_the_bundled_scenes_have_no_such_error() -> None:
 def test_a_mesh_of_too_many_faces_is_reported_before_a_run_refuses_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.physics.collision.shapes.MAX_PIECES", 3)
+    monkeypatch.setattr("uwsim.model.collision.shapes.MAX_PIECES", 3)
     (tmp_path / "tent.obj").write_text(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
     )

@@ -10,6 +10,7 @@ import pytest
 
 from uwsim.base.geometry import quaternion_from_rotation, rotation_from_rpy
 from uwsim.messages import Twist, TwistStamped, Vector3, header
+from uwsim.model.balance import balance_of
 from uwsim.physics.actuation.allocation import (
     HEAVE,
     PITCH,
@@ -20,7 +21,6 @@ from uwsim.physics.actuation.allocation import (
     allocate,
     thrusters_on_base,
 )
-from uwsim.physics.balance import balance_of
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.hydrodynamics.spec import ThrusterSpec
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle

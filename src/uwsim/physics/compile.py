@@ -18,12 +18,22 @@ from ..base.geometry import Pose, quaternion_from_rotation, rotation_from_rpy
 from ..base.numerics.linear import product
 from ..devices.object_picker import ObjectPickerSpec
 from ..errors import BadSetting, SceneError, UwsimError
+from ..model.body_names import (
+    grip,
+    loose_joint,
+    object_body,
+    vehicle_body,
+    vehicle_fin,
+    vehicle_joint,
+    vehicle_thruster,
+)
+from ..model.collision.shapes import CollisionShape
+from ..model.inertias import MIN_INERTIA, MIN_MASS
 from ..scene.hydrodynamics import BodyHydrodynamics, FinSpec, ThrusterSpec, VehicleHydrodynamics
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import LinkSpec, RobotSpec
 from ..world import GRAVITY
-from .collision.shapes import CollisionShape
 from .collision.world_tree import rebuild_world_tree
 from .compiled_models import cached_model
 from .engine_warnings import hush
@@ -35,10 +45,6 @@ from .restitution import contact_spring
 MAX_STEP = 0.02
 """Of what is simulated: held in soaks up to 0.01 s, seen to diverge from 0.03 s on; the autopilot
 thinks this often [s]."""
-MIN_MASS = 0.01
-"""Of a link whose URDF gives none [kg]."""
-MIN_INERTIA = 1e-4
-"""Of a link whose URDF gives none [kg m2]."""
 FRICTION = (0.8, 0.005, 0.0001)
 """Sliding [1], spinning [m] and rolling [m], rubber on metal; of two shapes the greater counts."""
 SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
@@ -62,41 +68,6 @@ INTEGRATORS = {
     "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
     "RK4": mujoco.mjtIntegrator.mjINT_RK4,
 }
-
-
-def vehicle_body(index: int, link: str) -> str:
-    """Name in the model of a link of the vehicle number ``index``."""
-    return f"vehicle/{index}/{link}"
-
-
-def vehicle_joint(index: int, joint: str) -> str:
-    """Name in the model of a joint of the vehicle number ``index``."""
-    return f"vehicle/{index}/joint/{joint}"
-
-
-def vehicle_thruster(index: int, thruster: str) -> str:
-    """Name in the model of a thruster of the vehicle number ``index``."""
-    return f"vehicle/{index}/thruster/{thruster}"
-
-
-def vehicle_fin(index: int, fin: str) -> str:
-    """Name in the model of a fin of the vehicle number ``index``."""
-    return f"vehicle/{index}/fin/{fin}"
-
-
-def object_body(index: int) -> str:
-    """Name in the model of the object number ``index``."""
-    return f"object/{index}"
-
-
-def loose_joint(index: int) -> str:
-    """Name in the model of the joint of the loose object number ``index``."""
-    return f"object/{index}/joint"
-
-
-def grip(vehicle: int, link: str, thing: int) -> str:
-    """Name in the model of the constraint by which a link holds a loose object."""
-    return f"grip/{vehicle}/{link}/{thing}"
 
 
 def vehicle_bit(index: int) -> int:

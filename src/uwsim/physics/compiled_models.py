@@ -22,7 +22,7 @@ import numpy as np
 from ..base.files import disk_cache
 from ..base.files.code_digest import code_digest
 from ..base.geometry import Array, Pose
-from .collision.shapes import CollisionShape
+from ..model.collision.shapes import CollisionShape
 
 MIN_SHAPES = 500
 """Models of fewer shapes are compiled anew."""

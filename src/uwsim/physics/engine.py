@@ -13,6 +13,8 @@ import numpy.typing as npt
 from ..base.geometry import Array, Pose, quaternion_from_rotation
 from ..base.numerics.linear import turned_back
 from ..errors import UwsimError
+from ..model.body_names import loose_joint, vehicle_joint
+from ..model.collision.shapes import CollisionShape
 from ..scene.hydrodynamics import VehicleHydrodynamics
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import joint_positions
@@ -21,9 +23,8 @@ from ..world import Contact
 from .actuation.vehicle_actuation import actuation_of
 from .bounce_limit import BounceLimit
 from .collision.contacts import EngineContacts, body_name
-from .collision.shapes import CollisionShape
 from .collision.world_tree import place_fixed_shapes
-from .compile import compile_scene, loose_joint, vehicle_joint
+from .compile import compile_scene
 from .engine_warnings import StepCheck
 from .grips import Grips
 from .joint_wrench import JointWrench

@@ -18,11 +18,12 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..errors import Diagnostic
+from ..model.collision.shapes import CollisionShape, bounds
+from ..model.inertias import MAX_BUOYANCY
 from ..scene.hydrodynamics import BodyHydrodynamics
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.urdf.robot import LinkSpec
 from ..schema import diagnostic_at
-from .collision.shapes import CollisionShape, bounds
 
 BOX_DRAG = 1.05
 """Of a cube face on [1]."""
@@ -30,8 +31,6 @@ BALL_DRAG = 0.47
 """Of a ball [1]."""
 LEAST = 1e-14
 """Mass [kg] and inertia [kg m2] have to be greater for the engine."""
-MAX_BUOYANCY = 100.0
-"""Greatest buoyancy per weight: the lightest foam has 10 kg/m3 [1]."""
 
 BALL_TORQUE = 0.05
 """Of a ball that turns, torque by half the density, the spin squared and the fifth power of the

@@ -14,8 +14,9 @@ import mujoco
 import numpy as np
 
 from ..base.geometry import Pose, quaternion_from_rotation
-from .collision.shapes import CollisionShape
-from .compile import ALL, OBJECTS, grip, loose_joint, object_body, vehicle_bit
+from ..model.body_names import grip, loose_joint, object_body
+from ..model.collision.shapes import CollisionShape
+from .compile import ALL, OBJECTS, vehicle_bit
 from .poses import Poses
 
 

@@ -11,9 +11,9 @@ import numpy.typing as npt
 from ..base.geometry import Array, Pose, quaternion_from_rotation
 from ..base.numerics.linear import points_of, product, turned
 from ..devices.object_picker import ObjectPickerSpec
+from ..model.body_names import object_body, vehicle_body
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
-from .compile import object_body, vehicle_body
 from .scaled import stretched_axes
 
 

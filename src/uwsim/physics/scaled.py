@@ -16,9 +16,9 @@ import numpy as np
 
 from ..base.geometry import Array, Pose, Triple, rotation_from_rpy
 from ..base.numerics.linear import length, product, turned, turned_back
+from ..model.body_names import vehicle_body
 from ..scene.urdf.kinematics import joint_positions, link_poses
 from ..scene.urdf.robot import RobotSpec
-from .compile import vehicle_body
 
 
 class ScaledLinks:

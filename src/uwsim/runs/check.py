@@ -135,8 +135,8 @@ def _settled(scene: SceneSpec, data_path: tuple[Path, ...]) -> SceneSpec:
 
     if not stands_on_floor(scene):
         return scene
-    from ..simulation.bodies import read_robots
-    from ..simulation.collision.floor import set_on_floor
+    from ..model.placement import set_on_floor
+    from ..model.robots import read_robots
 
     try:
         return set_on_floor(scene, read_robots(scene, data_path), data_path)

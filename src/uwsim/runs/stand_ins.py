@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def warn_of_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
     """Tell which robots of a scene are the bundled ones in the place of files that are nowhere."""
-    from ..simulation.bodies import robot_stand_ins
+    from ..model.robots import robot_stand_ins
 
     for name, path in robot_stand_ins(scene, data_path).items():
         place = f"{scene.path}: " if scene.path else ""

@@ -4,22 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from pathlib import Path
 from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
 
-from ..assets import bundled_robot, find, folders_searched, package_remark
 from ..base.geometry import Pose
 from ..base.numerics.linear import placed, product
-from ..errors import AssetNotFound, UnknownName, UwsimError
+from ..errors import UnknownName, UwsimError
+from ..model.parts import Part
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
-from ..scene.urdf.reader import read_urdf
 from ..scene.urdf.robot import RobotSpec
 from ..world import Box
-from .parts import Part
 
 
 class SceneBody:
@@ -42,63 +39,6 @@ class SceneBody:
     def box(self) -> Box | None:
         """Bounding box of its mesh in its own frame; None without a mesh."""
         return self._box
-
-
-def find_file(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
-    """Find a file named in the file ``named_by``; AssetNotFound names every folder searched."""
-    folder = Path(named_by).parent if named_by else None
-    path = find(name, named_by=folder, data_path=data_path)
-    if path is None:
-        remark = package_remark(name, named_by=folder, data_path=data_path)
-        searched = folders_searched(named_by=folder, data_path=data_path)
-        folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
-        why = f"not found; {remark}" if remark else f"in none of the folders searched: {folders}"
-        raise AssetNotFound(f"{name!r} is {why}.", name=name)
-    return path
-
-
-def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
-    """Find a robot file; if it is not found, the bundled one of the same file name replaces it.
-
-    Raises:
-        AssetNotFound: there is none of that name either; names every folder searched.
-    """
-    try:
-        return find_file(name, named_by, data_path)
-    except AssetNotFound:
-        path = bundled_robot(name)
-        if path is None:
-            raise
-        return path
-
-
-def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
-    """Robot files that are not found, and the bundled ones that replace them."""
-    named_by = Path(scene.path).parent if scene.path else None
-    lost = {
-        vehicle.file: bundled_robot(vehicle.file)
-        for vehicle in scene.vehicles
-        if find(vehicle.file, named_by=named_by, data_path=data_path) is None
-    }
-    return {name: path for name, path in lost.items() if path is not None}
-
-
-def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, RobotSpec]:
-    """Find and read the URDF of every vehicle, by the vehicle's number.
-
-    Raises:
-        AssetNotFound: a file is nowhere; names every folder searched.
-        SceneError: a file is wrong.
-    """
-    arguments = dict(scene.expansion.arguments)
-    return {
-        index: read_urdf(
-            find_robot(vehicle.file, scene.path, data_path),
-            data_path=data_path,
-            arguments=arguments,
-        )
-        for index, vehicle in enumerate(scene.vehicles)
-    }
 
 
 def name_bodies(

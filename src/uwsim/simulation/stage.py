@@ -19,6 +19,7 @@ from ..devices.led_array import Led, LedArray
 from ..devices.structured_light_projector import MountedProjector
 from ..errors import AssetNotFound, SceneError, UnknownName, UwsimError
 from ..messages import SpawnMarker, String
+from ..model.robots import find_file
 from ..network import Channel, Network
 from ..scene.sim_params import Integrator
 from ..scene.spec import SceneSpec, with_integrator
@@ -27,7 +28,6 @@ from ..sensors.sensor import Sensor
 from ..topics.frames import Frame
 from ..topics.interface import Binds, Interface
 from ..world import Flow
-from .bodies import find_file
 from .datagrams import Datagrams
 from .faulty_topic import FaultyTopic, faults_of
 from .frames import object_frames, vehicle_frames

@@ -11,8 +11,8 @@ from collections.abc import Iterable
 import numpy as np
 
 from ..base.geometry import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
+from ..model.parts import Part
 from ..scene.urdf.robot import RobotSpec
-from .parts import Part
 from .world import SceneWorld
 
 

@@ -12,10 +12,10 @@ import numpy as np
 from ..base.geometry import Array, Intrinsics, Pose
 from ..base.numerics.linear import length, product
 from ..errors import BadSetting, UnknownName
+from ..model.parts import Part
 from ..scene.mounts import camera_axes
 from ..scene.object import TERRAIN
 from ..scene.sim_params import ViewerCameraSpec
-from .parts import Part
 from .simulation import Simulation
 
 Size = tuple[int, int]

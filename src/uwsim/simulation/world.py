@@ -17,6 +17,11 @@ from ..base.rng import stream
 from ..bus import Bus
 from ..devices.device import DeviceSpec
 from ..errors import Diagnostic, UnknownName
+from ..model.collision.scene_shapes import simulated_shapes
+from ..model.dynamics import read_dynamics
+from ..model.placement import set_on_floor
+from ..model.robots import read_robots
+from ..model.water_density import density_levels
 from ..physics.engine import Engine
 from ..scene.reader import scene_warnings
 from ..scene.spec import SceneSpec
@@ -25,20 +30,16 @@ from ..sensors.pinhole import cast_depth, cast_surfaces
 from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import TIMESTEP, Actuators, Contact
-from .bodies import SceneBody, find_body, name_bodies, read_robots
+from .bodies import SceneBody, find_body, name_bodies
 from .checks.place_warnings import place_warnings
 from .checks.plausibility import plausibility_warnings
 from .collision.below_ground import BelowGround
-from .collision.collision_shapes import simulated_shapes
 from .collision.contacts import Contacts
-from .collision.floor import set_on_floor
 from .collision.start_depths import lift_from_ground
-from .dynamics import read_dynamics
 from .scenery.renderer_pool import RendererPool
 from .scenery.scene_rays import SceneRays
 from .scenery.scenery import Scenery
 from .vehicles import SceneVehicle, vehicles_of
-from .water.water_density import density_levels
 from .water.water_motion import water_motion
 
 

@@ -150,6 +150,7 @@ import numpy as np
 
 from ..base.geometry import Pose
 from ..base.numerics.linear import dot, length, product
+from ..model.parts import Part
 from ..rendering.water import AMBIENT, SPECULAR, SUN_COLOURS, SUN_DIRECTIONS
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import MountedSensor
@@ -157,7 +158,6 @@ from ..sensors.sonar.imaging_sonar import ImagingSonarSpec
 from ..sensors.sonar.multibeam_sensor import FanSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
-from ..simulation.parts import Part
 from ..simulation.scenery.sand import CELL, REACH, Heap
 from ..simulation.stage import SceneStage
 from ..simulation.tracked_bodies import body_names, leaders, unique, vehicle_labels

@@ -21,8 +21,8 @@ from ..messages import Float64, MarkerArray, String, TFMessage
 from ..messages.build import NANOSECONDS, transform
 from ..middleware.recording.mcap_file import McapFile
 from ..middleware.types import wire_type
+from ..model.parts import Part
 from ..simulation import Simulation
-from ..simulation.parts import Part
 from ..simulation.tracked_bodies import TrackedBodies
 from .film.puppets import Puppets
 from .recorded import RecordedTrial

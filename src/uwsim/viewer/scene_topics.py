@@ -21,8 +21,8 @@ from typing import TYPE_CHECKING, Any
 from ..base.geometry import Array
 from ..messages import String, TFMessage
 from ..messages.build import transform
+from ..model.parts import Part
 from ..simulation import Simulation
-from ..simulation.parts import Part
 from ..topics.frames import TF, Frame
 from ..topics.world_to_ros_tf import WorldToROSTFSpec
 from .shapes import SCENE, shapes

@@ -10,8 +10,8 @@ from ..assets.mesh import Mesh
 from ..base.geometry import Array
 from ..base.numerics.linear import product
 from ..messages import ColorRGBA, Marker, MarkerArray, Point, Vector3, header
+from ..model.parts import Part
 from ..simulation import Simulation
-from ..simulation.parts import Part
 
 SCENE = "scene"
 """The topic of the shapes."""

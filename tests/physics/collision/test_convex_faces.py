@@ -7,7 +7,7 @@ import pytest
 
 from uwsim.assets import load_model, primitive
 from uwsim.base.geometry import rotation_from_rpy
-from uwsim.physics.collision.convex_faces import convex_faces
+from uwsim.model.collision.convex_faces import convex_faces
 
 LEVEL = 0.3  # height of the flat meshes below [m]
 

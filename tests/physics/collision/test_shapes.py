@@ -6,7 +6,7 @@ import pytest
 from uwsim.assets import load_model, primitive
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.errors import UwsimError
-from uwsim.physics.collision.shapes import (
+from uwsim.model.collision.shapes import (
     MAX_PIECES,
     CollisionShape,
     bounds,
@@ -130,7 +130,7 @@ def holds(shape: CollisionShape, point: tuple[float, float, float]) -> bool:
 
 
 def test_a_mesh_with_too_many_faces_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("uwsim.physics.collision.shapes.MAX_PIECES", 100)
+    monkeypatch.setattr("uwsim.model.collision.shapes.MAX_PIECES", 100)
     rng = np.random.Generator(np.random.Philox(1))
     points = rng.uniform(size=(3 * 100 + 3, 3))
     soup = mesh_of(points.tolist(), np.arange(len(points)).reshape(-1, 3).tolist())

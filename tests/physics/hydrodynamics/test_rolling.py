@@ -10,7 +10,7 @@ import pytest
 
 from tests.physics.water_models import set_options
 from uwsim.base.geometry import Pose
-from uwsim.physics.collision.shapes import CollisionShape
+from uwsim.model.collision.shapes import CollisionShape
 from uwsim.physics.free_objects import loose_link
 from uwsim.physics.hydrodynamics import prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install

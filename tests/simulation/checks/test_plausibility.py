@@ -14,6 +14,7 @@ import pytest
 
 from uwsim.cli.app import main
 from uwsim.errors import Diagnostic
+from uwsim.model.collision.hull import Hull, LinkBox
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.checks.plausibility import PLAUSIBILITY_WARNINGS, VehicleWarning
 from uwsim.scene.reader import read_scene
@@ -21,7 +22,6 @@ from uwsim.scene.urdf.robot import LinkSpec, RobotSpec
 from uwsim.simulation import Simulation
 from uwsim.simulation.checks.plausibility import warnings_of
 from uwsim.simulation.checks.vehicle_plausibility import size_said
-from uwsim.simulation.collision.hull import Hull, LinkBox
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
 DATA = Path(str(resources.files("uwsim"))) / "data"

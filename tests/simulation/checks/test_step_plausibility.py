@@ -9,7 +9,7 @@ import pytest
 
 from tests.simulation.checks.test_plausibility import SCENE, written
 from uwsim.base.geometry import Pose
-from uwsim.physics.collision.shapes import CollisionShape
+from uwsim.model.collision.shapes import CollisionShape
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation

@@ -12,9 +12,9 @@ from tests.simulation.collision.test_bounces import height, in_water, relief
 from tests.simulation.collision.test_floor import BOX, grid, obj
 from uwsim.base.geometry import Pose
 from uwsim.errors import SimulationFailed
+from uwsim.model.collision.solid_grounds import is_closed, is_level_sheet
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.simulation import Simulation
-from uwsim.simulation.collision.solid_grounds import is_closed, is_level_sheet
 
 UNDER = -8.5  # below the relief and every plate
 

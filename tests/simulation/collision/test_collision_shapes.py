@@ -5,9 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
+from uwsim.model.collision.scene_shapes import collision_shapes
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.simulation.collision.collision_shapes import collision_shapes
 
 WEDGE = """v 0 0 0
 v 0.2 0 0

@@ -10,13 +10,13 @@ import pytest
 
 from tests.simulation.small_robots import begin, joint, scene_of, shape, write_robot
 from uwsim.base.geometry import Intrinsics, Pose
+from uwsim.model.parts import visual_model
 from uwsim.rendering.renderer import RenderedImage
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.urdf.robot import VisualSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 from uwsim.simulation import Simulation
-from uwsim.simulation.parts import visual_model
 
 
 @pytest.mark.parametrize(

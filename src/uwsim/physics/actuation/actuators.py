@@ -16,9 +16,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
+from ...model.body_names import vehicle_joint, vehicle_thruster
 from ...scene.hydrodynamics import VehicleHydrodynamics
 from ...scene.urdf.robot import RobotSpec
-from ..compile import vehicle_joint, vehicle_thruster
 from ..hydrodynamics.columns import WATER_COLUMNS
 from .power import greatest_power, power_table
 

@@ -18,8 +18,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
+from ...model.body_names import vehicle_joint
 from ...scene.urdf.robot import JointSpec, RobotSpec
-from ..compile import vehicle_joint
 from ..joints import servo_gains, stops
 from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 

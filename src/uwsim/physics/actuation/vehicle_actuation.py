@@ -9,12 +9,12 @@ import mujoco
 import numpy as np
 
 from ...base.geometry import Array, Pose
+from ...model.balance import balance_of
+from ...model.body_names import vehicle_fin, vehicle_joint, vehicle_thruster
 from ...scene.hydrodynamics import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...scene.vehicle import VehicleSpec
-from ..balance import balance_of
-from ..compile import vehicle_fin, vehicle_joint, vehicle_thruster
 from ..poses import Poses
 from .actuators import Actuators
 from .allocation import thrusters_on_base

@@ -14,10 +14,10 @@ import numpy as np
 
 from ...base.geometry import Array, Pose, quaternion_from_rotation
 from ...base.numerics.linear import dot, length
+from ...model.collision.shapes import CollisionShape
 from ...world import Contact
 from ..compile import ALL, OBJECTS, SHAPES, give_form
 from ..kinematics.jumps import JumpTimes, without_placement
-from .shapes import CollisionShape
 
 
 class KinematicContacts:

@@ -8,8 +8,8 @@ import numpy as np
 
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import cross, dot, length, product
+from ...model.parts import Part
 from ...world import Box
-from ..parts import Part
 from ..scenery.scenery import Scenery
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...model.placement import ground_faces
 from ...rays import RayScene, Surface
 from ...scene.mounts import MountFrames
 from ...scene.pointing import describe_direction
@@ -18,7 +19,6 @@ from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...sensors.dvl_sensor import DvlSensorSpec
 from ...sensors.janus import ENOUGH, Janus
-from ..collision.floor import ground_faces
 
 FARTHEST = 20000.0
 """How far the bottom is looked for along each beam [m]."""

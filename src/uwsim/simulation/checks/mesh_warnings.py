@@ -7,11 +7,11 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...errors import Diagnostic, UwsimError
-from ...physics.collision.fixed_mesh import ERROR, MAX_EXACT, FixedMesh
-from ...physics.collision.polygon_cache import cached_faces
+from ...model.collision.fixed_mesh import ERROR, MAX_EXACT, FixedMesh
+from ...model.collision.polygon_cache import cached_faces
+from ...model.collision.scene_shapes import simulated_solids, touched_mesh
 from ...scene.spec import SceneSpec
 from ...schema import diagnostic_at
-from ..collision.collision_shapes import simulated_solids, touched_mesh
 
 MAX_PLATES = 5000
 """Plates of all fixed meshes of a scene; more are reported."""

@@ -11,12 +11,12 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.linear import length
 from ...errors import UwsimError
-from ...physics.collision.shapes import CollisionShape, bounds
-from ...physics.compile import object_body
+from ...model.body_names import object_body
+from ...model.collision.scene_shapes import collision_shapes
+from ...model.collision.shapes import CollisionShape, bounds
 from ...scene.checks.plausibility import ObjectWarning
 from ...scene.object import PhysicsSpec
 from ...scene.spec import SceneSpec
-from ..collision.collision_shapes import collision_shapes
 from .vehicle_plausibility import ROOM
 
 MARGIN = 0.05

@@ -12,6 +12,10 @@ from pathlib import Path
 from typing import Literal
 
 from ...errors import Diagnostic, UwsimError
+from ...model.collision.hull import hull_of
+from ...model.collision.scene_shapes import simulated_solids
+from ...model.dynamics import DYNAMICS, read_dynamics
+from ...model.robots import read_robots
 from ...scene.checks.plausibility import VehicleWarning, unless_meant
 from ...scene.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.object import PhysicsSpec
@@ -21,10 +25,6 @@ from ...scene.urdf.robot import RobotSpec
 from ...schema import diagnostic_at
 from ...sensors.dvl_sensor import DvlSensorSpec
 from ...world import TIMESTEP
-from ..bodies import read_robots
-from ..collision.collision_shapes import simulated_solids
-from ..collision.hull import hull_of
-from ..dynamics import DYNAMICS, read_dynamics
 from .bottom import Bottom
 from .mesh_warnings import mesh_warnings
 from .object_plausibility import of_objects

@@ -7,17 +7,17 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...errors import Diagnostic, SceneError, UwsimError
-from ...physics.compile import object_body
+from ...model.body_names import object_body
+from ...model.collision.scene_shapes import collision_shapes, simulated_solids
+from ...model.dynamics import Search
+from ...model.placement import set_on_floor
+from ...model.robots import find_robot
 from ...physics.free_objects import object_errors
 from ...scene.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
 from ...scene.urdf.reader import read_urdf
 from ...scene.urdf.robot import RobotSpec
 from ...schema import diagnostic_at
-from ..bodies import find_robot
-from ..collision.collision_shapes import collision_shapes, simulated_solids
-from ..collision.floor import set_on_floor
-from ..dynamics import Search
 from .plausibility import plausibility_warnings
 
 

@@ -12,14 +12,14 @@ from contextlib import suppress
 from pathlib import Path
 
 from ...errors import Diagnostic, UwsimError
-from ...physics.collision.shapes import CollisionShape, bounds
-from ...physics.compile import object_body
+from ...model.body_names import object_body
+from ...model.collision.scene_shapes import collision_shapes
+from ...model.collision.shapes import CollisionShape, bounds
 from ...physics.free_objects import loose_hydrodynamics
 from ...scene.object import PhysicsSpec
 from ...scene.spec import SceneSpec
 from ...schema import diagnostic_at
 from ...world import GRAVITY
-from ..collision.collision_shapes import collision_shapes
 
 MAX_TURN = math.pi
 """In a step: beyond half a turn it is not even known which way a thing turns [rad]."""

@@ -6,6 +6,7 @@ import numpy as np
 
 from ...base.numerics.linear import length, product
 from ...devices.battery import BatterySpec
+from ...model.balance import Balance, balance_of
 from ...physics.actuation.allocation import (
     AXES,
     HEAVE,
@@ -21,7 +22,6 @@ from ...physics.actuation.allocation import (
     thrusters_on_base,
 )
 from ...physics.actuation.power import greatest_power
-from ...physics.balance import Balance, balance_of
 from ...scene.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec

@@ -13,16 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.numerics.linear import dot
+from ...model.balance import Balance, balance_of
+from ...model.collision.hull import Hull
+from ...model.inertias import MIN_INERTIA
 from ...physics.actuation.allocation import curve, thrusters_on_base
-from ...physics.balance import Balance, balance_of
-from ...physics.compile import MIN_INERTIA
 from ...scene.checks.plausibility import VehicleWarning
 from ...scene.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import LinkSpec, RobotSpec
 from ...world import TIMESTEP
-from ..collision.hull import Hull
 
 UNEVEN = 0.1
 """Difference between mass and displaced water, as a share of the greater, that is reported."""

@@ -22,12 +22,12 @@ import numpy as np
 
 from ...base.geometry import Array, Pose
 from ...errors import SimulationFailed
-from ...physics.collision.shapes import CollisionShape, bounds
-from ...physics.compile import object_body, vehicle_body
+from ...model.body_names import object_body, vehicle_body
+from ...model.collision.shapes import CollisionShape, bounds
+from ...model.collision.solid_grounds import SolidGround, solid_grounds
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from .solid_grounds import SolidGround, solid_grounds
 
 PERIOD = 0.5
 """Time between two looks [s]."""

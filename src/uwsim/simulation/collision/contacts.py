@@ -14,6 +14,7 @@ from typing import Any, Literal
 
 from ...base.geometry import Array, Pose
 from ...errors import UwsimError
+from ...model.collision.scene_shapes import collision_shapes
 from ...physics.collision.kinematic_contacts import KinematicContacts
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec
@@ -21,7 +22,6 @@ from ...scene.urdf.robot import RobotSpec
 from ...world import Contact
 from ..bodies import touchable, untouchable
 from ..snapshot import put_state, state_of
-from .collision_shapes import collision_shapes
 
 
 class Contacts:

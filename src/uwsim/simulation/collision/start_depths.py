@@ -16,11 +16,11 @@ from pathlib import Path
 import numpy as np
 
 from ...base.geometry import Array, Pose
-from ...physics.collision.ground import Ground
+from ...model.collision.ground import Ground
+from ...model.placement import Floor
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from .floor import Floor
 
 SUNK = 0.1
 """Share of its height by which a body may begin in the ground; contacts push it out of less."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.linear import product
-from ..parts import Part
+from ...model.parts import Part
 from ..world import SceneWorld
 from .scenery import Scenery
 

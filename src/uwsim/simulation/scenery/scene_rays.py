@@ -10,10 +10,10 @@ import numpy as np
 from ...acoustics import MATERIALS, Material, MaterialName
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import determinant, placed, product
+from ...model.parts import Part
 from ...physics.engine import Engine
 from ...rays import Balls, Hits, RayScene, Surface
 from ...scene.spec import SceneSpec
-from ..parts import Part
 from .sand import Heap
 
 

@@ -18,6 +18,7 @@ from ...devices.lamp import MAX_LAMPS, MountedLamp
 from ...devices.led_array import Led
 from ...devices.structured_light_projector import MountedProjector
 from ...errors import UwsimError
+from ...model.parts import Part, parts_of
 from ...physics.engine import Engine
 from ...rendering.grey import grey_truncated
 from ...rendering.lights.lamp import Lamp
@@ -27,7 +28,6 @@ from ...rendering.rendered_image import RenderedImage
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from ..parts import Part, parts_of
 from .renderer_pool import RendererPool
 from .sand import heaps_of
 

@@ -12,9 +12,9 @@ from ...base.geometry import Array, Pose
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...currents import Place, TotalCurrent, bind_currents
+from ...model.robots import find_file
 from ...scene.spec import SceneSpec
 from ...world import Flow
-from ..bodies import find_file
 
 WaterRow = tuple[Array, Array, Array | None]
 """Velocity, acceleration and rotation of the water at some points."""

@@ -5,7 +5,7 @@ a finger, a link at the end of a chain that a joint moves, as its mesh where tha
 objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
 or the scene asks for the original's physics, an object is loose if it has a mass and is not
 ``isKinematic``; elsewhere it is fixed. Solid scenery without ``<physics>`` is its faces, a large
-mesh those of `uwsim.physics.collision.fixed_mesh`. Not modelled: contacts of a vehicle with
+mesh those of `uwsim.model.collision.fixed_mesh`. Not modelled: contacts of a vehicle with
 itself, of objects that stand still with each other; limits of objects; hollows between the hulls of
 a link.
 """
@@ -21,9 +21,16 @@ import numpy as np
 from ...assets.mesh import Model
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import placed, product, turned
-from ...physics.collision.fixed_mesh import FixedMesh
-from ...physics.collision.ground import triangles_of
-from ...physics.collision.shapes import (
+from ...scene.object import ObjectSpec, PhysicsSpec
+from ...scene.spec import SceneSpec
+from ...scene.urdf.kinematics import link_poses
+from ...scene.urdf.robot import RobotSpec, VisualSpec
+from ...scene.vehicle import VehicleSpec
+from ..body_names import object_body, vehicle_body
+from ..parts import object_models, visual_model
+from .fixed_mesh import FixedMesh
+from .ground import triangles_of
+from .shapes import (
     TRIMESHES,
     CollisionShape,
     convex_shapes,
@@ -31,13 +38,6 @@ from ...physics.collision.shapes import (
     seen_from,
     shapes_of,
 )
-from ...physics.compile import object_body, vehicle_body
-from ...scene.object import ObjectSpec, PhysicsSpec
-from ...scene.spec import SceneSpec
-from ...scene.urdf.kinematics import link_poses
-from ...scene.urdf.robot import RobotSpec, VisualSpec
-from ...scene.vehicle import VehicleSpec
-from ..parts import object_models, visual_model
 
 
 def simulated_shapes(

@@ -18,11 +18,11 @@ from pathlib import Path
 import numpy as np
 
 from ...base.geometry import Array
-from ...physics.collision.ground import STEEPEST, Ground
-from ...physics.collision.shapes import THICKNESS, TRIMESHES
-from ...physics.compile import object_body
 from ...scene.spec import SceneSpec
-from .collision_shapes import standing_box, standing_faces
+from ..body_names import object_body
+from .ground import STEEPEST, Ground
+from .scene_shapes import standing_box, standing_faces
+from .shapes import THICKNESS, TRIMESHES
 
 SAME = 1e-5
 """Corners of a mesh at this distance are one [m]."""

@@ -15,19 +15,19 @@ from pathlib import Path
 
 import numpy as np
 
-from ...base.geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
-from ...base.numerics.linear import length, product
-from ...errors import Diagnostic, SceneError
-from ...physics.collision.ground import Ground, triangles_of
-from ...physics.compile import object_body
-from ...scene.object import ObjectSpec, PhysicsSpec
-from ...scene.on_floor import OnFloorSpec
-from ...scene.spec import SceneSpec, stands_on_floor
-from ...scene.urdf.kinematics import link_poses
-from ...scene.urdf.robot import RobotSpec
-from ...scene.vehicle import VehicleSpec
-from ...schema import diagnostic_at
-from .collision_shapes import collision_shapes, standing_faces
+from ..base.geometry import Array, Pose, rotation_about, rpy_from_rotation, xyz_from_rotation
+from ..base.numerics.linear import length, product
+from ..errors import Diagnostic, SceneError
+from ..scene.object import ObjectSpec, PhysicsSpec
+from ..scene.on_floor import OnFloorSpec
+from ..scene.spec import SceneSpec, stands_on_floor
+from ..scene.urdf.kinematics import link_poses
+from ..scene.urdf.robot import RobotSpec
+from ..scene.vehicle import VehicleSpec
+from ..schema import diagnostic_at
+from .body_names import object_body
+from .collision.ground import Ground, triangles_of
+from .collision.scene_shapes import collision_shapes, standing_faces
 
 HULL = PhysicsSpec(collision_shape_type="trimesh")
 """Collision shapes of an object without ``<physics>``: the hulls of its materials."""

@@ -10,11 +10,11 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.linear import length
-from ...physics.collision.ground import triangles_of
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec
-from .collision_shapes import collision_shapes
+from .ground import triangles_of
+from .scene_shapes import collision_shapes
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,6 @@ from ..currents import Place, PythonFunctionSpec
 from ..devices.fault import FaultSpec
 from ..devices.fault_fields import number_fields
 from ..errors import BadSetting, Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
-from ..physics.compile import MIN_MASS
-from ..physics.free_objects import MAX_BUOYANCY
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle_into, set_errors
 from ..scene.hydrodynamics.vehicle_sets import find_vehicle
@@ -31,8 +29,8 @@ from ..sensors.virtual_camera import VirtualCameraSpec
 from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from ..world import GRAVITY
-from .bodies import find_file
-from .inertias import inertias_refused
+from .inertias import MAX_BUOYANCY, MIN_MASS, inertias_refused
+from .robots import find_file
 
 Severity = Literal["error", "warning"]
 U = f"{{{NAMESPACE}}}"

@@ -14,6 +14,13 @@ from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..schema import diagnostic_at
 
+MIN_MASS = 0.01
+"""Of a link whose URDF gives none [kg]."""
+MIN_INERTIA = 1e-4
+"""Of a link whose URDF gives none [kg m2]."""
+MAX_BUOYANCY = 100.0
+"""Greatest buoyancy per weight: the lightest foam has 10 kg/m3 [1]."""
+
 
 def inertias_refused(
     scene: SceneSpec,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from ...scene.hydrodynamics import VehicleHydrodynamics
-from ...scene.ocean_state import MILD, OceanStateSpec
-from ...scene.seawater import sea_water_density
+from ..scene.hydrodynamics import VehicleHydrodynamics
+from ..scene.ocean_state import MILD, OceanStateSpec
+from ..scene.seawater import sea_water_density
 
 SEA = sea_water_density(MILD, 35.0)
 """Density of water of which nothing is given [kg/m3]."""

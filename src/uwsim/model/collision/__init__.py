@@ -1,0 +1,1 @@
+"""The collision shapes of a scene, and the ground that they make."""
