@@ -28,10 +28,10 @@ CHOSEN_BY_THE_PROCESSOR = """
 NEEDS = {"np.linalg.norm": "axis", "np.argsort": "kind"}
 """Of numpy: the argument that makes the difference."""
 MAKE_NO_NUMBERS = {
-    "numerics/linear.py": "raises numpy's error",
-    "physics/hydrodynamics/file/checks.py": "says that a vehicle's file is wrong",
-    "physics/hydrodynamics/file/passivity.py": "says that a vehicle's file is wrong",
+    "base/numerics/linear.py": "raises numpy's error",
     "physics/hydrodynamics/self_test.py": "says that MuJoCo is another",
+    "scene/hydrodynamics/checks.py": "says that a vehicle's file is wrong",
+    "scene/hydrodynamics/passivity.py": "says that a vehicle's file is wrong",
     "viewer/film/paths.py": "where the camera of a film is",
     "viewer/live/view.py": "refuses a view that is none",
     "viewer/shapes.py": "meshes for the viewers of recordings",

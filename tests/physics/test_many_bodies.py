@@ -11,12 +11,12 @@ import pytest
 
 from tests.physics.water_models import FAR_BELOW, free_body, set_options
 from tests.simulation.girona500 import SCENE, make, run
+from uwsim.model import parts
 from uwsim.physics.hydrodynamics import callback, prepare
 from uwsim.physics.hydrodynamics.hydrodynamics import install
 from uwsim.scene.hydrodynamics import BodyHydrodynamics
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import parts
 
 WATER = BodyHydrodynamics(
     link="body", added_mass=(4.0, 6.0, 9.0, 0.05, 0.08, 0.05), volume=0.0142, implicitness=1.0

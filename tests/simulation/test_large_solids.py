@@ -14,9 +14,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from uwsim.model.collision import fixed_mesh as fixed_mesh_module
+from uwsim.model.collision import polygon_cache
 from uwsim.physics import compile as compile_module
-from uwsim.physics.collision import fixed_mesh as fixed_mesh_module
-from uwsim.physics.collision import polygon_cache
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.on_floor import OnFloorSpec
 from uwsim.scene.reader import read_scene

@@ -12,12 +12,12 @@ from tests.physics.collision.surfaces import grid, irregular, model_of, rock
 from uwsim.assets import load_model
 from uwsim.base.geometry import Array
 from uwsim.errors import UwsimError
+from uwsim.model.collision import fixed_mesh as fixed_mesh_module
 from uwsim.model.collision.convex_faces import convex_faces, n_patches
 from uwsim.model.collision.fixed_mesh import ERROR, MAX_EXACT, MAX_LEFT, FixedMesh, fixed_mesh
 from uwsim.model.collision.fixed_mesh_cache import cached_mesh
 from uwsim.model.collision.shapes import shapes_of
 from uwsim.model.collision.simplification import simplified
-from uwsim.physics.collision import fixed_mesh as fixed_mesh_module
 
 ROCK = rock()
 

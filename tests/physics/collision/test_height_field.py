@@ -10,10 +10,10 @@ from tests.physics.collision.surfaces import grid, irregular, model_of, rock
 from uwsim.base.geometry import Array, Pose
 from uwsim.base.numerics.linear import product
 from uwsim.model.body_names import object_body
+from uwsim.model.collision import height_field as fields
 from uwsim.model.collision.ground import Ground
 from uwsim.model.collision.height_field import EXACT, TILE, HeightField, height_field
 from uwsim.model.collision.shapes import CollisionShape, shapes_of
-from uwsim.physics.collision import height_field as fields
 from uwsim.physics.compile import compile_scene
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.physics.collision import convex_faces, polygon_cache
+from uwsim.model.collision import convex_faces, polygon_cache
 
 SQUARE = np.array(
     [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0]],
