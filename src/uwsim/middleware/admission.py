@@ -63,6 +63,10 @@ class Admission(ABC):
             for take in held.take() if held is not None else ():
                 take()
 
+    def is_waited_for(self, by: str) -> bool:
+        """Whether the run waits for what a sender sends."""
+        return by in self._admitted
+
     def leave(self, by: str) -> None:
         """A sender has left for good; what was held of it is forgotten."""
         with self._lock:
@@ -177,6 +181,10 @@ class TopicOwners(Admission):
         self._topics = None if topics is None else frozenset(topics)
         self._owners: dict[str, str] = {}
         self._offerers: dict[str, str] = {}
+
+    def is_waited_for(self, by: str) -> bool:
+        """Whether the run waits for what a sender sends: for the owners of certain topics only."""
+        return self._topics is not None and super().is_waited_for(by)
 
     def leave(self, by: str) -> None:
         """A sender has left for good; its topics and services may have another owner."""

@@ -11,23 +11,76 @@ from websockets.sync.client import connect
 from tests.support.waiting import until
 from uwsim.bus import Bus
 from uwsim.messages import TwistStamped
+from uwsim.middleware.admission import FirstCaller, Joined, TopicOwners
+from uwsim.middleware.lockstep.topics import JOIN
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.queue import Lane, OutQueue
-from uwsim.middleware.web.server import WebBridge
+from uwsim.middleware.web.server import PING, WebBridge
 
 
-def test_a_flood_is_read_in_few_bursts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each time that the server wakes, the simulation waits for Python's lock."""
-    rests: list[float] = []
+@pytest.fixture
+def rests(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """The times for which clients are not read [s]."""
+    found: list[float] = []
     sleep = asyncio.sleep
 
     async def rest(seconds: float) -> None:
-        rests.append(seconds)
+        if seconds < 0.5 * PING:  # longer ones are those of the library between two questions
+            found.append(seconds)
         await sleep(seconds)
 
     monkeypatch.setattr("uwsim.middleware.web.server.asyncio.sleep", rest)
     monkeypatch.setattr("uwsim.middleware.web.server.CLIENT_BURST", 0.002)
+    return found
+
+
+ADMISSIONS = {
+    "ack": Joined(lambda by, what: None),
+    "step": FirstCaller("step_simulation", lambda by, what: None),
+    "output": TopicOwners({"twist"}, lambda by, what: None),
+    "none": TopicOwners(None, lambda by, what: None),
+}
+
+
+@pytest.mark.parametrize("sync", ADMISSIONS)
+def test_what_a_run_waits_for_is_read_at_once(sync: str, rests: list[float]) -> None:
+    bus, n = Bus(), 200
+    bus.inbox("twist", TwistStamped)
+    bridge = WebBridge(bus, lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
+    bridge.admission = admission = ADMISSIONS[sync]
+    try:
+        bridge.step()
+        with connect(f"ws://127.0.0.1:{bridge.port}") as client:
+            admission.admit(f"client 127.0.0.1:{client.local_address[1]}")
+            for _ in range(n):
+                client.send(json.dumps({"op": "publish", "topic": "/twist", "msg": {}}))
+            until(lambda: bridge.n_arrived["twist"] == n)
+    finally:
+        bridge.close()
+    assert bool(rests) == (sync == "none")
+
+
+def test_a_client_that_calls_itself_a_participant_waits_as_others_do(rests: list[float]) -> None:
+    bus, n = Bus(), 200
+    bridge = WebBridge(bus, lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
+    bridge.admission = Joined(lambda by, what: None)
+    join = {"op": "publish", "topic": f"/{JOIN}", "msg": {"data": '{"client": "a"}'}}
+    try:
+        bridge.step()
+        with connect(f"ws://127.0.0.1:{bridge.port}") as client:
+            client.send(
+                json.dumps({"op": "advertise", "topic": f"/{JOIN}", "type": "std_msgs/String"})
+            )
+            for _ in range(n):
+                client.send(json.dumps(join))
+            until(lambda: len(rests) > 1)
+    finally:
+        bridge.close()
+
+
+def test_a_flood_is_read_in_few_bursts(rests: list[float]) -> None:
+    """Each time that the server wakes, the simulation waits for Python's lock."""
     bus, n = Bus(), 200
     bus.inbox("twist", TwistStamped)
     bridge = WebBridge(bus, lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))

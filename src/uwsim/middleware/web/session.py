@@ -123,8 +123,9 @@ class Session:
 
     @property
     def is_waited_for(self) -> bool:
-        """Whether the client takes part in lock-step: the simulation waits for its answers."""
-        return self._joined_as is not None and self._bridge.admission is not None
+        """Whether the client takes part in a run that waits for what it sends."""
+        admission = self._bridge.admission
+        return admission is not None and admission.is_waited_for(self._name)
 
     def reply(self, content: dict[str, Any]) -> None:
         """Send an object, behind what waits already. Any thread."""
