@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -93,6 +94,28 @@ def rooms_imported(path: Path) -> list[tuple[int, str]]:
     return sorted(found)
 
 
+def imported_by(path: Path) -> set[Path]:
+    """Return the modules that a module imports, also in functions and for type checks."""
+    found: set[Path] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if not isinstance(node, ast.ImportFrom) or not node.level:
+            continue
+        folder = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))
+        for name in node.names:
+            candidates = (folder / f"{name.name}.py", folder.with_suffix(".py"))
+            found |= {next((each for each in candidates if each.is_file()), folder / "__init__.py")}
+    return {each for each in found if each.name != "__init__.py"} - {path}
+
+
+def cycle_among(paths: list[Path]) -> list[str]:
+    """Return modules that import each other in a circle; none if there is no such circle."""
+    try:
+        TopologicalSorter({path: imported_by(path) for path in paths}).prepare()
+    except CycleError as error:
+        return [path.relative_to(PACKAGE).as_posix() for path in error.args[1]]
+    return []
+
+
 def test_a_module_imports_only_from_its_own_room_and_from_those_above_it() -> None:
     wrong = [
         f"{path.relative_to(PACKAGE)}:{line} imports {target}"
@@ -106,6 +129,20 @@ def test_a_module_imports_only_from_its_own_room_and_from_those_above_it() -> No
 def test_every_room_stands_in_the_drawing() -> None:
     rooms = {room_of(path) for path in modules()} - {"__init__"}
     assert rooms <= set(MAY_IMPORT)
+
+
+def test_no_modules_import_each_other() -> None:
+    assert cycle_among(modules()) == []
+
+
+@pytest.mark.parametrize("how", ["from .{} import x", "def f():\n    from . import {}"])
+def test_a_circle_of_imports_is_seen(
+    how: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(f"{__name__}.PACKAGE", tmp_path)
+    for name, imported in [("a", "b"), ("b", "c"), ("c", "a")]:
+        (tmp_path / f"{name}.py").write_text(how.format(imported))
+    assert set(cycle_among(modules())) == {"a.py", "b.py", "c.py"}
 
 
 def test_no_package_has_more_than_twenty_modules() -> None:

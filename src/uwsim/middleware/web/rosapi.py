@@ -9,16 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from rosbags.interfaces import Nodetype
 
 from ...errors import BadMessage, UnknownName, UwsimError
 from ..stamps import clock_time
 from ..types import PLACEHOLDER, full_name, message_class, ros2_store, service, wire_type
-
-if TYPE_CHECKING:
-    from .server import WebBridge
+from .contract import Graph
 
 NODE = "/uwsim"
 ROSOUT = "rosout"
@@ -26,41 +24,41 @@ ROSOUT = "rosout"
 ROSOUT_TYPE = "rcl_interfaces/msg/Log"
 
 
-def _topic_types(bridge: WebBridge) -> dict[str, str]:
+def _topic_types(bridge: Graph) -> dict[str, str]:
     return {ROSOUT: ROSOUT_TYPE, **bridge.types()}
 
 
-def _topics(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _topics(bridge: Graph, args: Any) -> dict[str, Any]:
     types = _topic_types(bridge)
     return {"topics": [f"/{name}" for name in types], "types": list(types.values())}
 
 
-def _topics_and_raw_types(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _topics_and_raw_types(bridge: Graph, args: Any) -> dict[str, Any]:
     found = _topics(bridge, args)
     wires = [wire_type(message_class(name)) for name in found["types"]]
     return {**found, "typedefs_full_text": [wire.ros2_definition if wire else "" for wire in wires]}
 
 
-def _topic_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _topic_type(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"type": _topic_types(bridge).get(_name(args, "topic"), "")}
 
 
-def _topics_for_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _topics_for_type(bridge: Graph, args: Any) -> dict[str, Any]:
     requested = full_name(_text(args, "type"))
     types = _topic_types(bridge).items()
     return {"topics": [f"/{name}" for name, type in types if type == requested]}
 
 
-def _services(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _services(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"services": [f"/{name}" for name in (*sorted(bridge.services), *sorted(SERVICES))]}
 
 
-def _service_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _service_type(bridge: Graph, args: Any) -> dict[str, Any]:
     found = bridge.services.get(_name(args, "service"))
     return {"type": found.name if found else ""}
 
 
-def _services_for_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _services_for_type(bridge: Graph, args: Any) -> dict[str, Any]:
     requested = None
     with suppress(UnknownName):
         requested = service(_text(args, "type"))
@@ -68,37 +66,37 @@ def _services_for_type(bridge: WebBridge, args: Any) -> dict[str, Any]:
     return {"services": [f"/{name}" for name in found]}
 
 
-def _service_node(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _service_node(bridge: Graph, args: Any) -> dict[str, Any]:
     name = _name(args, "service")
     return {"node": NODE if name in bridge.services or name in SERVICES else ""}
 
 
-def _service_providers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _service_providers(bridge: Graph, args: Any) -> dict[str, Any]:
     node = _service_node(bridge, args)["node"]
     return {"providers": [node] if node else []}
 
 
-def _service_host(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _service_host(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"host": "localhost" if _service_node(bridge, args)["node"] else ""}
 
 
-def _publishers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _publishers(bridge: Graph, args: Any) -> dict[str, Any]:
     name = _name(args, "topic")
     own = [NODE] if bridge.is_published(name) or name == ROSOUT else []
     return {"publishers": [*own, *bridge.clients_publishing(name)]}
 
 
-def _subscribers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _subscribers(bridge: Graph, args: Any) -> dict[str, Any]:
     name = _name(args, "topic")
     own = [NODE] if bridge.is_subscribed(name) else []
     return {"subscribers": [*own, *bridge.clients_reading(name)]}
 
 
-def _nodes(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _nodes(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"nodes": [NODE]}
 
 
-def _node_details(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _node_details(bridge: Graph, args: Any) -> dict[str, Any]:
     if _text(args, "node").strip("/") != NODE.strip("/"):
         return {"subscribing": [], "publishing": [], "services": []}
     names = bridge.types()
@@ -109,44 +107,44 @@ def _node_details(bridge: WebBridge, args: Any) -> dict[str, Any]:
     }
 
 
-def _message_details(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _message_details(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"typedefs": typedefs(full_name(_text(args, "type")))}
 
 
-def _service_details(half: str) -> Callable[[WebBridge, Any], dict[str, Any]]:
-    def answer(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _service_details(half: str) -> Callable[[Graph, Any], dict[str, Any]]:
+    def answer(bridge: Graph, args: Any) -> dict[str, Any]:
         return {"typedefs": typedefs(f"{service(_text(args, 'type')).name}_{half}")}
 
     return answer
 
 
-def _time(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _time(bridge: Graph, args: Any) -> dict[str, Any]:
     now = clock_time(bridge.clock())
     return {"time": {"sec": now.sec, "nanosec": now.nanosec}}
 
 
-def _version(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _version(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"version": 2, "distro": "jazzy"}
 
 
-def _no_parameters(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _no_parameters(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"names": []}
 
 
-def _no_parameter(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _no_parameter(bridge: Graph, args: Any) -> dict[str, Any]:
     default = args.get("default", "") if isinstance(args, dict) else ""
     return {"value": str(default)}
 
 
-def _has_no_parameter(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _has_no_parameter(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"exists": False}
 
 
-def _refuse_parameter(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _refuse_parameter(bridge: Graph, args: Any) -> dict[str, Any]:
     raise BadMessage("The simulation has no parameters; --set changes values of a scene.")
 
 
-def _no_action_servers(bridge: WebBridge, args: Any) -> dict[str, Any]:
+def _no_action_servers(bridge: Graph, args: Any) -> dict[str, Any]:
     return {"action_servers": []}
 
 
@@ -209,7 +207,7 @@ def _name(args: Any, key: str) -> str:
     return _text(args, key).strip().lstrip("/")
 
 
-def answer(bridge: WebBridge, name: str, args: Any) -> tuple[bool, Any]:
+def answer(bridge: Graph, name: str, args: Any) -> tuple[bool, Any]:
     """Return whether a request of `SERVICES` succeeded, and the values or the reason."""
     try:
         return True, SERVICES[name](bridge, args)

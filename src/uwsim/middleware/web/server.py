@@ -31,10 +31,11 @@ from ..log import Log
 from ..stamps import clock_time
 from ..types import message_class, ros2_store, wire_type
 from ..work_budget import WorkBudget
+from .contract import Client, Subscription
 from .frame_republisher import FEEDBACK, SOURCES, FrameRepublisher, feedback
 from .options import WebOptions
 from .outgoing import Outgoing
-from .session import Session, Subscription
+from .session import Session
 
 LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
 """Origins of pages that may connect unless others are named: those of this computer."""
@@ -85,16 +86,16 @@ class WebBridge(Bridge):
     ) -> None:
         super().__init__(bus, clock, log or Log("web"))
         self._options = options
-        self._readers: dict[str, tuple[tuple[Session, Subscription], ...]] = {}
+        self._readers: dict[str, tuple[tuple[Client, Subscription], ...]] = {}
         self._latched: dict[str, Outgoing] = {}
         self._ends: Mapping[str, TopicEnds] = {}
         self.services: Mapping[str, Service] = {}
         """Services of the bus."""
-        self._offerers: dict[str, tuple[Session, ...]] = {}
+        self._offerers: dict[str, tuple[Client, ...]] = {}
         self._sessions: set[Session] = set()
         self._work = WorkBudget(ALL_SHARE, ALL_BURST)
         self._republisher = FrameRepublisher()
-        self._republications: dict[Session, list[str]] = {}
+        self._republications: dict[Client, list[str]] = {}
         self._loop = asyncio.new_event_loop()
         self._listening: Future[int] = Future()
         self._ended: asyncio.Event | None = None
@@ -233,7 +234,7 @@ class WebBridge(Bridge):
         found = [each.name for each in tuple(self._sessions) if each.reads(topic)]
         return sorted(map(_node_name, found))
 
-    def republish(self, arguments: object, session: Session, goal: str = "") -> str:
+    def republish(self, arguments: object, session: Client, goal: str = "") -> str:
         """Publish transforms for a client; returns the topic. In the thread of the server.
 
         For a goal they are published as its feedback.
@@ -255,7 +256,7 @@ class WebBridge(Bridge):
         if topic is not None:
             self._republisher.withdraw(topic)
 
-    def end_republications(self, session: Session) -> None:
+    def end_republications(self, session: Client) -> None:
         """Publish no more transforms for a client. In the thread of the server."""
         for topic in self._republications.get(session, []):
             self._republisher.withdraw(topic)
@@ -272,7 +273,7 @@ class WebBridge(Bridge):
             raise UnknownName("service", f"/{name}", [f"/{each}" for each in self.services])
         return self.services[name]
 
-    def read(self, topic: str, session: Session, subscription: Subscription) -> None:
+    def read(self, topic: str, session: Client, subscription: Subscription) -> None:
         """A client subscribes. In the thread of the server."""
         latched = self._latched.get(topic)
         self._readers[topic] = (*self._readers.get(topic, ()), (session, subscription))
@@ -285,7 +286,7 @@ class WebBridge(Bridge):
                 subscription.source = self._image_of(topic) or topic
             self.want(subscription.source)
 
-    def unread(self, topic: str, session: Session, subscription: Subscription) -> None:
+    def unread(self, topic: str, session: Client, subscription: Subscription) -> None:
         """A client does so no more. In the thread of the server."""
         left = tuple(each for each in self._readers.get(topic, ()) if each[1] is not subscription)
         if left:
@@ -295,7 +296,7 @@ class WebBridge(Bridge):
         if topic != CLOCK:
             self.unwant(subscription.source)
 
-    def offer_of(self, name: str, service: Service, session: Session) -> None:
+    def offer_of(self, name: str, service: Service, session: Client) -> None:
         """A client offers a service; of several, the first is called. Any thread."""
         later = partial(self.offer_of, name, service, session)
         if self.admission and not self.admission.may_offer(name, session.name, later):
@@ -303,7 +304,7 @@ class WebBridge(Bridge):
         self._offerers[name] = (*self._offerers.get(name, ()), session)
         self.offer(name, service)
 
-    def withdraw_of(self, name: str, session: Session) -> None:
+    def withdraw_of(self, name: str, session: Client) -> None:
         """A client offers it no more. In the thread of the server."""
         offerers = self._offerers.pop(name, ())
         left = tuple(each for each in offerers if each is not session)

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 import asyncio
 import json
-import math
 import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 from ...errors import BadMessage, UwsimError, did_you_mean
 from ...messages import String
@@ -20,39 +18,16 @@ from ..lockstep.topics import JOIN
 from ..stamps import inward, outward
 from ..types import message_class, service, service_of, wire_type
 from . import rosapi
+from .contract import SessionBridge, Subscription
 from .frame_republisher import ACTION_TOPICS, CANCEL, GOAL
 from .frame_republisher import SERVICE as REPUBLISH
 from .outgoing import COMPRESSIONS, Outgoing
 from .queue import MAX_MESSAGES, Lane, OutQueue
 
-if TYPE_CHECKING:
-    from .server import WebBridge
-
 MAX_KEYS = 200_000
 """Fields that a frame may have, those of messages in lists counted each."""
 MAX_NAMES = 1000
 """Topics and services that one client may use."""
-
-
-@dataclass(eq=False)
-class Subscription:
-    """A topic that the client reads."""
-
-    topic: str
-    """Without a leading slash."""
-    lane: Lane
-    """What waits to be sent."""
-    throttle: float
-    """Shortest time between two messages [s of wall time]."""
-    ids: set[str | None] = field(default_factory=set)
-    """The ids under which the client has subscribed."""
-    last: float = -math.inf
-    """When the last message was sent [s of wall time]."""
-    source: str = ""
-    """The topic of the bus that its messages are made of."""
-
-    def __post_init__(self) -> None:
-        self.source = self.source or self.topic
 
 
 class Session:
@@ -64,7 +39,7 @@ class Session:
         name: for the log.
     """
 
-    def __init__(self, bridge: WebBridge, loop: asyncio.AbstractEventLoop, name: str) -> None:
+    def __init__(self, bridge: SessionBridge, loop: asyncio.AbstractEventLoop, name: str) -> None:
         self._bridge, self._loop, self._name = bridge, loop, name
         self._something = asyncio.Event()
         self._queue = OutQueue(self._wake)
