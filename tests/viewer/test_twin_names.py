@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
-from uwsim.base.geometry import Pose, rotation_from_quaternion
+from uwsim.base.geometry import Intrinsics, Pose, rotation_from_quaternion
+from uwsim.rendering.rendered_image import PixelBox, RenderedImage
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
@@ -62,3 +63,23 @@ def test_of_things_of_one_name_each_is_drawn_where_it_is(tmp_path: Path) -> None
         for number, part in enumerate(world.scenery.parts, start=1):
             wanted = world.scenery.world_from_mesh(part)
             np.testing.assert_allclose(parts[number], wanted, atol=1e-5, err_msg=part.name)
+
+
+def test_things_of_one_name_have_boxes_and_ids_of_their_own(tmp_path: Path) -> None:
+    scene = twins(tmp_path)
+    with Simulation(scene, is_blind=True) as simulation:
+        names, boxes = simulation.world.part_names, simulation.boxes()
+        links = [name for name in names.values() if not name.startswith("sand/")]
+        assert links == ["rov/base_link", "rov#2/base_link", "box", "box#2", "rov/base_link#2"]
+        assert set(links) == set(boxes)
+        for name, thing in zip(links, (*scene.vehicles, *scene.objects), strict=True):
+            assert np.linalg.norm(boxes[name].pose.position - thing.position) < 0.3
+            assert boxes[name].size.max() < 1.0
+
+
+def test_each_thing_of_one_name_has_a_box_in_the_image() -> None:
+    ids = np.zeros((10, 20), np.uint16)
+    ids[2:4, 1:3], ids[5:9, 12:15] = 1, 2
+    lens = Intrinsics(width=20, height=10, fx=10.0, fy=10.0, cx=10.0, cy=5.0)
+    image = RenderedImage(intrinsics=lens, ids=ids, names={1: "pipe", 2: "pipe#2"})
+    assert image.boxes == {"pipe": PixelBox(1, 2, 3, 4), "pipe#2": PixelBox(12, 5, 15, 9)}

@@ -281,3 +281,26 @@ def test_files_without_xacro_are_left_as_they_are(tmp_path: Path) -> None:
     path = tmp_path / "a.xml"
     path.write_text("<a><b>${x}</b></a>")
     assert parse_expanded(path).root[0].text == "${x}"
+
+
+def test_a_robot_may_call_macros_without_the_prefix_as_up_to_melodic(tmp_path: Path) -> None:
+    robot = tmp_path / "old.urdf.xacro"
+    robot.write_text(
+        f'<robot name="old" {NAMESPACES}>\n<link name="base"/>\n'
+        '<property name="x" value="2"/>\n'
+        '<macro name="part" params="n"><link name="${n}"/><joint name="to_${n}" type="fixed">'
+        '<parent link="base"/><child link="${n}"/><origin xyz="${x} 0 0"/></joint></macro>\n'
+        '<xacro:macro name="link" params="name"><link name="${name}x"/></xacro:macro>\n'
+        '<part n="b"/>\n<xacro:part n="c"/>\n</robot>'
+    )
+    spec = read_urdf(robot)
+    assert [link.name for link in spec.links] == ["base", "b", "c"]
+    assert spec.joints[0].position == (2.0, 0.0, 0.0)
+    assert [(each.line, each.message.split(">")[0]) for each in spec.expansion.warnings] == [
+        *((3, "<property"), (4, "<macro"), (6, "<part"))
+    ]
+
+
+def test_elements_of_other_files_are_no_macros_without_the_prefix(tmp_path: Path) -> None:
+    body = '<xacro:macro name="part"><c/></xacro:macro><part/><xacro:part/>'
+    assert plain(tmp_path, body) == "<part></part><c></c>"

@@ -199,7 +199,9 @@ class Engine:
         if self._uwsim_physics is None:
             return
         self.grips.follow()
+        self.lift.begin_step()
         self._uwsim_physics.step()
+        self.lift.end_step()
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
             self._bounces.apply()

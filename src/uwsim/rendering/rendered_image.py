@@ -38,7 +38,8 @@ class RenderedImage:
     ids: npt.NDArray[np.uint16] | None = None
     """Number of the instance seen (h, w); 0 = nothing there."""
     names: Mapping[int, str] = field(default_factory=dict)
-    """Number in ``ids`` -> ``vehicle/link`` or object; all of the scene, seen or not."""
+    """Number in ``ids`` -> ``vehicle/link`` or object; all of the scene, seen or not. Of things of
+    one name the second has ``#2`` behind it, a vehicle behind its own name."""
     world_from_camera: Pose | None = None
     """The pose of the camera in W, with OpenGL axes (x right, y up, looking along -z)."""
 
@@ -71,16 +72,5 @@ class RenderedImage:
             mask = self.ids == number
             rows, columns = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
             box = PixelBox(int(columns[0]), int(rows[0]), int(columns[-1]) + 1, int(rows[-1]) + 1)
-            name = self.names[number]
-            boxes[name] = _around(boxes[name], box) if name in boxes else box
+            boxes[self.names[number]] = box
         return boxes
-
-
-def _around(one: PixelBox, other: PixelBox) -> PixelBox:
-    """Return the least box around two boxes."""
-    return PixelBox(
-        min(one.left, other.left),
-        min(one.top, other.top),
-        max(one.right, other.right),
-        max(one.bottom, other.bottom),
-    )

@@ -120,6 +120,7 @@ def _of_simulated(scene: SceneSpec, data_path: tuple[Path, ...]) -> list[Diagnos
     if not (
         scene.ocean_state.currents
         or scene.vehicles
+        or scene.has_uwsim_physics
         or stands_on_floor(scene)
         or any(isinstance(interface, AutopilotTopicSpec) for interface in scene.ros_interfaces)
     ):

@@ -119,7 +119,8 @@ def check_scene(
         if library is not None:
             check_models(scene, document, library, diagnostics)
         not_simulated(document.root, diagnostics)
-        if not diagnostics.any:  # else a robot that has the argument may be missing
+        is_wrong = diagnostics.any or any(each.severity == "error" for each in others)
+        if not is_wrong:  # else a robot that has the argument may be missing
             others += unused_arguments(scene, robots.values())
         if further is not None and not diagnostics.any:
             others += further(scene)

@@ -6,13 +6,12 @@ would have the name of something before it gets ``#2``, ``#3``, ... behind its o
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 
 from ..base.geometry import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 from ..model.parts import Part
 from ..scene.urdf.robot import RobotSpec
+from .unique_names import unique
 from .world import SceneWorld
 
 
@@ -87,18 +86,6 @@ def body_names(world: SceneWorld) -> tuple[dict[tuple[int, str], str], dict[int,
     links.sort()
     names = unique([*(f"{labels[i]}/{each}" for i, each in links), *(each.name for each in things)])
     return dict(zip(links, names, strict=False)), dict(enumerate(names[len(links) :]))
-
-
-def unique(names: Iterable[str]) -> tuple[str, ...]:
-    """Return names of which none is there twice."""
-    found: dict[str, None] = {}
-    for name in names:
-        own, number = name, 1
-        while own in found:
-            number += 1
-            own = f"{name}#{number}"
-        found[own] = None
-    return tuple(found)
 
 
 def leaders(robot: RobotSpec) -> dict[str, str]:

@@ -93,7 +93,7 @@ class SceneWorld:
         shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
         self.state = Engine(scene, self.robots, dynamics, timestep, shapes)
         """Where everything is, and what moves it."""
-        if dynamics:
+        if dynamics or scene.has_uwsim_physics:
             lift_from_ground(scene, self.robots, self.state, data_path)
         self.below_ground = BelowGround(
             scene, self.robots, shapes, self.state, timestep=timestep, data_path=data_path

@@ -160,7 +160,8 @@ from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.scenery.sand import CELL, REACH, Heap
 from ..simulation.stage import SceneStage
-from ..simulation.tracked_bodies import body_names, leaders, unique, vehicle_labels
+from ..simulation.tracked_bodies import body_names, leaders, vehicle_labels
+from ..simulation.unique_names import unique
 from ..simulation.views import FIELD, focus_of, orbit_view, viewer_view
 from .models import Models
 from .pack import Blob

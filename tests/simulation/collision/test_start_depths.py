@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from tests.simulation.collision.test_floor import EDGES, UP, grid, ground
 from tests.simulation.girona500 import SCENE
 from uwsim.base.geometry import Pose
 from uwsim.physics.kinematics.lift import SPEED
+from uwsim.runs.check import diagnostics_of
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
@@ -172,3 +174,30 @@ def test_check_names_a_position_that_clears_it(depth: float, frame: str, floor: 
     assert found, said
     clear = replace(thing, position=(at[0], at[1], float(found[1])))
     assert Starts(replace(scene, objects=(clear, *scene.objects[1:])), {}, ()).of_object(0) == ""
+
+
+@pytest.mark.parametrize("timestep", [0.002, 0.01])
+@pytest.mark.parametrize(("name", "depth"), [("b", 0.3), ("rod", 0.6)])
+def test_an_object_of_the_original_s_physics_is_lifted_too_and_check_warns(
+    name: str, depth: float, timestep: float, tmp_path: Path
+) -> None:
+    path = tmp_path / "sunk.xml"
+    path.write_text(
+        "<UWSimScene><simParams><enablePhysics>1</enablePhysics>"
+        "<gravity><x>0</x><y>0</y><z>-9.81</z></gravity></simParams>"
+        "<object><name>terrain</name><file>terrain/floor/floor.osg</file>"
+        "<position><x>0</x><y>0</y><z>-5</z></position></object>"
+        f"<object><name>{name}</name><file>objects/box.osg</file>"
+        f"<position><x>0</x><y>0</y><z>{-4.5 - depth}</z></position><physics><mass>1500</mass>"
+        "<collisionShapeType>box</collisionShapeType></physics></object></UWSimScene>"
+    )
+    warned = [each.message for each in diagnostics_of(path) if "begins" in each.message]
+    assert len(warned) == 1
+    assert f"the object {name!r}: it begins " in warned[0]
+    with Simulation(read_scene(path).nominal, timestep=timestep) as simulation:
+        heights = []
+        for _ in range(50):
+            simulation.advance(0.1)
+            heights.append(height(simulation, name))
+    assert np.diff(heights).max() < 1.1 * SPEED * 0.1
+    assert heights[-1] == pytest.approx(-4.5, abs=0.01)

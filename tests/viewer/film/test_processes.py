@@ -10,6 +10,7 @@ import pytest
 
 from uwsim.cli import main
 from uwsim.errors import RunFailed, UnknownName
+from uwsim.viewer.film.encoder import as_rgb
 from uwsim.viewer.film.film import FilmSpec, Reel, n_frames_of, record
 from uwsim.viewer.film.processes import DrawingProcesses, processes_for
 from uwsim.viewer.recorded import RecordedTrial
@@ -27,13 +28,13 @@ def drawing(trial: RecordedTrial) -> Iterator[DrawingProcesses]:
 def test_two_processes_draw_the_images_of_one(trial: RecordedTrial) -> None:
     # two trials, and images between those of the inset, which comes ten times a second
     with closing(Reel([trial, trial], SPEC)) as reel:
-        alone = [image.tobytes() for image in reel.frames()]
+        alone = list(reel.frames(as_rgb))
         assert reel.draw(len(alone) - 1).tobytes() == alone[-1]
     n = 2 * n_frames_of(trial, SPEC)
     assert len(alone) == n == 60
     assert len(set(alone)) > n // 4  # it moves
     with closing(DrawingProcesses([trial, trial], SPEC, 3)) as processes:
-        assert [image.tobytes() for image in processes.frames()] == alone
+        assert list(processes.frames(as_rgb)) == alone
 
 
 @pytest.mark.slow
@@ -56,7 +57,7 @@ def test_what_a_process_cannot_draw_is_an_error_of_the_film(trial: RecordedTrial
         closing(DrawingProcesses([trial], spec, 1)) as processes,
         pytest.raises(UnknownName, match="nonsense"),
     ):
-        next(processes.frames())
+        next(processes.frames(as_rgb))
 
 
 def test_a_short_film_has_one_process() -> None:

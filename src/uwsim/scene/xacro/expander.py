@@ -29,6 +29,17 @@ XACRO = frozenset(
 ) | {"http://www.ros.org/xacro"}
 """Namespaces of xacro that files use."""
 XINCLUDE = frozenset({"http://www.w3.org/2001/XInclude", "http://www.w3.org/2003/XInclude"})
+DEFINITIONS = {"macro": {"name"}, "property": {"name", "value"}}
+"""Elements of xacro, and attributes, that are known without its prefix, too."""
+OF_ROBOTS = frozenset(
+    {
+        *("axis", "box", "calibration", "capsule", "child", "collision", "color", "cylinder"),
+        *("dynamics", "gazebo", "geometry", "inertia", "inertial", "joint", "limit", "link"),
+        *("mass", "material", "mesh", "mimic", "origin", "parent", "plugin", "robot"),
+        *("safety_controller", "sensor", "sphere", "texture", "transmission", "visual"),
+    }
+)
+"""Elements of robot files, which call no macro of their name."""
 MAX_DEPTH = 60
 """Deepest nesting of calls and includes."""
 MAX_FILES = 100
@@ -83,6 +94,7 @@ class Expander:
         """The values of ``<xacro:arg>``."""
         self._n_nodes = self._n_files = 0
         self._depth = 0
+        self._is_robot = False
         self._file = path
         self._line: int | None = None
         """Line that stands for what is expanded; None: it is of the user's own file."""
@@ -95,6 +107,7 @@ class Expander:
             "xacro.arg": lambda name: literal_of(self.arguments.value(name)),
         }
         scope = Scope(None, self._substituted, functions)
+        self._is_robot = etree.QName(root).localname == "robot"
         root[:] = self._expanded(list(root), scope)
         self._attributes(root, root, scope)
         self._text(root, root, scope)
@@ -140,7 +153,7 @@ class Expander:
         namespace, name = namespace_of(node), etree.QName(node).localname
         if namespace in XINCLUDE:
             yield from self._included(node, "href", scope, keeps_root=True)
-        elif namespace not in XACRO:
+        elif namespace not in XACRO and not self._is_of_xacro(node, name):
             yield self._plain(node, scope)
         elif name in ("if", "unless"):
             if self._is_true(node, scope) is (name == "if"):
@@ -162,6 +175,21 @@ class Expander:
         else:
             called = written(scope.text(needed(node, "macro"))) if name == "call" else name
             yield from self._called(node, called, scope)
+
+    def _is_of_xacro(self, node: etree._Element, name: str) -> bool:
+        """Whether an element without xacro's prefix is meant as one with it, as up to ROS Melodic.
+
+        In robot files the calls of known macros are, and definitions of macros and properties.
+        """
+        if not self._is_robot or namespace_of(node) or name in OF_ROBOTS:
+            return False
+        is_definition = name in DEFINITIONS and DEFINITIONS[name] <= set(node.attrib)
+        if not is_definition and name not in self._macros:
+            return False
+        self._of_file().warning(
+            node, f"<{name}> lacks the prefix xacro:; it is read as if it had it"
+        )
+        return True
 
     def _plain(self, node: etree._Element, scope: Scope) -> etree._Element:
         made = etree.Element(node.tag, nsmap=cast(dict[str, str], node.nsmap))

@@ -32,12 +32,13 @@ class OrientedBox:
 def oriented_boxes(scenery: Scenery, frame_from_world: Pose) -> dict[str, OrientedBox]:
     """Return the boxes of all parts in a frame, by their names in images.
 
-    Parts of one name share a box with the axes of the first part. Sand over buried objects has
-    no box.
+    Parts of one link or object share a box with the axes of the first part. Sand over buried
+    objects has no box.
     """
     groups: dict[str, list[Part]] = {}
+    names = scenery.part_names
     for part in scenery.parts:
-        groups.setdefault(part.name, []).append(part)
+        groups.setdefault(names[part.id], []).append(part)
     boxes = {name: _box(scenery, parts) for name, parts in groups.items()}
     return {name: OrientedBox(frame_from_world @ box.pose, box.size) for name, box in boxes.items()}
 

@@ -28,6 +28,7 @@ from ...rendering.rendered_image import RenderedImage
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
+from ..unique_names import unique
 from .renderer_pool import RendererPool
 from .sand import heaps_of
 
@@ -70,6 +71,8 @@ class Scenery:
         self._renderer: Renderer | None = None
         self._handles: list[int] = []  # of each part
         self._drawn_version = -1
+        self._vehicle_names = tuple(vehicle.name for vehicle in scene.vehicles)
+        self._vehicle_labels = unique(self._vehicle_names)
         self.parts = tuple(parts_of(scene, robots, data_path))
         """The models of the scene and whose they are."""
         self.water = Water.of(scene.ocean_state, compatibility)
@@ -264,10 +267,16 @@ class Scenery:
 
     @property
     def part_names(self) -> dict[int, str]:
-        """Number in segmentation images -> ``vehicle/link`` or object."""
-        names = {part.id: part.name for part in self.parts}
+        """Number in segmentation images -> ``vehicle/link`` or object; the second gets ``#2``."""
+        names = {}
+        for part in self.parts:
+            names[part.id] = part.name
+            if part.vehicle is not None:
+                own = self._vehicle_names[part.vehicle]
+                names[part.id] = self._vehicle_labels[part.vehicle] + part.name.removeprefix(own)
         heaps = enumerate(self.heaps)
-        return names | {self.number_of_heap(i): f"sand/{heap.name}" for i, heap in heaps}
+        names |= {self.number_of_heap(i): f"sand/{heap.name}" for i, heap in heaps}
+        return dict(zip(names, unique(names.values()), strict=True))
 
     @property
     def made_hashes(self) -> dict[str, str]:

@@ -8,12 +8,13 @@ from __future__ import annotations
 import importlib.util
 import subprocess
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import IO, Protocol
 
+import cv2
 from PIL import Image
 
 from ...errors import BadSetting, MissingExtra, RunFailed, did_you_mean, names_file
@@ -51,8 +52,8 @@ class Chapter:
 class Encoder(Protocol):
     """Takes the images of a film one after the other."""
 
-    def add(self, frame: Pixels) -> None:
-        """Append an image (h, w, 3)."""
+    def add(self, packed: bytes) -> None:
+        """Append an image, packed by `packing_of` its path."""
 
     def close(self, *, is_to_keep: bool) -> None:
         """Write the file with the images so far; or leave none."""
@@ -82,12 +83,31 @@ def check_film_path(path: Path, *, overwrite: bool, others: Sequence[str] = ()) 
         )
 
 
+Packing = Callable[[Pixels], bytes]
+"""Makes of an image (h, w, 3) what an encoder takes."""
+
+
+def packing_of(path: Path) -> Packing:
+    """Return how images are packed for the encoder of a path, as its suffix says."""
+    return as_rgb if path.suffix.lower() == WEBP else as_yuv
+
+
+def as_rgb(frame: Pixels) -> bytes:
+    """Pack an image (h, w, 3) as it is."""
+    return frame.tobytes()
+
+
+def as_yuv(frame: Pixels) -> bytes:
+    """Pack an image (h, w, 3), both even, as planes of Y, U and V (BT.601, 4:2:0)."""
+    return cv2.cvtColor(frame, cv2.COLOR_RGB2YUV_I420).tobytes()
+
+
 def encoder_of(
     path: Path, size: tuple[int, int], rate: float, chapters: Sequence[Chapter]
 ) -> Encoder:
     """Return the encoder for a path, as its suffix says."""
     if path.suffix.lower() == WEBP:
-        return WebpEncoder(path, rate)
+        return WebpEncoder(path, size, rate)
     return FfmpegEncoder(path, size, rate, chapters)
 
 
@@ -118,7 +138,7 @@ class FfmpegEncoder:
             (folder / "chapters").write_text(_metadata(chapters), encoding="utf-8")
         command = [
             *(self._ffmpeg, "-y", "-nostdin", "-loglevel", "error"),
-            *("-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{size[0]}x{size[1]}"),
+            *("-f", "rawvideo", "-pix_fmt", "yuv420p", "-s", f"{size[0]}x{size[1]}"),
             *("-r", f"{rate:g}", "-threads", "1", "-i", "pipe:0"),
             *("-i", str(folder / "chapters"), "-map_metadata", "1", "-map_chapters", "1"),
             *("-map", "0:v", *CODECS[path.suffix.lower()], "-pix_fmt", "yuv420p", "-threads", "1"),
@@ -132,15 +152,15 @@ class FfmpegEncoder:
             start_new_session=True,  # Ctrl-C in a terminal does not reach it
         )
 
-    def add(self, frame: Pixels) -> None:
-        """Append an image (h, w, 3).
+    def add(self, packed: bytes) -> None:
+        """Append an image, packed by `as_yuv`.
 
         Raises:
             RunFailed: ffmpeg has failed.
         """
         assert self._process.stdin is not None
         try:
-            self._process.stdin.write(frame.data if frame.flags.c_contiguous else frame.tobytes())
+            self._process.stdin.write(packed)
         except OSError:
             raise self._failure() from None
         self._n_frames += 1
@@ -194,15 +214,16 @@ class WebpEncoder:
 
     Args:
         path: of the file; it is there after `close`.
+        size: width and height [px].
         rate: images a second [Hz].
     """
 
-    def __init__(self, path: Path, rate: float) -> None:
-        self._path, self._rate = path, rate
+    def __init__(self, path: Path, size: tuple[int, int], rate: float) -> None:
+        self._path, self._size, self._rate = path, size, rate
         self._frames: list[Image.Image] = []
 
-    def add(self, frame: Pixels) -> None:
-        """Append an image (h, w, 3).
+    def add(self, packed: bytes) -> None:
+        """Append an image, packed by `as_rgb`.
 
         Raises:
             RunFailed: there are too many.
@@ -212,7 +233,7 @@ class WebpEncoder:
                 f"A .webp holds {MAX_WEBP_FRAMES} images at most; choose fewer with --fps, --speed "
                 "or --until, or another suffix."
             )
-        self._frames.append(Image.fromarray(frame.copy()))
+        self._frames.append(Image.frombytes("RGB", self._size, packed))
 
     def close(self, *, is_to_keep: bool) -> None:
         """Write the file with the images so far; or leave none."""

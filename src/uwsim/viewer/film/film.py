@@ -17,7 +17,7 @@ from ...simulation import Simulation
 from ..recorded import RecordedLevel, RecordedTrial
 from . import overlay
 from .curves import CurvePanel, chosen
-from .encoder import Chapter, encoder_of
+from .encoder import Chapter, Packing, encoder_of, packing_of
 from .markers import draw_markers
 from .overlay import Pixels
 from .paths import CameraPath, ViewKind
@@ -99,10 +99,10 @@ class Film:
         """Return the simulation time of an image [s]."""
         return self.start + frame * self.spec.speed / self.spec.rate
 
-    def frames(self) -> Iterator[Pixels]:
-        """Draw all images, (h, w, 3) each."""
+    def frames(self, pack: Packing) -> Iterator[bytes]:
+        """Draw all images, each packed."""
         for number in range(self.n_frames):
-            yield self.draw(self.time_of(number))
+            yield pack(self.draw(self.time_of(number)))
 
     def draw(self, time: float) -> Pixels:
         """Draw the image of a simulation time [s], (h, w, 3)."""
@@ -290,10 +290,10 @@ class Reel:
         self.n_frames = sum(film.n_frames for film in self._films)
         """Number of images."""
 
-    def frames(self) -> Iterator[Pixels]:
-        """Draw all images, (h, w, 3) each."""
+    def frames(self, pack: Packing) -> Iterator[bytes]:
+        """Draw all images, each packed."""
         for number in range(self.n_frames):
-            yield self.draw(number)
+            yield pack(self.draw(number))
 
     def draw(self, number: int) -> Pixels:
         """Draw an image by its number, 0 <= number < `n_frames`, (h, w, 3)."""
@@ -373,8 +373,8 @@ class Recordable(Protocol):
     def spec(self) -> FilmSpec:
         """What it shows."""
 
-    def frames(self) -> Iterator[Pixels]:
-        """Draw all images, (h, w, 3) each."""
+    def frames(self, pack: Packing) -> Iterator[bytes]:
+        """Draw all images, each packed."""
 
     def chapters(self) -> list[Chapter]:
         """Return its chapters."""
@@ -394,8 +394,8 @@ def record(film: Recordable, path: Path, on_frame: Callable[[], object] = lambda
     encoder = encoder_of(path, film.spec.size, film.spec.rate, film.chapters())
     is_to_keep = False
     try:
-        for frame in film.frames():
-            encoder.add(frame)
+        for packed in film.frames(packing_of(path)):
+            encoder.add(packed)
             on_frame()
         is_to_keep = True
     except KeyboardInterrupt:

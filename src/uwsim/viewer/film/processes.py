@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import pickle
 import queue
 import threading
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from multiprocessing.connection import Connection
-
-import numpy as np
+from multiprocessing.context import SpawnProcess
 
 from ...base.environment import environment
 from ...errors import RunFailed
@@ -19,9 +19,8 @@ from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_inte
 from ...runs.executors.worker import picklable
 from ...runs.own_process.process import how
 from ..recorded import RecordedTrial
-from .encoder import Chapter
+from .encoder import Chapter, Packing
 from .film import FilmSpec, Reel, chapters_of, n_frames_of
-from .overlay import Pixels
 
 MOST = 16
 """The most processes that draw one film: they feed one encoder."""
@@ -31,6 +30,8 @@ BLOCK = 6
 """Consecutive images of one process: those with the same image of the inset are drawn by one."""
 AHEAD = BLOCK + 2
 """Images that a process draws before they are taken; fewer than a block would make it wait."""
+FAILED = b"uwsim: failed\0"
+"""Begins a message that is no image but an error."""
 PATIENCE = 10.0
 """How long a process may take to leave, before it is made to [s]."""
 
@@ -53,18 +54,22 @@ class DrawingProcesses:
     """
 
     def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec, n: int) -> None:
-        context = multiprocessing.get_context("spawn")
         self._trials, self.spec = tuple(trials), spec
         """What they show."""
+        self._n = n
         self._pipes: list[Connection] = []
         self._parents: list[Connection] = []
-        self._processes = []
+        self._processes: list[SpawnProcess] = []
+
+    def _start(self, pack: Packing) -> None:
+        context = multiprocessing.get_context("spawn")
         with environment(ENVIRONMENT):
-            for k in range(n):
+            for k in range(self._n):
                 pipe, theirs = context.Pipe(duplex=False)
                 watched, parent = context.Pipe(duplex=False)
+                what = self._trials, self.spec, pack
                 process = context.Process(
-                    target=draw_blocks, args=(self._trials, spec, k, n, theirs, watched)
+                    target=draw_blocks, args=(what, k, self._n, theirs, watched)
                 )
                 self._pipes.append(pipe)
                 self._parents.append(parent)
@@ -77,25 +82,25 @@ class DrawingProcesses:
         """Return the chapters of all."""
         return chapters_of(self._trials, self.spec)
 
-    def frames(self) -> Iterator[Pixels]:
-        """Return the images in order, (h, w, 3) each.
+    def frames(self, pack: Packing) -> Iterator[bytes]:
+        """Start the processes; return the images in order, each packed.
 
         Raises:
             RunFailed: a process has died.
             UwsimError: what a process could not draw.
         """
-        width, height = self.spec.size
+        self._start(pack)
         for number in range(sum(n_frames_of(trial, self.spec) for trial in self._trials)):
-            at = number // BLOCK % len(self._pipes)
+            at = number // BLOCK % self._n
             try:
-                received: bytes | Exception = self._pipes[at].recv()
+                received = self._pipes[at].recv_bytes()
             except (EOFError, OSError):
                 self._processes[at].join(PATIENCE)
                 reason = how(self._processes[at].exitcode)
                 raise RunFailed(f"A process that draws the film has ended: {reason}.") from None
-            if isinstance(received, Exception):
-                raise received
-            yield np.frombuffer(received, np.uint8).reshape(height, width, 3)
+            if received.startswith(FAILED):
+                raise pickle.loads(received.removeprefix(FAILED))
+            yield received
 
     def close(self) -> None:
         """End the processes."""
@@ -108,8 +113,7 @@ class DrawingProcesses:
 
 
 def draw_blocks(
-    trials: Sequence[RecordedTrial],
-    spec: FilmSpec,
+    what: tuple[Sequence[RecordedTrial], FilmSpec, Packing],
     first: int,
     n: int,
     pipe: Connection,
@@ -117,7 +121,8 @@ def draw_blocks(
 ) -> None:
     """Draw every n-th block from ``first`` on, and send each image; ends with the parent."""
     exit_with_parent(parent)
-    drawn: queue.Queue[bytes | Exception | None] = queue.Queue(AHEAD)
+    trials, spec, pack = what
+    drawn: queue.Queue[bytes | None] = queue.Queue(AHEAD)
     sender = threading.Thread(target=_send, args=(drawn, pipe))
     sender.start()
     try:
@@ -125,18 +130,18 @@ def draw_blocks(
         try:
             for number in range(reel.n_frames):
                 if number // BLOCK % n == first:
-                    drawn.put(reel.draw(number).tobytes())
+                    drawn.put(pack(reel.draw(number)))
         finally:
             reel.close()
     except Exception as error:
-        drawn.put(picklable(error))
+        drawn.put(FAILED + pickle.dumps(picklable(error)))
     finally:
         drawn.put(None)
         sender.join()
 
 
-def _send(drawn: queue.Queue[bytes | Exception | None], pipe: Connection) -> None:
+def _send(drawn: queue.Queue[bytes | None], pipe: Connection) -> None:
     """Send what is drawn while the next image is drawn."""
     with suppress(OSError):  # the parent has gone
         while (one := drawn.get()) is not None:
-            pipe.send(one)
+            pipe.send_bytes(one)
