@@ -14,7 +14,7 @@ OTHERWISE = {
     "assets/loaders/by_trimesh.py: read_bytes",  # what osgconv made of a file that is recorded
     "assets/loaders/looks.py: open",  # an image, of bytes that were read and recorded
     "assets/loaders/mesh_cache.py: read_bytes",  # sources of uwsim, for its cache's key
-    "physics/vehicle_sets.py: open",  # only lists names for an error message
+    "scene/hydrodynamics/vehicle_sets.py: open",  # only lists names for an error message
 }
 
 

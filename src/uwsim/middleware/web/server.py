@@ -411,9 +411,13 @@ def _node_name(client: str) -> str:
 
 
 def _token_of(request: Request) -> str:
-    given = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
+    """Return the token of a request; empty if it has none, or is not as it should be."""
     headers: Headers = request.headers
-    return given or headers.get("Authorization", "").removeprefix("Bearer ").strip()
+    try:
+        given = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
+        return given or headers.get("Authorization", "").removeprefix("Bearer ").strip()
+    except (ValueError, LookupError):  # an address of nonsense, two headers of one name
+        return ""
 
 
 def _peer(connection: ServerConnection) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import re
 import threading
 import time
 from collections.abc import Callable
@@ -26,6 +27,8 @@ from .queue import MAX_MESSAGES, Lane, OutQueue
 
 MAX_KEYS = 200_000
 """Fields that a frame may have, those of messages in lists counted each."""
+ESCAPED_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
+"""Half of a character beyond the 16-bit ones, as JSON escapes it."""
 MAX_NAMES = 1000
 """Topics and services that one client may use."""
 
@@ -323,7 +326,18 @@ def read_frame(raw: str | bytes) -> dict[str, Any]:
         raise BadMessage(f"A frame is not JSON: {str(error)[:100]}.") from None
     if not isinstance(found, dict) or not isinstance(found.get("op"), str):
         raise BadMessage("A frame is no object with the name of an operation under 'op'.")
+    if ESCAPED_SURROGATE.search(raw) and not _is_text(found):
+        raise BadMessage("A frame has half of a surrogate pair, which is no character.")
     return found
+
+
+def _is_text(found: dict[str, Any]) -> bool:
+    """Whether all texts of an object have characters alone."""
+    try:
+        json.dumps(found, ensure_ascii=False).encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def text_in(asked: dict[str, Any], key: str) -> str:
@@ -350,6 +364,6 @@ def number_in(asked: dict[str, Any], key: str) -> float:
 def _client_in(text: str) -> object:
     try:
         found = json.loads(text)
-    except ValueError:
+    except (ValueError, RecursionError):
         return None
     return found.get("client") if isinstance(found, dict) else None

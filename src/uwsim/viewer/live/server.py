@@ -188,6 +188,12 @@ class LiveServer:
 
     def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
         """Answer what asks for the page; None lets a socket be opened."""
+        try:
+            return self._answer_to(request)
+        except (ValueError, LookupError):  # an address of nonsense, two headers of one name
+            return _text(HTTPStatus.BAD_REQUEST, "The request is not as it should be.")
+
+    def _answer_to(self, request: Request) -> Response | None:
         address = urlsplit(request.path)
         token = parse_qs(address.query).get("token", [""])[0]
         if not hmac.compare_digest(token.encode(), self._token.encode()):

@@ -1,0 +1,78 @@
+"""Half characters, deep texts and broken requests of web clients are refused in one line."""
+
+from __future__ import annotations
+
+import json
+import socket
+from collections.abc import Iterator
+
+import pytest
+from websockets.sync.client import connect
+
+from tests.support.waiting import until
+from uwsim.bus import Bus
+from uwsim.errors import BadMessage
+from uwsim.messages import String
+from uwsim.middleware.lockstep.topics import JOIN
+from uwsim.middleware.log import Log
+from uwsim.middleware.web.options import WebOptions
+from uwsim.middleware.web.server import WebBridge
+from uwsim.middleware.web.session import read_frame
+
+
+@pytest.mark.parametrize(
+    "frame",
+    [
+        r'{"op": "publish", "topic": "/a\ud800b", "msg": {"data": "x"}}',
+        r'{"op": "publish", "topic": "/a", "msg": {"data": "\uDC80"}}',
+        r'{"op": "publish", "topic": "/a", "msg": {"\ud83d": [1]}}',
+    ],
+)
+def test_half_of_a_character_is_refused_where_a_frame_is_read(frame: str) -> None:
+    with pytest.raises(BadMessage, match="half of a surrogate pair"):
+        read_frame(frame)
+
+
+@pytest.mark.parametrize("text", [r"\ud83d\udc1f", r"\\ud800", "\N{FISH}"])
+def test_whole_characters_are_read(text: str) -> None:
+    read = read_frame(f'{{"op": "publish", "topic": "/a", "msg": {{"data": "{text}"}}}}')
+    assert read["msg"]["data"] in ("\N{FISH}", r"\ud800")
+
+
+@pytest.fixture
+def bridge() -> Iterator[WebBridge]:
+    bus = Bus()
+    bus.inbox(JOIN, String)
+    bridge = WebBridge(
+        bus, lambda: 0.0, WebOptions(port=0, token="secret"), Log("web", lambda line: None)
+    )
+    bridge.step()
+    yield bridge
+    bridge.close()
+
+
+def test_a_join_of_nonsense_leaves_its_client_connected(
+    bridge: WebBridge, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with connect(f"ws://127.0.0.1:{bridge.port}?token=secret") as client:
+        message = {"op": "publish", "topic": f"/{JOIN}", "msg": {"data": "[" * 200_000}}
+        client.send(json.dumps(message))
+        client.send(json.dumps(message))
+        until(lambda: bridge.n_arrived[JOIN] == 2)
+    assert "Traceback" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "request_lines",
+    ["GET //[x HTTP/1.1", "GET / HTTP/1.1\r\nAuthorization: Bearer a\r\nAuthorization: Bearer b"],
+)
+def test_a_request_of_nonsense_is_refused_without_a_traceback(
+    request_lines: str, bridge: WebBridge, capfd: pytest.CaptureFixture[str]
+) -> None:
+    upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+    key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+    with socket.create_connection(("127.0.0.1", bridge.port)) as client:
+        client.sendall(f"{request_lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode())
+        answer = client.recv(100).decode()
+    assert answer.split()[1] == "401"
+    assert "Traceback" not in capfd.readouterr().err
