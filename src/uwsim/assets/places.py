@@ -67,14 +67,11 @@ def place_remark(
         if in_package[0] == OURS:
             return ""
         folders = same_named_folders(in_package[0], above(named_by), data_path)
+        for folder in folders:
+            if _differs(other := folder / in_package[1], path):
+                return f"package {in_package[0]!r} is there twice; {path} is used, not {other}"
         if folders:
-            others = (folder / in_package[1] for folder in folders)
-            twin = next((other for other in others if _differs(other, path)), None)
-            return (
-                ""
-                if twin is None
-                else f"package {in_package[0]!r} is there twice; {path} is used, not {twin}"
-            )
+            return ""
         return f"{package_remark(name, named_by=named_by, data_path=data_path)}; {path} is used"
     plain = plain_name(name)
     if is_absolute(plain) and Path(plain).expanduser() != path:
@@ -85,6 +82,6 @@ def place_remark(
 def _differs(other: Path, path: Path) -> bool:
     """Whether there is another file, with other content."""
     try:
-        return other.is_file() and not filecmp.cmp(other, path, shallow=False)
+        return other != path and other.is_file() and not filecmp.cmp(other, path, shallow=False)
     except (OSError, ValueError):
         return False
