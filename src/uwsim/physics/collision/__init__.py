@@ -1,1 +1,1 @@
-"""Shapes that collide, and what touches what."""
+"""What touches what in the engine: contacts, also of kinematic vehicles, and a tree of shapes."""

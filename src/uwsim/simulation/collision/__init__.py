@@ -1,1 +1,1 @@
-"""Shapes of a scene for the physics, the floor among them, and contacts."""
+"""Contacts of a running scene, and bodies that begin in the ground or pass through it."""

@@ -1,1 +1,1 @@
-"""The water of a scene: its density and its motion."""
+"""The motion of the water of a scene."""
