@@ -88,13 +88,15 @@ class Vehicle(Protocol):
         """A copy of its joint vector, (n,) [rad or m]."""
 
     def place(self, world_from_base: Pose) -> None:
-        """Set its pose, at rest."""
+        """Set its pose, at rest; it is displaced from there from now on."""
 
     def set_joints(self, values: Array) -> None:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
 
     def displacer(self, axis: int) -> Callable[[float], None]:
-        """Return a function that displaces it, at rest, from its place in the file.
+        """Return a function that displaces it, at rest, from its place.
+
+        That is its place in the file, or where it was put last.
 
         Along x, y, z of L [m] or about roll, pitch, yaw of its orientation [rad], by the number of
         the ``axis``. Several add up; it moves when the last of them is set.

@@ -66,8 +66,11 @@ class GroundTruth(abc.ABC):
 
     components: tuple[str, ...]
     """The names of its numbers."""
-    missing: ClassVar[str] = ""
-    """Why there may be none."""
+
+    @property
+    def missing(self) -> str:
+        """Why there may be none now."""
+        return ""
 
     @property
     def n_images(self) -> int | None:
@@ -188,7 +191,10 @@ class _Seen(GroundTruth):
     Compatibility ``unseen``: what is behind the camera is seen through its centre, upside down.
     """
 
-    missing = BEHIND
+    @property
+    def missing(self) -> str:
+        """That the target is behind the camera."""
+        return BEHIND
 
     def __init__(self, camera: Camera, body: Body, points: Array, *, unseen: bool) -> None:
         self._camera, self._body, self._unseen = camera, body, unseen
@@ -249,7 +255,11 @@ class CentroidFromCamera(GroundTruth):
     """
 
     components = ("x", "y")
-    missing = BEHIND
+
+    @property
+    def missing(self) -> str:
+        """That the target is behind the camera."""
+        return BEHIND
 
     def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
         self._camera, self._body, self._unseen = camera, body, unseen
@@ -358,8 +368,20 @@ class TopicTruth(GroundTruth):
     def __init__(
         self, topic: str, components: tuple[str, ...], inbox: Inbox[Float32MultiArray]
     ) -> None:
-        self.components, self._inbox, self._n = components, inbox, 0
-        self.missing = f"no truth on {topic!r}"  # type: ignore[misc]  # names the topic
+        self._topic, self._inbox, self._n = topic, inbox, 0
+        self.components = components
+
+    @property
+    def missing(self) -> str:
+        """What came instead, if anything."""
+        last, n = self._inbox.last, len(self.components)
+        if last is None:
+            return f"nothing was published on {self._topic!r}"
+        if not last.data.size:
+            return f"{self._topic!r} has none for this image"
+        if last.data.size != n:
+            return f"the truth on {self._topic!r} has {last.data.size} numbers, expected {n}"
+        return f"the truth on {self._topic!r} is not finite"
 
     @property
     def n_images(self) -> int:

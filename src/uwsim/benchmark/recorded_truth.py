@@ -52,7 +52,7 @@ class RecordedTruthSpec(Spec):
             raise AssetError(f"{self.file}: has no line of numbers.", name=self.file)
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
             raise AssetError(f"{self.file}: the column 'time' does not rise.", name=self.file)
-        return RecordedTruth(self.topic, times, values)
+        return RecordedTruth(self.topic, names, times, values)
 
 
 class RecordedTruth:
@@ -60,14 +60,22 @@ class RecordedTruth:
 
     Args:
         topic: on which they are published.
+        columns: their names.
         times: of the lines, rising, (n,) [s].
         values: at these times, (n, k); NaN: none.
     """
 
-    def __init__(self, topic: str, times: Array, values: Array) -> None:
+    def __init__(self, topic: str, columns: Sequence[str], times: Array, values: Array) -> None:
         self.topic = topic
         """The topic on which they are published."""
+        self.columns = tuple(columns)
+        """Their names."""
         self._times, self._values = times, values
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The first and the last time of which there are numbers [s]."""
+        return float(self._times[0]), float(self._times[-1])
 
     def at(self, time: float) -> Array:
         """Return the numbers at a time [s] of the recording, (k,); (0,) where there are none."""

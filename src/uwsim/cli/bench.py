@@ -362,4 +362,6 @@ def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timi
     report = run.out / REPORT
     for line in refused_lines(result):
         warn(line)
+    for note in result.run.notes or ():
+        warn(note)
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 from ..base.interrupts import raise_from_now_on
+from ..base.read_parameters import unread_note
 from ..base.terminal import print_warnings, warn
 from ..errors import AllErrors, BadSetting, RunFailed, did_you_mean
 from ..runs.foreign_code import announce_code, refuse_code
@@ -256,6 +257,10 @@ def run_and_report(
                 recorder.check()
             if node is not None and node.error is not None:
                 raise RunFailed(f"{node.name} {node.how}: {node.error}")
+        if node is not None:
+            given = node.parameters
+            if note := unread_note(node.name, given.given, given.asked):
+                warn(note)
 
 
 def report(

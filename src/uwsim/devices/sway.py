@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..base.geometry import Pose, rotation_from_xyz
+from ..base.geometry import Pose, rotation_from_xyz, xyz_from_rotation
 from ..schema import element
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
@@ -26,7 +26,11 @@ AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 @dataclass(frozen=True, kw_only=True)
 class SwaySpec(DeviceSpec):
-    """A ``<u:sway>``: one sinusoid about the vehicle's place in its file."""
+    """A ``<u:sway>``: one sinusoid about the vehicle's place in its file.
+
+    Where it is put elsewhere (by a program, a command or a level), it sways about that place from
+    then on. A current does not carry it away.
+    """
 
     axis: Literal["x", "y", "z", "roll", "pitch", "yaw"] = element(namespaced=True)
     """Of L for x, y, z; of the vehicle's orientation for roll, pitch, yaw."""
@@ -62,14 +66,30 @@ def displaced(
     orientation: Sequence[float],
     offsets: Iterable[tuple[int, float]],
 ) -> Pose:
-    """Return ``localized_from_base`` of a vehicle displaced from its place in the file.
+    """Return ``localized_from_base`` of a vehicle displaced from its place.
 
     Args:
-        position: its place in the file, in L [m].
-        orientation: its angles in the file, Rx Ry Rz [rad].
+        position: its place, in L [m].
+        orientation: its angles there, Rx Ry Rz [rad].
         offsets: number of the axis and how far [m or rad]; several on one axis add up.
     """
     values = [*position, *orientation]
     for axis, offset in offsets:
         values[axis] += offset
     return Pose(np.array(values[:3]), rotation_from_xyz(*values[3:]))
+
+
+def undisplaced(
+    localized_from_base: Pose, offsets: Iterable[tuple[int, float]]
+) -> tuple[list[float], list[float]]:
+    """Return the place from which `displaced` gives a pose: position [m], angles [rad].
+
+    Args:
+        localized_from_base: of the displaced vehicle.
+        offsets: as `displaced` takes them.
+    """
+    position = np.array(localized_from_base.position)
+    values = np.concatenate([position, xyz_from_rotation(localized_from_base.rotation)])
+    for axis, offset in offsets:
+        values[axis] -= offset
+    return values[:3].tolist(), values[3:].tolist()

@@ -128,6 +128,7 @@ class Recording:
         except Exception as error:  # a damaged bag fails as it likes
             raise self._unreadable(error) from error
         try:
+            self._start = 0  # when the first image was recorded [ns]
             self._images = self._connections(image_topic, (IMAGE, COMPRESSED))
             self._infos = self._connections(info_topic, (INFO,))
             self._first_info = self._read_first_info(info_topic)
@@ -148,6 +149,8 @@ class Recording:
         """The first image."""
         self.gap = gap
         """Time from the first image to the next [ns]."""
+        self.length = max(self._reader.end_time - self._start, gap)
+        """Time from the first image to the last message of any topic [ns]."""
 
     def frames(self) -> Iterator[RecordedFrame]:
         """Go through the images once, in the order recorded."""
@@ -158,7 +161,8 @@ class Recording:
                 info = self._decoded(data, INFO)
                 continue
             count += 1
-            start = time if start is None else start
+            if start is None:
+                start = self._start = time
             place = f"Image {count} of {self._image_topic!r} in {self._name}"
             yield RecordedFrame(
                 time - start, info, place, partial(self._decoded, data, connection.msgtype)

@@ -189,6 +189,7 @@ def _unknown_names(
     """Look up every name of a benchmark in its scene, and the algorithm in the table."""
     from ..algorithms import load_algorithm
     from ..benchmark import unknown_names as names
+    from ..benchmark.truth_checks import truth_diagnostics
     from ..benchmark.warnings import arm_warnings
     from ..scene.reader import read_scene
     from ..schema import Diagnostics
@@ -220,7 +221,8 @@ def _unknown_names(
             world = simulation.world
             arms = arm_warnings(benchmark, world.vehicles, world.robots) if is_whole else ()
             found = names.unknown_names(benchmark, world, is_whole=is_whole)
-            return [*diagnostics.all(), *found, *arms]
+            truths = truth_diagnostics(benchmark, world) if is_whole else ()
+            return [*diagnostics.all(), *found, *arms, *truths]
         finally:
             simulation.close()
     return diagnostics.all()

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from ..base.files.input_files import recorded
 from ..benchmark.plugin import attribute_errors_to, check_bound
+from ..benchmark.truth_checks import truth_diagnostics
 from ..benchmark.unknown_names import unknown_names
 from ..errors import BenchmarkError, UwsimError
 from ..results.inputs import Inputs
@@ -82,10 +83,13 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
 
 
 def _bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Look up every name of the benchmark; raises BenchmarkError with all unknown ones."""
+    """Look up every name of the benchmark; raises BenchmarkError with all that is wrong."""
     try:
         bind_all(plan, simulation)
     except UwsimError:
         if errors := unknown_names(plan.benchmark, simulation.world):
             raise BenchmarkError(errors) from None
         raise
+    truths = truth_diagnostics(plan.benchmark, simulation.world)
+    if errors := [each for each in truths if each.severity == "error"]:
+        raise BenchmarkError(errors)

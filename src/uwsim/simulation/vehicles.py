@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
 import numpy as np
 
 from ..base.geometry import Array, Pose
-from ..devices.sway import displaced
+from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
@@ -35,7 +35,7 @@ class SceneVehicle:
         step: returns how many steps the simulation has taken.
     """
 
-    STATE = ("_offsets", "_losses", "_placed")
+    STATE = ("_offsets", "_centre", "_losses", "_placed")
     """Attributes of its state, for snapshots."""
 
     def __init__(
@@ -49,6 +49,8 @@ class SceneVehicle:
         self.joint_names = tuple(joint.name for joint in frames.robot.movable)
         """Names of the joints of the joint vector."""
         self._offsets: list[tuple[int, float]] = []  # axis and [m or rad], one a displacer
+        # position [m] and angles Rx Ry Rz [rad]; None: those of the file
+        self._centre: tuple[Sequence[float], Sequence[float]] | None = None
         self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
         self._placed: PlacedMotion | None = None  # where it is not simulated and a sensor reads it
 
@@ -96,7 +98,14 @@ class SceneVehicle:
         return self._state.joints(self.index)
 
     def place(self, world_from_base: Pose) -> None:
-        """Set its pose; a simulated one is at rest there, another has come there from the last."""
+        """Set its pose; a simulated one is at rest there, another has come there from the last.
+
+        It is displaced from there from now on.
+        """
+        self._centre = self._centre_of(world_from_base)
+        self._come_to(world_from_base)
+
+    def _come_to(self, world_from_base: Pose) -> None:
         self._state.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.record(self._step())
@@ -108,26 +117,38 @@ class SceneVehicle:
             self._placed.record(self._step())
 
     def drift(self, world_from_base: Pose) -> None:
-        """Set its pose: the water has carried it there."""
+        """Set its pose: the water has carried it there; what it is displaced from stays."""
         self._state.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.record_drift(self._step())
 
     def put(self, world_from_base: Pose) -> None:
-        """Set its pose, at rest."""
+        """Set its pose, at rest; it is displaced from there from now on."""
+        self._centre = self._centre_of(world_from_base)
+        self._rest_at(world_from_base)
+
+    def put_back(self) -> None:
+        """Put it where the scene puts it now, at rest."""
+        self._centre = None
+        self._rest_at(self._displaced_pose())
+
+    def _rest_at(self, world_from_base: Pose) -> None:
         self._state.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.rest()
 
-    def put_back(self) -> None:
-        """Put it where the scene puts it now, at rest."""
-        self.put(self._scene_pose())
+    def _centre_of(self, world_from_base: Pose) -> tuple[Sequence[float], Sequence[float]] | None:
+        """What it is displaced from where it is displaced to a pose now; None: never displaced."""
+        if not self._offsets:
+            return None
+        localized_from_base = self._frames.world_from_localized.inverse() @ world_from_base
+        return undisplaced(localized_from_base, self._offsets)
 
-    def _scene_pose(self) -> Pose:
-        """Where the scene puts it now, ``world_from_base``."""
+    def _displaced_pose(self) -> Pose:
+        """Where it is by the displacements of now, ``world_from_base``."""
         spec = self._frames.vehicle
-        localized_from_base = displaced(spec.position, spec.orientation, self._offsets)
-        return self._frames.world_from_localized @ localized_from_base
+        position, angles = self._centre or (spec.position, spec.orientation)
+        return self._frames.world_from_localized @ displaced(position, angles, self._offsets)
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return a function that displaces it along or about an axis; displacements add up."""
@@ -137,7 +158,7 @@ class SceneVehicle:
         def displace(offset: float) -> None:
             self._offsets[own] = (axis, offset)
             if own == len(self._offsets) - 1:
-                self.place(self._scene_pose())
+                self._come_to(self._displaced_pose())
 
         return displace
 

@@ -13,7 +13,7 @@ from tests.support.fakes import FakeWorld
 from tests.support.short_trial import make_plan, rows_of, tank
 from uwsim.base.compatibility import COMPATIBILITY
 from uwsim.benchmark.ground_truth import TopicTruthSpec
-from uwsim.benchmark.measures import EuclideanNormSpec
+from uwsim.benchmark.measures import EuclideanNorm, EuclideanNormSpec
 from uwsim.benchmark.recorded_truth import RecordedTruthSpec
 from uwsim.benchmark.updaters import BagFogUpdaterSpec
 from uwsim.benchmark.updaters.bag_fog_updater import BagFogUpdater, fogged
@@ -359,6 +359,68 @@ def test_the_truth_of_each_image_comes_with_it_and_is_hidden_from_the_algorithm(
     updater.close()
     assert [time for time, _ in found] == screen.times
     assert [data for _, data in found[:4]] == [[1.0, 10.0], [2.0, 20.0], [], [1.0, 10.0]]
+
+
+def scored(folder: Path, csv: str, components: str = "u v") -> EuclideanNorm:
+    """Score three images at 0, 0.1 and 0.25 s, and an estimate for each."""
+    stage = world(timestep=0.01)
+    write_bag(folder, "ros1", images())
+    (folder / "corners.csv").write_text(csv)
+    truth = RecordedTruthSpec(file="corners.csv", topic="truth/corners")
+    updater = spec(folder, truth=truth).bind(stage)
+    measure = EuclideanNormSpec(
+        name="corners",
+        target="estimate",
+        value="mean",
+        ground_truth=TopicTruthSpec(topic="truth/corners", components=components, unit="px"),
+    ).bind(stage)
+    stage.advance(1)
+    publish = stage.bus.publisher("estimate", Float32MultiArray)
+    message = Float32MultiArray(data=np.array([1.0, 10.0], dtype=np.float32))
+    stage.bus.subscribe(IMAGE, Image, lambda _: publish(message))
+    measure.start()
+    updater.apply(0.0)
+    for _ in range(30):
+        stage.advance(1)
+        measure.update()
+    updater.close()
+    return measure
+
+
+def test_images_without_a_truth_are_counted_and_leave_a_gap_in_the_log(tmp_path: Path) -> None:
+    measure = scored(tmp_path, "time,u,v\n0,1,10\n0.15,4,40\n")
+    assert measure.details["frames"] == 2.0
+    assert measure.remarks == (
+        "1 of 3 images are not scored: 'truth/corners' has none for this image",
+    )
+    assert measure.log_values == (None, None, None)
+    measure.close()
+
+
+def test_a_truth_of_all_images_leaves_nothing_to_remark(tmp_path: Path) -> None:
+    measure = scored(tmp_path, "time,u,v\n0,1,10\n0.25,6,60\n")
+    assert measure.remarks == ()
+    assert measure.log_values[0] == pytest.approx(np.hypot(5.0, 50.0))
+    measure.close()
+
+
+def test_a_truth_of_another_length_is_named(tmp_path: Path) -> None:
+    measure = scored(tmp_path, "time,u,v\n0,1,10\n0.25,6,60\n", components="u")
+    assert measure.why == "the estimate on 'estimate' has 2 numbers, expected 1"
+    measure.close()
+    (tmp_path / "dive.bag").unlink()
+    measure = scored(tmp_path, "time,u\n0,1\n0.25,6\n")
+    assert measure.why == "no truth: the truth on 'truth/corners' has 1 numbers, expected 2"
+    measure.close()
+
+
+@pytest.mark.parametrize("times", [(1.7e9, 1.7e9 + 10), (-5.0, -1.0), (3.0, 4.0)])
+def test_a_truth_of_another_time_is_refused(tmp_path: Path, times: tuple[float, float]) -> None:
+    write_bag(tmp_path, "ros1", images())
+    (tmp_path / "corners.csv").write_text(f"time,u,v\n{times[0]},1,10\n{times[1]},6,60\n")
+    truth = RecordedTruthSpec(file="corners.csv", topic="truth/corners")
+    with pytest.raises(AssetError, match="are none of the recording: 0 s to 0"):
+        spec(tmp_path, truth=truth).bind(world(timestep=0.01))
 
 
 def test_a_moving_target_in_recorded_images_is_scored(tmp_path: Path) -> None:

@@ -222,3 +222,30 @@ class NeverMade:
     def __init__(self) -> None:
         while True:
             time.sleep(10.0)
+
+
+class Asks(Does):
+    """Reads a parameter that it may not have been given, and one only when it is there."""
+
+    def start(self, node: Node) -> None:
+        super().start(node)
+        self.gain = float(node.parameters.get("gain", 1.0))
+        if "limit" in node.parameters:
+            self.limit = node.parameters["limit"]
+
+
+class AsksLater(Does):
+    """Reads its parameter in a callback, and reports all of them."""
+
+    def start(self, node: Node) -> None:
+        super().start(node)
+        self.parameters = node.parameters
+        node.every(0.3, lambda: float(node.parameters.get("gain", 1.0)))
+
+
+class GoesThrough(Does):
+    """Takes all parameters together."""
+
+    def start(self, node: Node) -> None:
+        super().start(node)
+        self.settings = {"gain": 1.0, **node.parameters}

@@ -143,6 +143,47 @@ def test_what_ends_the_run_is_the_same_line(
     assert lines[0] == lines[1]
 
 
+def notes_of(plan: Plan) -> tuple[str, ...]:
+    (end,) = [
+        row for trial in plan.trials() for row in execute(plan, trial) if isinstance(row, TrialEnd)
+    ]
+    return end.notes
+
+
+@pytest.mark.parametrize("own", [True, False])
+@pytest.mark.parametrize(
+    ("algorithm", "given", "note"),
+    [
+        (programs.Asks, {"gain": 2.0, "limit": 1.0, "latency_s": 0.1}, ""),
+        (
+            programs.Asks,
+            {"gian": 2.0},
+            "never read the parameter 'gian'. Did you mean 'gain'? It read gain, limit",
+        ),
+        (
+            programs.Asks,
+            {"a": 1.0, "gain": 2.0, "z": "text"},
+            "never read the parameters 'a', 'z'. It read gain, limit",
+        ),
+        (programs.AsksLater, {"gain": 2.0}, ""),
+        (
+            programs.AsksLater,
+            {"gains": 2.0},
+            "never read the parameter 'gains'. Did you mean 'gain'? It read gain",
+        ),
+        (programs.Does, {"gain": 2.0}, "never read the parameter 'gain'. It read none"),
+        (programs.GoesThrough, {"gian": 2.0}, ""),
+    ],
+)
+def test_a_parameter_that_nobody_read_is_noted(
+    tmp_path: Path, algorithm: type, given: dict[str, float | str], note: str, own: bool
+) -> None:
+    plan = with_algorithm(plan_of(tmp_path, algorithm, own=own), parameters=given)
+    notes = notes_of(plan)
+    assert len(notes) == bool(note)
+    assert all(note in each and "'algorithm'" in each for each in notes)
+
+
 def test_ctrl_c_of_the_algorithm_is_its_own_mistake(tmp_path: Path) -> None:
     first, _ = rows(tmp_path, programs.Interrupts)
     assert "KeyboardInterrupt" in first.missing["total"]

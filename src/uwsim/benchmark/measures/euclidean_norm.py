@@ -131,7 +131,9 @@ class EuclideanNorm(Measure):
         self._inbox = world.bus.inbox(spec.target, Float32MultiArray)
         self._frames = Signal(truth.components)
         self._n_images: int | None = None  # of the truth's camera, at the last look
-        self._last: Sample | None = None  # of the newest estimate, as it arrived
+        self._last: Sample | None = None  # of the newest estimate with a truth, as it arrived
+        self._shown: Sample | None = None  # of the newest estimate; None where it has no truth
+        self._without: dict[str, int] = {}  # images that have no truth, by the reason
         self._n = self._n_refused = self._n_answered = 0
         self._estimate: Array | None = None  # in force (k,)
         self._unanswered: list[Array] = []  # truths before the first estimate, (k,) each
@@ -219,10 +221,11 @@ class EuclideanNorm(Measure):
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The newest estimate's, as it arrived."""
-        if self._last is None:
+        """The newest estimate's, as it arrived; none where there was no truth."""
+        shown = self._last if self._last_norm_stands else self._shown
+        if shown is None:
             return (None,) * (1 + len(self._truth.components))
-        norm, components = self._last
+        norm, components = shown
         if self._last_norm_stands and not self._is_new:
             return (norm, *(0.0,) * len(components))
         return (norm, *components)
@@ -234,13 +237,24 @@ class EuclideanNorm(Measure):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Whether all estimates are what ``publishOn`` was given."""
+        """Which images had no truth, and whether all estimates are what ``publishOn`` was given."""
+        n = self._frames.n + len(self._unanswered) + sum(self._without.values())  # images
+        without = self._without if self.why is None else {}  # else the row says why
+        lacking = tuple(
+            f"{k} of {n} {self._instants} are not scored: {why}" for why, k in without.items()
+        )
         if self._n < 2 or self._n_at_start < self._n:
-            return ()
+            return lacking
         return (
+            *lacking,
             f"all estimates are exactly the start that {self._publish_on!r} was given: the target "
             "is at rest and the algorithm took no step, or refused each as no better",
         )
+
+    @property
+    def _instants(self) -> str:
+        """What the statistics are over."""
+        return "steps" if self._n_images is None else "images"
 
     @property
     def has_initialised(self) -> bool:
@@ -282,8 +296,8 @@ class EuclideanNorm(Measure):
         self._waits_since = self._world.step
         truth = self._truth.read()
         self._refused = "" if truth is not None else f"no truth: {self._truth.missing}"
-        if truth is not None:
-            self._last = compared(truth, good[-1])
+        self._shown = None if truth is None else compared(truth, good[-1])
+        self._last = self._shown or self._last
         for before in self._unanswered:
             self._frames.add(*compared(before, good[-1]))
         self._unanswered.clear()
@@ -313,6 +327,8 @@ class EuclideanNorm(Measure):
         """Compare the estimate in force with the truth; keep the truth until there is one."""
         truth = self._truth.read()
         if truth is None:
+            why = self._truth.missing
+            self._without[why] = self._without.get(why, 0) + 1
             return
         self._n_answered += self._is_answered
         self._is_answered = False

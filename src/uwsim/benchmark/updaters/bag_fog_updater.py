@@ -44,7 +44,7 @@ from ...messages import CameraInfo, Float32MultiArray, Image, image, time_from_s
 from ...messages.bag_camera import DecodedImage, RecordedFrame, Recording, camera_info
 from ...schema import element
 from ...world import Stage
-from ..recorded_truth import RecordedTruth, RecordedTruthSpec
+from ..recorded_truth import SAME_TIME, RecordedTruth, RecordedTruthSpec
 from .fog_sweep import FogSweepSpec
 from .updater import SceneUpdater
 
@@ -96,6 +96,18 @@ class BagFogUpdaterSpec(FogSweepSpec):
         """Return the recording."""
         return {self.bag: self.find(stage)}
 
+    def times(self, stage: Stage) -> tuple[float, float]:
+        """Return the times from the first image to the next, and to the recording's end [s].
+
+        Raises:
+            AssetNotFound: it is nowhere.
+            AssetError: it cannot be read, or a topic has another type.
+            UnknownName: a topic is not in it.
+        """
+        recording = Recording(self.find(stage), self.image_topic, self.info_topic)
+        recording.close()
+        return recording.gap * 1e-9, recording.length * 1e-9
+
     def bind(self, stage: Stage) -> BagFogUpdater:
         """Look into the recording.
 
@@ -105,14 +117,22 @@ class BagFogUpdaterSpec(FogSweepSpec):
             UnknownName: a topic is not in it.
             BadSetting: the scene publishes on such a topic already.
         """
-        path = self.find(stage)
-        Recording(path, self.image_topic, self.info_topic).close()
+        path, (_, length) = self.find(stage), self.times(stage)
         for tag, topic in zip(("imagePub", "infoPub"), self.topics, strict=True):
             if stage.bus.message_type(topic) is not None:
                 raise BadSetting(
                     f"Topic {topic!r} is the scene's already; name another in <{tag}>.", name=topic
                 )
-        truth = None if self.truth is None else self.truth.read(self.path)
+        truth = None
+        if self.truth is not None:
+            truth = self.truth.read(self.path)
+            first, last = truth.span
+            if last < -SAME_TIME or first > length + SAME_TIME:
+                raise AssetError(
+                    f"{self.truth.file}: its times, {first:.6g} s to {last:.6g} s, are none of the "
+                    f"recording: 0 s to {length:.6g} s, from its first image on.",
+                    name=self.truth.file,
+                )
         return BagFogUpdater(stage, self, path, truth)
 
 

@@ -9,6 +9,7 @@ It gets frames through one socket, answers each, and has nothing else of the sim
       start now, parameters, random       raised  published, kind, message, text
       call  callback, now, message
       parameters  given
+      asked                               (names of parameters that it read)
       given / refused                   (what the algorithm asked for)
 
 Within a call the algorithm asks for what a node offers (`ask`): the frames nest, as the calls of
@@ -27,7 +28,6 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from multiprocessing.connection import Connection
-from types import MappingProxyType
 from typing import Any, NoReturn, TypeVar
 
 import numpy as np
@@ -36,6 +36,7 @@ from ... import errors
 from ...base.files.source_module import source_module
 from ...base.message_fields import unfit
 from ...base.raised import what_was_raised
+from ...base.read_parameters import ReadParameters, unasked
 from ...base.terminal import ignore_casts
 from ...bus import Bus
 from ...errors import BadSetting, NotAllowed, UwsimError
@@ -65,7 +66,7 @@ class ChildNode:
         """The rule that a thread of the algorithm has broken."""
         self.now = 0.0
         """Simulation time [s]."""
-        self.parameters: Mapping[str, float | str] = MappingProxyType({})
+        self.parameters = ReadParameters({})
         """The parameters that the user set."""
         self.random = np.random.default_rng(0)
         """The algorithm's own random stream."""
@@ -169,7 +170,7 @@ class Child:
         bits = getattr(np.random, name)()
         bits.state = state
         self._node.random = np.random.Generator(bits)
-        self._node.now, self._node.parameters = now, parameters
+        self._node.now, self._node.parameters = now, ReadParameters(parameters)
         self._algorithm.start(self._node)
 
     def _call(self, number: int, now: float, *arguments: Any) -> object:
@@ -177,8 +178,11 @@ class Child:
         return self._node.callbacks[number](*arguments)
 
     def _parameters(self, given: dict[str, Any]) -> object:
-        reported: object = getattr(self._algorithm, "parameters", given)
+        reported: object = unasked(getattr(self._algorithm, "parameters", given))
         return dict(reported) if isinstance(reported, Mapping) else reported
+
+    def _asked(self) -> list[str]:
+        return list(self._node.parameters.asked)
 
     def _ask(self, method: str, *arguments: object) -> Any:
         """Ask the simulation for something; calls that come in between are answered."""

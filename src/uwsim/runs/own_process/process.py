@@ -23,6 +23,7 @@ from typing import Any, Self
 from ...base.environment import without_secrets
 from ...base.interrupts import ignoring_interrupts
 from ...base.raised import RaisedElsewhere
+from ...base.read_parameters import unasked
 from ...benchmark.plugin import Plugin
 from ...bus import Node
 from ...errors import BadSetting, RunFailed, UwsimError
@@ -194,12 +195,17 @@ class ProcessAlgorithm:
         reported: Mapping[str, float | int | str] = self._request("parameters", self._given)
         return reported
 
+    @property
+    def asked(self) -> list[str]:
+        """Names of the parameters that it has read."""
+        return list(map(str, self._request("asked")))
+
     def start(self, node: Node) -> None:
         """Start it there."""
         self._node = node
         bits = node.random.bit_generator
         random = [type(bits).__name__, dict(bits.state)]
-        self._request("start", node.now, dict(node.parameters), random)
+        self._request("start", node.now, unasked(node.parameters), random)
 
     def _request(self, *frame: object) -> Any:
         return self._process.request(list(frame), self._do)

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from ...base.interrupts import is_of_user
+from ...base.raised import RaisedElsewhere
+from ...base.read_parameters import unread_note
 from ...benchmark.plugin_checks import parameters_of
 from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError
-from ...simulation import Calls, what_broke
+from ...simulation import Calls, InProcessNode, what_broke
+from ...simulation.nodes.calls import Stopped
+from ..own_process.process import ProcessAlgorithm
 from ..planning.plan import Plan
 from .status import legible
 
@@ -53,3 +57,21 @@ def parameters_said(
         raise RunFailed(
             f"Algorithm {plan.algorithm.name!r} cannot report its parameters: {message}"
         ) from error
+
+
+def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> tuple[str, ...]:
+    """Say which of the parameters that the user set an algorithm has never read, if any.
+
+    Nothing is said of one that failed: it may have failed before it could read them.
+    """
+    given = [name for name in plan.algorithm.parameters if name != "latency_s"]
+    if not given or node.error is not None:
+        return ()
+    asked: Iterable[str] = node.parameters.asked
+    if isinstance(algorithm, ProcessAlgorithm):
+        try:
+            asked = algorithm.asked
+        except (RaisedElsewhere, Stopped):
+            return ()
+    note = unread_note(plan.algorithm.name, given, asked)
+    return (note,) if note else ()

@@ -43,7 +43,7 @@ from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
-from .make_algorithm import make_algorithm, parameters_said
+from .make_algorithm import make_algorithm, parameters_said, unread_parameters
 from .moments import Moments, all_snapshots
 from .motion_recorder import MotionRecorder
 from .onlooker import Onlooker
@@ -185,7 +185,7 @@ class _Execution:
             facts=self._facts,
             parameters=parameters,
             streams=() if plan.is_blind else self._streams(),
-            notes=tuple(self._notes),
+            notes=(*self._notes, *unread_parameters(plan, self._algorithm, self._node)),
             checkpoints=self._fingerprinter.checkpoints(),
             motion=self._motion.track(),
             inputs=b"" if self._inputs is None else self._inputs.data(),

@@ -12,6 +12,7 @@ import numpy as np
 from ...base.interrupts import is_of_user
 from ...base.message_fields import copied
 from ...base.raised import what_was_raised
+from ...base.read_parameters import ReadParameters
 from ...base.terminal import warn
 from ...bus import Algorithm, Bus
 from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed
@@ -80,10 +81,10 @@ class InProcessNode:
         self._published: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
         self._random = random
-        self._parameters = dict(parameters)
+        own = {key: value for key, value in parameters.items() if key != "latency_s"}
+        self._parameters = ReadParameters(own)
         self._timers: list[_Timer] = []
-        self._delay_steps = round(latency_of(self._parameters) / timestep)
-        self._parameters.pop("latency_s", None)
+        self._delay_steps = round(latency_of(parameters) / timestep)
         self._close: list[Callable[[], None]] = []
         self._algorithm: type = object
         self.name = name
@@ -99,7 +100,7 @@ class InProcessNode:
         return self._bus.step * self._timestep
 
     @property
-    def parameters(self) -> Mapping[str, float | str]:
+    def parameters(self) -> ReadParameters:
         """The parameters that the user set; the algorithm has its own defaults."""
         return self._parameters
 

@@ -1,0 +1,102 @@
+"""The parameters of an algorithm, which remember what was asked of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from ..errors import did_you_mean
+
+Value = float | str
+
+
+class ReadParameters(dict[str, Value]):
+    """A dict that remembers the names that were asked for; whoever goes through it asks for all."""
+
+    def __init__(self, given: Mapping[str, Value]) -> None:
+        super().__init__(given)
+        self.given = dict(given)
+        """The parameters, to be looked at without asking."""
+        self.asked: dict[str, None] = {}
+        """The names that were asked for, in this order, whether or not they were given."""
+
+    def _all(self) -> None:
+        self.asked.update(dict.fromkeys(self.given))
+
+    def __getitem__(self, name: str) -> Value:
+        self.asked[name] = None
+        return super().__getitem__(name)
+
+    def __contains__(self, name: object) -> bool:
+        if isinstance(name, str):
+            self.asked[name] = None
+        return super().__contains__(name)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Return a value, or the default."""
+        self.asked[name] = None
+        return super().get(name, default)
+
+    def pop(self, name: str, *default: Any) -> Any:
+        """Take a value out, or the default."""
+        self.asked[name] = None
+        return super().pop(name, *default)
+
+    def setdefault(self, name: str, default: Any = None) -> Any:
+        """Return a value; where there is none, the default, which is put in."""
+        self.asked[name] = None
+        return super().setdefault(name, default)
+
+    def __iter__(self) -> Iterator[str]:
+        self._all()
+        return super().__iter__()
+
+    def keys(self) -> Any:
+        """Names."""
+        self._all()
+        return super().keys()
+
+    def values(self) -> Any:
+        """Values."""
+        self._all()
+        return super().values()
+
+    def items(self) -> Any:
+        """Names and values."""
+        self._all()
+        return super().items()
+
+    def copy(self) -> dict[str, Value]:
+        """Return a plain dict of them."""
+        self._all()
+        return dict(super().items())
+
+    def __or__(self, other: Any) -> Any:
+        return self.copy() | other
+
+    def __ror__(self, other: Any) -> Any:
+        return other | self.copy()
+
+
+def unread_note(name: str, given: Iterable[str], asked: Iterable[str]) -> str:
+    """Say which parameters an algorithm never asked for; empty if it asked for all.
+
+    Args:
+        name: of the algorithm.
+        given: names of its parameters.
+        asked: the names that it asked for.
+    """
+    known = list(asked)
+    unread = [each for each in given if each not in known]
+    if not unread:
+        return ""
+    which = "parameter" if len(unread) == 1 else "parameters"
+    near = did_you_mean(unread[0], known)
+    asks = f"It read {', '.join(known)}" if known else "It read none"
+    shown = ", ".join(map(repr, unread))
+    return f"algorithm {name!r} never read the {which} {shown}.{near} {asks}"
+
+
+def unasked(parameters: object) -> object:
+    """Return parameters that may be gone through without asking for them."""
+    return parameters.given if isinstance(parameters, ReadParameters) else parameters
