@@ -3,6 +3,7 @@
 import gzip
 import http.client
 import json
+import socket
 import struct
 import threading
 import tracemalloc
@@ -167,6 +168,29 @@ def test_a_reader_who_stalls_holds_less_than_a_megabyte(server: LiveServer) -> N
         finally:
             tracemalloc.stop()
     assert peak < 1e6  # [byte]; readers and server are in this process
+
+
+@pytest.mark.parametrize(
+    "request_lines",
+    [
+        "GET //[ HTTP/1.1",
+        "GET http://[::1/socket HTTP/1.1",
+        "GET TARGET HTTP/1.1\r\nOrigin: http://a\r\nOrigin: http://b",
+    ],
+)
+def test_a_request_of_nonsense_is_answered_and_the_page_serves_on(
+    server: LiveServer, request_lines: str, capfd: pytest.CaptureFixture[str]
+) -> None:
+    upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+    key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+    target = "/socket?" + server.url.partition("?")[2]
+    lines = request_lines.replace("TARGET", target)
+    with socket.create_connection(("127.0.0.1", server.port), WAIT) as client:
+        client.sendall(f"{lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode())
+        assert client.recv(100).decode().split()[1] in ("400", "403")
+    with socket_of(server):
+        pass
+    assert "Traceback" not in capfd.readouterr().err
 
 
 def test_a_port_that_is_taken_is_said_in_a_line(server: LiveServer) -> None:
