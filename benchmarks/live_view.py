@@ -77,9 +77,10 @@ Figures = dict[str, object]
 class Receiver:
     """Reads and decodes what a page does: rows and images."""
 
-    def __init__(self, url: str) -> None:
+    def __init__(self, url: str, stack: ExitStack) -> None:
         address = url.replace("http://", "ws://").replace("/?", "/socket?")
-        self.socket = connect(address, max_size=None, compression=None, open_timeout=LIMIT)
+        opened = connect(address, max_size=None, compression=None, open_timeout=LIMIT)
+        self.socket = stack.enter_context(opened)
         self.rows: list[tuple[float, float, np.ndarray]] = []
         """Wall time of arrival [s], simulation time [s], numbers."""
         self.n_images = 0
@@ -154,9 +155,7 @@ def running(scene: str, *settings: str) -> Iterator[tuple[subprocess.Popen[str],
 def receivers(url: str, n: int) -> Iterator[list[Receiver]]:
     """Receivers who have got rows for a while."""
     with ExitStack() as stack:
-        found = [Receiver(url) for _ in range(n)]
-        for each in found:
-            stack.enter_context(each.socket)
+        found = [Receiver(url, stack) for _ in range(n)]
         while not all(each.rows for each in found):
             time.sleep(0.01)
         time.sleep(WARM_UP)
