@@ -204,6 +204,12 @@ def test_check_gives_the_errors_of_files(tmp_path: Path) -> None:
     assert any(diagnostic.severity == "error" and diagnostic.line == 1 for diagnostic in errors)
 
 
+def test_check_takes_bundled_names_as_the_command_does() -> None:
+    found = uwsim.check("grasp-scene", "grasp")
+    assert {diagnostic.severity for diagnostic in found} <= {"warning"}
+    assert any(diagnostic.line for diagnostic in found)
+
+
 @pytest.mark.parametrize("of", ["L", "W", "girona500"])
 @pytest.mark.parametrize("name", ["girona500", "blackbox"])
 def test_a_body_is_where_set_pose_puts_it(name: str, of: str) -> None:

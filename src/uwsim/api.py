@@ -225,10 +225,11 @@ def check(
     Errors come with their file, line and severity; a file without any gives none.
 
     Args:
-        paths: the files.
+        paths: the files, or names of bundled scenes and benchmarks.
         data_path: more folders in which files are looked for.
         arguments: values of their xacro arguments, by name.
     """
+    from .assets.bundled import bundled_or
     from .runs.check import diagnostics_of
 
     folders = tuple(Path(folder) for folder in data_path)
@@ -236,5 +237,7 @@ def check(
     return tuple(
         diagnostic
         for path in paths
-        for diagnostic in diagnostics_of(Path(path), data_path=folders, arguments=given)
+        for diagnostic in diagnostics_of(
+            bundled_or(Path(path)), data_path=folders, arguments=given
+        )
     )

@@ -16,6 +16,13 @@ def bundled(kind: str, suffix: str = ".xml") -> dict[str, Path]:
     }
 
 
+def bundled_or(file: Path) -> Path:
+    """Return the bundled scene or benchmark of that bare name, where there is no such file."""
+    if file.exists():
+        return file
+    return {**bundled("scenes"), **bundled("benchmarks")}.get(str(file), file)
+
+
 def scene_file(
     name: str, data_path: tuple[Path, ...] = (), *, named_by: Path | None = None
 ) -> Path:

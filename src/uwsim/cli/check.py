@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ..assets.bundled import bundled
+from ..assets.bundled import bundled_or
 from ..base.terminal import printable
 from ..errors import AllErrors, Diagnostic
 from ..runs.check import diagnostics_of
@@ -104,13 +104,6 @@ def json_of(found: Mapping[str, Sequence[Diagnostic]], n_errors: int) -> str:
         for file, diagnostics in found.items()
     ]
     return json.dumps({"files": files, "n_errors": n_errors}, indent=1)
-
-
-def bundled_or(file: Path) -> Path:
-    """Return the bundled scene or benchmark of that bare name, where there is no such file."""
-    if file.exists():
-        return file
-    return {**bundled("scenes"), **bundled("benchmarks")}.get(str(file), file)
 
 
 def _count(number: int) -> str:

@@ -193,14 +193,18 @@ def replayed_run(stored: Result, directory: Path, overrides: FileOverrides) -> R
 
 def head(stored: Result, directory: Path, n_whole: int, n_trials: int) -> str:
     """Print what is verified and which files were found."""
+    from ..results.per_level import seeds_of
+
     run = stored.run
     names = [named_input(stored, kind)[0] for kind in ("benchmark", "scene")]
     n_others = len(stored.inputs.assets or {})
     finished = count(n_trials, "trial")
     if n_whole < n_trials:
         finished = f"{n_whole} of {finished} finished"
+    seeds = sorted({seed for seed in seeds_of(stored) if seed is not None})
+    which = f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else f"seed {run.seed}"
     return printable(
-        f"{directory}: {run.algorithm}, seed {run.seed}, {run.mode}, "
+        f"{directory}: {run.algorithm}, {which}, {run.mode}, "
         f"{count(len(stored.rows), 'row')}, {finished}\n"
         f"files: the same ({', '.join(names)} and {n_others} more)"
     )

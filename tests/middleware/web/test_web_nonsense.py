@@ -33,6 +33,12 @@ def test_half_of_a_character_is_refused_where_a_frame_is_read(frame: str) -> Non
         read_frame(frame)
 
 
+@pytest.mark.parametrize("id", ["NaN", "[1, -Infinity]", '{"a": 1e999}'])
+def test_an_id_that_no_reader_of_json_takes_is_refused(id: str) -> None:
+    with pytest.raises(BadMessage, match="'id' has a number that is not finite"):
+        read_frame(f'{{"op": "call_service", "service": "/x", "id": {id}}}')
+
+
 @pytest.mark.parametrize("text", [r"\ud83d\udc1f", r"\\ud800", "\N{FISH}"])
 def test_whole_characters_are_read(text: str) -> None:
     read = read_frame(f'{{"op": "publish", "topic": "/a", "msg": {{"data": "{text}"}}}}')

@@ -326,9 +326,20 @@ def read_frame(raw: str | bytes) -> dict[str, Any]:
         raise BadMessage(f"A frame is not JSON: {str(error)[:100]}.") from None
     if not isinstance(found, dict) or not isinstance(found.get("op"), str):
         raise BadMessage("A frame is no object with the name of an operation under 'op'.")
+    if not _is_json(found.get("id")):
+        raise BadMessage("A frame's 'id' has a number that is not finite.")
     if ESCAPED_SURROGATE.search(raw) and not _is_text(found):
         raise BadMessage("A frame has half of a surrogate pair, which is no character.")
     return found
+
+
+def _is_json(value: object) -> bool:
+    """Whether a value that came is one that every reader of JSON takes: NaN is none."""
+    try:
+        json.dumps(value, allow_nan=False)
+    except ValueError:
+        return False
+    return True
 
 
 def _is_text(found: dict[str, Any]) -> bool:
