@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections import Counter
+from collections.abc import Callable
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
 
 PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
+PAGE = PACKAGE / "viewer" / "page" / "source"
 
 MAX_MODULES = 20
 
@@ -107,10 +110,18 @@ def imported_by(path: Path) -> set[Path]:
     return {each for each in found if each.name != "__init__.py"} - {path}
 
 
-def cycle_among(paths: list[Path]) -> list[str]:
+def imported_by_source(path: Path) -> set[Path]:
+    """Return the sources that a TypeScript source of the page imports, also for their types."""
+    names = re.findall(r"""\bfrom\s+["'](\.[^"']*)["']""", path.read_text())
+    return {(path.parent / f"{name}.ts").resolve() for name in names}
+
+
+def cycle_among(
+    paths: list[Path], imported: Callable[[Path], set[Path]] = imported_by
+) -> list[str]:
     """Return modules that import each other in a circle; none if there is no such circle."""
     try:
-        TopologicalSorter({path: imported_by(path) for path in paths}).prepare()
+        TopologicalSorter({path: imported(path) for path in paths}).prepare()
     except CycleError as error:
         return [path.relative_to(PACKAGE).as_posix() for path in error.args[1]]
     return []
@@ -143,6 +154,24 @@ def test_a_circle_of_imports_is_seen(
     for name, imported in [("a", "b"), ("b", "c"), ("c", "a")]:
         (tmp_path / f"{name}.py").write_text(how.format(imported))
     assert set(cycle_among(modules())) == {"a.py", "b.py", "c.py"}
+
+
+def test_no_sources_of_the_page_import_each_other() -> None:
+    sources = [path for path in PAGE.rglob("*.ts") if not path.name.endswith(".d.ts")]
+    assert len(sources) > 20
+    assert cycle_among(sources, imported_by_source) == []
+
+
+def test_a_circle_of_types_in_the_page_is_seen(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(f"{__name__}.PACKAGE", tmp_path)
+    (tmp_path / "display").mkdir()
+    (tmp_path / "a.ts").write_text('import type { B } from "./display/b";\n')
+    (tmp_path / "display" / "b.ts").write_text('import {\n  c, type C,\n} from "../c";\n')
+    (tmp_path / "c.ts").write_text('export { a } from "./a";\n')
+    sources = sorted(tmp_path.rglob("*.ts"))
+    assert set(cycle_among(sources, imported_by_source)) == {"a.ts", "display/b.ts", "c.ts"}
 
 
 def test_no_package_has_more_than_twenty_modules() -> None:

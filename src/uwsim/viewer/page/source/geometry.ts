@@ -152,3 +152,8 @@ export function clipFromCamera(lens: Lens, flipped: boolean): Matrix {
     0, 0, -1, 0,
   ]);
 }
+
+/** OpenGL counts columns first. */
+export function columns(m: Matrix): number[] {
+  return [0, 1, 2, 3].flatMap((i) => [m[i], m[4 + i], m[8 + i], m[12 + i]]);
+}

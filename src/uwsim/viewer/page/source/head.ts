@@ -1,6 +1,8 @@
 // The head, as viewer/head.py documents it.
 import type { Lens } from "./geometry";
-import type { Ref } from "./pack";
+
+/** An array of a pack: its first byte, how many numbers, and their type. */
+export type Ref = [number, number, string];
 
 export interface Visual {
   part: number;
@@ -115,6 +117,14 @@ export interface Trial {
   motion: Ref | null;
   levels: Level[];
   curves: Curve[];
+}
+
+/** Spawned by a program: lines in W. */
+export interface Marker {
+  name: string;
+  at: number[];
+  colour: string;
+  lines: number[][][];
 }
 
 /** From a frame on a marker has a shape, a colour and a pose in W, or is gone. */

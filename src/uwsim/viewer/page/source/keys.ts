@@ -1,5 +1,5 @@
 // Keys and the pointer. UWSim's keys are kept: 1 2 3, c, f, r, t, y.
-import type { Page } from "./main";
+import type { Controls } from "./controls";
 import { element, fillHelp, toggleHelp } from "./panels";
 
 const SUNS = ["clear", "dusk", "cloudy"];
@@ -8,7 +8,7 @@ const TURN = 0.03; // share of the view a key turns by
 export class Keyboard {
   private dragged: { x: number; y: number; shifts: boolean } | null = null;
 
-  constructor(private readonly page: Page) {
+  constructor(private readonly page: Controls) {
     const view = element("view");
     document.addEventListener("keydown", (event) => this.press(event));
     view.addEventListener("keydown", (event) => this.turn(event));

@@ -1,11 +1,11 @@
 // The maps of shadows: of the sun, of the lamps and of a projector, as in uwsim.rendering.
 import type { Lamp, Projector } from "./head";
 import {
-  clipFromCamera, inverse, origin, product, type Lens, type Matrix, matrix,
+  clipFromCamera, columns, inverse, origin, product, type Lens, type Matrix, matrix,
 } from "./geometry";
 import type { Piece } from "./models";
-import type { Slots } from "./renderer";
 import { Programs } from "./shaders";
+import type { Slots } from "./slots";
 import { fit, inView, TO_TEXTURE } from "./visibility";
 
 const SMALL = 512;
@@ -186,9 +186,4 @@ export function projectorBlock(
     ...origin(m), projector.laser ? 1 : 0,
     m[2], m[6], m[10], 1.5 / Math.min(lens.fx, lens.fy),
   ]);
-}
-
-/** OpenGL counts columns first. */
-export function columns(m: Matrix): number[] {
-  return [0, 1, 2, 3].flatMap((i) => [m[i], m[4 + i], m[8 + i], m[12 + i]]);
 }

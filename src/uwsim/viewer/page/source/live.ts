@@ -1,8 +1,7 @@
 // The live view: what a running simulation sends, and what is sent to it (viewer/head.py).
-import type { Level } from "./head";
-import type { Marker } from "./overlay";
+import type { Controls } from "./controls";
+import type { Level, Marker } from "./head";
 import { toPose } from "./geometry";
-import type { Page } from "./main";
 import { unpack, type Pack } from "./pack";
 import type { Stream } from "./player";
 import { element } from "./panels";
@@ -33,7 +32,7 @@ export class Link {
     if (isNews) this.page?.picture.hurry();
   });
   readonly topics = new Topics((names) => this.send({ type: "topics", names }));
-  private page: Page | null = null;
+  private page: Controls | null = null;
   private stream: Stream | null = null;
   private asked = "";
   private readonly numbers: number[] = []; // of the newest image of each camera
@@ -50,7 +49,7 @@ export class Link {
     socket.onclose = () => this.end("The simulation has ended.");
   }
 
-  begin(page: Page, stream: Stream): void {
+  begin(page: Controls, stream: Stream): void {
     this.page = page;
     this.stream = stream;
     for (const event of this.early) this.receive(event);
@@ -107,7 +106,7 @@ export class Link {
     if (kind === 3 && this.isDrawnThere) this.showView(event.data.slice(HEADER));
   }
 
-  private hear(message: Message, page: Page, stream: Stream): void {
+  private hear(message: Message, page: Controls, stream: Stream): void {
     if (message.type === "state") {
       page.isTold(message.paused, message.speed);
       this.resets = message.resets;
@@ -123,7 +122,7 @@ export class Link {
     else if (message.type === "end") this.end(message.why);
   }
 
-  private async showImage(index: number, data: ArrayBuffer, page: Page, stream: Stream): Promise<void> {
+  private async showImage(index: number, data: ArrayBuffer, page: Controls, stream: Stream): Promise<void> {
     const number = (this.numbers[index] ?? 0) + 1;
     this.numbers[index] = number;
     const image = await createImageBitmap(new Blob([data], { type: "image/jpeg" }));

@@ -11,14 +11,6 @@ export interface Shown {
   sonars: boolean;
 }
 
-/** Spawned by a program: lines in W. */
-export interface Marker {
-  name: string;
-  at: number[];
-  colour: string;
-  lines: number[][][];
-}
-
 const AXES = ["#ff5a4f", "#45d96b", "#4aa3ff"];
 const CLOSE = 0.02; // [m] ahead of the camera
 

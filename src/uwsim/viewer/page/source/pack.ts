@@ -1,8 +1,6 @@
 // Packs and motion: what viewer/head.py and viewer/tracks.py write.
-import type { Head, MotionHead } from "./head";
+import type { Head, MotionHead, Ref } from "./head";
 import type { Dig } from "./sand";
-
-export type Ref = [number, number, string];
 
 export class Pack {
   constructor(

@@ -1,7 +1,6 @@
 // What is shown when: the trials of a replay, or what a running simulation sends.
-import type { Head, Level, MarkerChange, MotionHead } from "./head";
+import type { Head, Level, Marker, MarkerChange, MotionHead } from "./head";
 import { fromPose, transform, type Matrix } from "./geometry";
-import type { Marker } from "./overlay";
 import { readMotion, type Motion, type Pack } from "./pack";
 import type { Dig } from "./sand";
 

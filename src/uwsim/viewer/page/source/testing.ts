@@ -1,9 +1,9 @@
 // What tests, and the curious in the browser's console, may ask the page.
+import type { Controls } from "./controls";
 import { valueAt } from "./curves";
-import type { Page } from "./main";
 import { indexAt } from "./panels";
 
-export function expose(page: Page): void {
+export function expose(page: Controls): void {
   const { player, picture } = page;
   Object.assign(window, {
     uwsim: {

@@ -1,5 +1,5 @@
 // The buttons at the top: from where one looks, and what is shown.
-import type { Page } from "../main";
+import type { Controls, Switch } from "../controls";
 import { element, make } from "../panels";
 import type { Mode } from "../views";
 
@@ -10,7 +10,7 @@ const VIEWS: Record<Mode, [name: string, title: string]> = {
   map: ["Map", "From above, north up (m)"],
   file: ["File", "From the <camera> of the scene file (p)"],
 };
-const SWITCHES = {
+const SWITCHES: Record<Exclude<Switch, "labels">, [name: string, title: string]> = {
   clear: ["Clear water", "Without fog, as an observer would like it (x)"],
   state: ["State", "Depth, heading, joints and more; a click on a number draws its curve (z)"],
   pictures: ["Cameras", "Images of the cameras (c)"],
@@ -18,10 +18,9 @@ const SWITCHES = {
   trails: ["Trails", "Where bodies have been (t)"],
   sonars: ["Sonars", "Beams and fans (s)"],
 };
-export type Switch = keyof typeof SWITCHES | "labels";
 
 /** Add a button for each view, and the list of the cameras. */
-export function addViews(page: Page, modes: Mode[], cameras: string[]): void {
+export function addViews(page: Controls, modes: Mode[], cameras: string[]): void {
   for (const mode of modes) {
     const [name, title] = VIEWS[mode];
     const button = make("button", name);
@@ -40,7 +39,7 @@ export function addViews(page: Page, modes: Mode[], cameras: string[]): void {
 }
 
 /** Add a button for each thing that may be shown or hidden, of those that the scene has. */
-export function addSwitches(page: Page): void {
+export function addSwitches(page: Controls): void {
   const { sensors, cameras, vehicles } = page.pack.head;
   const counts: Record<string, number> = {
     sonars: sensors.length, pictures: cameras.length, state: vehicles.length,
@@ -56,7 +55,7 @@ export function addSwitches(page: Page): void {
 }
 
 /** Mark what is on. */
-export function markToolbar({ views, switches, pack }: Page): void {
+export function markToolbar({ views, switches, pack }: Controls): void {
   for (const button of element("modes").querySelectorAll("button"))
     button.setAttribute("aria-checked", String(button.dataset.mode === views.mode));
   for (const button of element("switches").querySelectorAll("button"))

@@ -1,0 +1,41 @@
+// Where the instances of a scene lie, as the shaders read it.
+import { columns, product, type Matrix } from "./geometry";
+import type { Models, Piece } from "./models";
+import { BLOCKS } from "./shaders";
+
+const STRIDE = 256;
+
+/** The uniform blocks of all instances, for one camera at a time. */
+export class Slots {
+  private readonly values: Float32Array<ArrayBuffer>;
+  private readonly buffer: WebGLBuffer;
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly models: Models,
+  ) {
+    this.values = new Float32Array((STRIDE / 4) * Math.max(1, models.instances.length));
+    this.buffer = gl.createBuffer();
+  }
+
+  fill(cameraFromWorld: Matrix, rotation?: Matrix): void {
+    this.models.instances.forEach((each, i) => {
+      const at = (STRIDE / 4) * i;
+      this.values.set(columns(product(cameraFromWorld, each.worldFromMesh)), at);
+      if (rotation) this.values.set(columns(product(rotation, each.normals)), at + 16);
+    });
+    this.gl.bindBuffer(this.gl.UNIFORM_BUFFER, this.buffer);
+    this.gl.bufferData(this.gl.UNIFORM_BUFFER, this.values, this.gl.STREAM_DRAW);
+  }
+
+  drawPiece({ instance, first, count }: Piece, isFlipped: boolean): void {
+    const gl = this.gl;
+    if (instance.visual.two_sided) gl.disable(gl.CULL_FACE);
+    else gl.enable(gl.CULL_FACE);
+    gl.frontFace(instance.isMirrored !== isFlipped ? gl.CW : gl.CCW);
+    gl.bindBufferRange(gl.UNIFORM_BUFFER, BLOCKS.Instance, this.buffer, STRIDE * instance.number, 160);
+    gl.bindVertexArray(instance.array);
+    const [kind, size] = instance.wide ? [gl.UNSIGNED_INT, 4] : [gl.UNSIGNED_SHORT, 2];
+    gl.drawElements(gl.TRIANGLES, count, kind, size * first);
+  }
+}
