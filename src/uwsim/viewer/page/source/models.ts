@@ -6,7 +6,7 @@ import {
 } from "./geometry";
 import type { Pack } from "./pack";
 import { Sand, type Dig } from "./sand";
-import { ATTRIBUTES } from "./shaders";
+import { ATTRIBUTES } from "./drawing/shaders";
 
 /** A run of triangles, where it is now in W; uwsim.rendering.gpu_model has the same. */
 export interface Piece {

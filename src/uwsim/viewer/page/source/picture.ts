@@ -1,13 +1,13 @@
 // The image: the scene from where one looks, the cameras' images in it, lines over it.
 import type { Camera, Head, Water } from "./head";
-import type { ShiningLamp } from "./light";
+import type { ShiningLamp } from "./drawing/light";
 import { Models } from "./models";
 import { drawOverlay, drawQuads, type Shown } from "./overlay";
 import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
 import type { Moment, Player } from "./player";
 import { drawCompass } from "./display/compass";
-import { isSoftware, Renderer } from "./renderer";
+import { isSoftware, Renderer } from "./drawing/renderer";
 import { inside, type Sight, type Views } from "./views";
 import type { Lens } from "./geometry";
 

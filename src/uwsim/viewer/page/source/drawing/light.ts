@@ -1,9 +1,9 @@
 // The maps of shadows: of the sun, of the lamps and of a projector, as in uwsim.rendering.
-import type { Lamp, Projector } from "./head";
+import type { Lamp, Projector } from "../head";
 import {
   clipFromCamera, columns, inverse, origin, product, type Lens, type Matrix, matrix,
-} from "./geometry";
-import type { Piece } from "./models";
+} from "../geometry";
+import type { Piece } from "../models";
 import { Programs } from "./shaders";
 import type { Slots } from "./slots";
 import { fit, inView, TO_TEXTURE } from "./visibility";

@@ -1,22 +1,22 @@
 // The renderer's own shader files, compiled for WebGL2; uwsim.rendering.program does the same.
-import backgroundFragment from "../../../rendering/shaders/background.frag.glsl";
-import backgroundVertex from "../../../rendering/shaders/background.vert.glsl";
-import frame from "../../../rendering/shaders/frame.glsl";
-import grey from "../../../rendering/shaders/grey.glsl";
-import instance from "../../../rendering/shaders/instance.glsl";
-import lamplight from "../../../rendering/shaders/lamplight.glsl";
-import lamps from "../../../rendering/shaders/lamps.glsl";
-import projection from "../../../rendering/shaders/projection.glsl";
-import projector from "../../../rendering/shaders/projector.glsl";
-import shadowFragment from "../../../rendering/shaders/shadow.frag.glsl";
-import shadow from "../../../rendering/shaders/shadow.glsl";
-import shadowVertex from "../../../rendering/shaders/shadow.vert.glsl";
-import sun from "../../../rendering/shaders/sun.glsl";
-import surfaceFragment from "../../../rendering/shaders/surface.frag.glsl";
-import surfaceVertex from "../../../rendering/shaders/surface.vert.glsl";
-import targets from "../../../rendering/shaders/targets.glsl";
-import varyings from "../../../rendering/shaders/varyings.glsl";
-import water from "../../../rendering/shaders/water.glsl";
+import backgroundFragment from "../../../../rendering/shaders/background.frag.glsl";
+import backgroundVertex from "../../../../rendering/shaders/background.vert.glsl";
+import frame from "../../../../rendering/shaders/frame.glsl";
+import grey from "../../../../rendering/shaders/grey.glsl";
+import instance from "../../../../rendering/shaders/instance.glsl";
+import lamplight from "../../../../rendering/shaders/lamplight.glsl";
+import lamps from "../../../../rendering/shaders/lamps.glsl";
+import projection from "../../../../rendering/shaders/projection.glsl";
+import projector from "../../../../rendering/shaders/projector.glsl";
+import shadowFragment from "../../../../rendering/shaders/shadow.frag.glsl";
+import shadow from "../../../../rendering/shaders/shadow.glsl";
+import shadowVertex from "../../../../rendering/shaders/shadow.vert.glsl";
+import sun from "../../../../rendering/shaders/sun.glsl";
+import surfaceFragment from "../../../../rendering/shaders/surface.frag.glsl";
+import surfaceVertex from "../../../../rendering/shaders/surface.vert.glsl";
+import targets from "../../../../rendering/shaders/targets.glsl";
+import varyings from "../../../../rendering/shaders/varyings.glsl";
+import water from "../../../../rendering/shaders/water.glsl";
 
 const FILES: Record<string, string> = {
   "background.frag.glsl": backgroundFragment,

@@ -1,6 +1,6 @@
 // Where the instances of a scene lie, as the shaders read it.
-import { columns, product, type Matrix } from "./geometry";
-import type { Models, Piece } from "./models";
+import { columns, product, type Matrix } from "../geometry";
+import type { Models, Piece } from "../models";
 import { BLOCKS } from "./shaders";
 
 const STRIDE = 256;

@@ -1,12 +1,12 @@
 // Draws a scene through its water as uwsim.rendering.renderer does, with the same shaders.
-import type { Head, Water } from "./head";
+import type { Head, Water } from "../head";
 import {
   clipFromCamera, columns, inverse, matrix, origin, product, turnedBack, unit, type Lens, type Matrix,
-} from "./geometry";
+} from "../geometry";
 import {
   isOpaque, lampBlock, projectorBlock, projectorLens, Shadows, type ShiningLamp,
 } from "./light";
-import type { Models, Piece } from "./models";
+import type { Models, Piece } from "../models";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
 import { Slots } from "./slots";
 import { inView, needsNoCopies, reaching, type Eye } from "./visibility";

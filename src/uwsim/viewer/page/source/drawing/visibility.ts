@@ -2,8 +2,8 @@
 // minification decide: the same pieces, the same maps.
 import {
   cross, dot, matrix, origin, plus, transform, turnedBack, unit, inverse, type Lens, type Matrix,
-} from "./geometry";
-import type { Piece } from "./models";
+} from "../geometry";
+import type { Piece } from "../models";
 
 export interface Eye {
   worldFromCamera: Matrix;
