@@ -237,7 +237,5 @@ def check(
     return tuple(
         diagnostic
         for path in paths
-        for diagnostic in diagnostics_of(
-            bundled_or(Path(path)), data_path=folders, arguments=given
-        )
+        for diagnostic in diagnostics_of(bundled_or(Path(path)), data_path=folders, arguments=given)
     )

@@ -17,7 +17,7 @@ from uwsim.middleware.lockstep.topics import JOIN
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
-from uwsim.middleware.web.session import read_frame
+from uwsim.middleware.web.session import name_in, read_frame
 
 
 @pytest.mark.parametrize(
@@ -37,6 +37,12 @@ def test_half_of_a_character_is_refused_where_a_frame_is_read(frame: str) -> Non
 def test_an_id_that_no_reader_of_json_takes_is_refused(id: str) -> None:
     with pytest.raises(BadMessage, match="'id' has a number that is not finite"):
         read_frame(f'{{"op": "call_service", "service": "/x", "id": {id}}}')
+
+
+@pytest.mark.parametrize("name", ["/a\nuwsim: warning: forged", "b\x1b[2J", "/c\u2028d"])
+def test_a_name_of_several_lines_is_refused(name: str) -> None:
+    with pytest.raises(BadMessage, match="has characters that no name has"):
+        name_in({"op": "advertise", "topic": name}, "topic")
 
 
 @pytest.mark.parametrize("text", [r"\ud83d\udc1f", r"\\ud800", "\N{FISH}"])

@@ -360,8 +360,11 @@ def text_in(asked: dict[str, Any], key: str) -> str:
 
 
 def name_in(asked: dict[str, Any], key: str) -> str:
-    """Return a name of a frame without its leading slash; BadMessage if it is missing."""
-    return text_in(asked, key).strip().lstrip("/")
+    """Return a name of a frame without its leading slash; BadMessage if it is none."""
+    name = text_in(asked, key).strip().lstrip("/")
+    if not name.isprintable():
+        raise BadMessage(f"{asked['op']}: {key} {name!r:.100} has characters that no name has.")
+    return name
 
 
 def number_in(asked: dict[str, Any], key: str) -> float:
