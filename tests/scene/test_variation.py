@@ -109,6 +109,17 @@ def test_whole_numbers_are_drawn_whole_bounds_included(tmp_path: Path) -> None:
     assert draw(spec, 0)[0].value == found[0]
 
 
+def test_one_number_of_a_list_varies(tmp_path: Path) -> None:
+    path = "vehicle.jointValues.3"
+    spec = scene(tmp_path, uniform(path, "1", "1.4"))
+    before = spec.nominal.vehicles[0].joint_values
+    drawn = [varied(spec, seed).vehicles[0].joint_values for seed in range(5)]
+    assert len({values[2] for values in drawn}) == 5
+    assert all(1.0 <= values[2] <= 1.4 for values in drawn)
+    assert {(*values[:2], *values[3:]) for values in drawn} == {(*before[:2], *before[3:])}
+    assert draw(spec, 0)[0].path == "vehicle[girona500].jointValues.3"
+
+
 def test_what_has_no_name_is_chosen_by_its_axis_or_number(tmp_path: Path) -> None:
     path = "<u:path>vehicle.sway[x].phase</u:path>"
     uniform = f"<u:uniform> {path} <u:low>-M_PI</u:low> <u:high>M_PI</u:high> </u:uniform>"
@@ -156,6 +167,7 @@ def uniform(path: str, low: str = "0", high: str = "1") -> str:
         (uniform("object[blackbox].file"), "it is text; only a number can vary"),
         (uniform("simParams.disableShaders"), "it is a flag; only a number can vary"),
         (uniform("vehicle.jointValues"), "it is a list; only a number can vary"),
+        (uniform("vehicle.jointValues.9"), "<jointValues> has 5 numbers"),
         (uniform("object[blackbox]"), "<object> is not a value; its parts are name, file"),
         (uniform("object[blackbox].buried.x"), "<buried> is a value; it has no elements"),
         (uniform("object[blackbox].position.x", "2", "1"), "<u:low> 2 is not below <u:high> 1"),

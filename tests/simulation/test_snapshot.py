@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+from typing import Any
 
 import numpy as np
 import pytest
@@ -88,6 +89,38 @@ def test_bytes_of_another_scene_or_of_none_are_refused() -> None:
         for damaged in (b"", b"x" * 50, simulation.save()[:200], pickle.dumps([1])):
             with pytest.raises(uwsim.UwsimError, match="no saved simulation"):
                 simulation.restore(damaged)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"seed": 1}, "has seed 0; this one has 1"),
+        ({"timestep": 0.004}, "has timestep 0.002 s; this one has 0.004 s"),
+        ({"settings": {"oceanState.fog.density": 0.5}}, "not of this scene"),
+        ({"settings": {"object[blackbox].position.x": 2.1}}, "not of this scene"),
+    ],
+)
+def test_bytes_of_another_seed_timestep_or_setting_are_refused(
+    options: dict[str, Any], message: str
+) -> None:
+    with (
+        uwsim.load("visibility-moving-scene") as simulation,
+        uwsim.load("visibility-moving-scene", **options) as other,
+    ):
+        before = other.save()
+        with pytest.raises(uwsim.UwsimError, match=message):
+            other.restore(simulation.save())
+        assert other.save() == before
+
+
+def test_bytes_of_another_seed_are_refused_after_a_reset() -> None:
+    with uwsim.load("visibility-scene") as simulation:
+        saved = simulation.save()
+        simulation.reset(seed=1)
+        with pytest.raises(uwsim.UwsimError, match="has seed 0; this one has 1"):
+            simulation.restore(saved)
+        simulation.reset(seed=0)
+        simulation.restore(saved)
 
 
 class Evil:

@@ -55,8 +55,12 @@ class Place:
     def is_number(self) -> bool:
         """Whether it is one number."""
         is_scalar = self.field.kind in ("float", "int") and not self.field.repeated
-        has_parts = self.field.kind == "triple" or _is_list(self.field)
-        return (is_scalar and not self.rest) or (has_parts and len(self.rest) == 1)
+        return (is_scalar and not self.rest) or (self.has_parts and len(self.rest) == 1)
+
+    @property
+    def has_parts(self) -> bool:
+        """Whether it is several numbers, of which one can be chosen."""
+        return self.field.kind == "triple" or _is_list(self.field)
 
     @property
     def is_whole(self) -> bool:

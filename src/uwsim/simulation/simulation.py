@@ -33,7 +33,7 @@ from .access.topics import TopicAccess
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scenery.renderer_pool import RendererPool
-from .snapshot import opened, put_state, saved, state_of
+from .snapshot import digest_of, opened, put_state, saved, state_of
 from .stage import SceneStage
 
 MAX_RUN = 1000
@@ -75,6 +75,7 @@ class Simulation:
         """Open the scene at step 0 and read some topics."""
         self.world = world = SceneStage(self._scene, seed=self._seed, **self._options)
         """The world of the scene."""
+        self._digest = ""  # of the scene; computed when it is needed
         scene, state = world.scene, world.state
         placed = [i for i in range(len(scene.vehicles)) if not state.is_simulated(i)]
         self._drifting = [world.numbered_vehicle(i) for i in placed]
@@ -416,19 +417,34 @@ class Simulation:
         """
         self._refuse_if_attached("saved")
         newest, world = self._access.newest, state_of(self.world)
-        return saved({"is_open": self._is_started, "newest": newest, "world": world})
+        values = {"is_open": self._is_started, "newest": newest, "world": world}
+        return saved(values, self._identity)
 
     def restore(self, data: bytes) -> None:
         """Go back, or on, to a saved state of the same scene, seed and timestep.
 
         Raises:
-            UwsimError: the bytes are damaged, of another scene, or of another version.
+            UwsimError: the bytes are damaged, of another scene, seed or timestep, or of another
+                version.
         """
-        values = opened(data, {"is_open", "newest", "world"})
+        values = opened(data, {"is_open", "newest", "world"}, self._identity)
         put_state(self.world, values["world"])
         self._is_started = values["is_open"]
         self._access.newest = values["newest"]
         self.world.scenery.redraw()
+
+    @property
+    def _identity(self) -> dict[str, str]:
+        """What bytes of it are of, besides the version."""
+        if not self._digest:
+            self._digest = digest_of(self.world.scene)
+        quirks = ", ".join(sorted(self.world.compatibility)) or "none"
+        return {
+            "seed": str(self._seed),
+            "timestep": f"{self.timestep:.12g} s",
+            "compatibility": quirks,
+            "scene": self._digest,
+        }
 
     def close(self) -> None:
         """Release the graphics context and disconnect the algorithms."""

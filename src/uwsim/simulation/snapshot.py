@@ -10,6 +10,7 @@ and the hash of the images published so far.
 from __future__ import annotations
 
 import dataclasses
+import hashlib
 import io
 import pickle
 from collections.abc import Collection, Mapping
@@ -74,23 +75,51 @@ def unpacked(data: bytes) -> dict[str, Any]:
     return values
 
 
-def saved(values: Values) -> bytes:
-    """Return the values of a whole simulation as bytes, with the version of uwsim."""
-    return packed({"uwsim": __version__, **values})
+def saved(values: Values, identity: Mapping[str, str]) -> bytes:
+    """Return the values of a whole simulation as bytes, with the version of uwsim.
+
+    Args:
+        values: what changes while it runs.
+        identity: what does not, by its name.
+    """
+    return packed({"uwsim": __version__, "identity": dict(identity), **values})
 
 
-def opened(data: bytes, names: Collection[str]) -> dict[str, Any]:
+def opened(data: bytes, names: Collection[str], identity: Mapping[str, str]) -> dict[str, Any]:
     """Read the values of a whole simulation, which have these names, from bytes.
 
     Raises:
-        UwsimError: these are no bytes of a saved simulation, or another version saved them.
+        UwsimError: these are no bytes of a saved simulation, another version saved them, or the
+            simulation had another identity.
     """
     values = unpacked(data)
     if values.pop("uwsim", None) != __version__:
         raise UwsimError(f"The simulation was not saved by uwsim {__version__}.")
-    if set(values) != set(names):
+    kept = values.pop("identity", None)
+    if set(values) != set(names) or not isinstance(kept, dict):
         raise UwsimError("These bytes are no saved simulation.")
+    for name, value in identity.items():
+        if kept.get(name) != value and name == "scene":
+            raise _of_another_scene()
+        if kept.get(name) != value:
+            raise UwsimError(
+                f"The saved simulation has {name} {kept.get(name)}; this one has {value}."
+            )
     return values
+
+
+def digest_of(spec: object) -> str:
+    """Return a hash of what a spec says, wherever its file lies."""
+    return hashlib.sha256(repr(_plain(spec)).encode()).hexdigest()
+
+
+def _plain(value: Any) -> object:
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        fields = [each.name for each in dataclasses.fields(value) if each.compare]
+        return type(value).__name__, [(name, _plain(getattr(value, name))) for name in fields]
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return value.tolist() if isinstance(value, np.ndarray) else value
 
 
 class _Unpickler(pickle.Unpickler):
