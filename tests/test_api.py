@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -202,6 +203,38 @@ def test_check_gives_the_errors_of_files(tmp_path: Path) -> None:
     bad.write_text("<UWSimScene><nedOrigin><lat>north</lat></nedOrigin></UWSimScene>")
     errors = uwsim.check(str(bad))
     assert any(diagnostic.severity == "error" and diagnostic.line == 1 for diagnostic in errors)
+
+
+class Idle:
+    def start(self, node: object) -> None:
+        """Do nothing."""
+
+
+def test_what_is_no_algorithm_is_not_attached() -> None:
+    with uwsim.load("visibility-scene") as simulation:
+        for wrong in ("esm", Idle, 3):
+            with pytest.raises(uwsim.UwsimError, match=r"expected an algorithm|has no method start"):
+                simulation.attach(wrong)  # type: ignore[arg-type]
+        simulation.reset()
+        assert simulation.save()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"seeds": 3}, r"seeds=3: expected a sequence, such as \(3,\) or range\(6\)"),
+        ({"levels": {"fog": 0.5}}, "expected names and lists"),
+        ({"levels": ["fog=0"]}, "expected names and lists"),
+    ],
+)
+def test_arguments_of_a_wrong_kind_are_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(uwsim.UwsimError, match=message):
+        uwsim.bench("visibility", **options)
+
+
+def test_results_are_compared_by_their_directories() -> None:
+    with pytest.raises(uwsim.UwsimError, match=r"compare\(dict\): expected the directories"):
+        uwsim.compare({}, "a")  # type: ignore[arg-type]
 
 
 def test_check_takes_bundled_names_as_the_command_does() -> None:

@@ -167,6 +167,8 @@ def _write_report(run: Run, watch: Stopwatch, workers: int) -> None:
 def _texts_of(levels: Mapping[str, Sequence[float]]) -> list[str]:
     """Return levels as ``NAME=VALUE``, with all digits; BadSetting if one is not a number."""
     texts: list[str] = []
+    if not isinstance(levels, Mapping) or any(isinstance(v, Real) for v in levels.values()):
+        raise BadSetting(f"levels={levels!r:.200}: expected names and lists, as {{'fog': [0.5]}}.")
     for name, values in levels.items():
         for value in values:
             if isinstance(value, bool) or not isinstance(value, Real):
@@ -177,6 +179,8 @@ def _texts_of(levels: Mapping[str, Sequence[float]]) -> list[str]:
 
 def _first_of(seeds: Sequence[int]) -> int:
     """Return the first of some consecutive seeds; BadSetting if they are not."""
+    if isinstance(seeds, int):
+        raise BadSetting(f"seeds={seeds}: expected a sequence, such as ({seeds},) or range(6).")
     first = next(iter(seeds), -1)
     if first < 0 or list(seeds) != list(range(first, first + len(seeds))):
         raise BadSetting(
@@ -211,6 +215,11 @@ def compare(
     """
     from .analysis.comparison import compare_files
 
+    for given in results:
+        if not isinstance(given, str | Path):
+            raise BadSetting(
+                f"compare({type(given).__name__}): expected the directories of results."
+            )
     paths = [Path(path) for path in results]
     return compare_files(paths, column=column, higher_is_better=higher_is_better)
 

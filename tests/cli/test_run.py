@@ -76,6 +76,24 @@ def test_hz_reports_how_often_messages_came(scene: Path, capsys: pytest.CaptureF
     assert found["/twist"]["is_published"] is False
 
 
+def test_what_a_program_prints_is_no_part_of_the_json(
+    tmp_path: Path, scene: Path, capsys: pytest.CaptureFixture
+) -> None:
+    program = tmp_path / "say.py"
+    program.write_text(
+        "class Say:\n"
+        "    def start(self, node):\n"
+        "        print('begins')\n"
+        "        node.every(0.1, lambda: print('goes on'))\n"
+    )
+    command = ["run", str(scene), "--for", "300ms", "--program", str(program), "--json"]
+    assert main(command) == 0
+    captured = capsys.readouterr()
+    assert "/odom" in topics(captured.out)
+    assert "begins" in captured.err
+    assert "goes on" in captured.err
+
+
 @pytest.mark.slow
 def test_the_rates_on_the_page_are_those_of_its_command(capsys: pytest.CaptureFixture) -> None:
     shown = re.findall(r"^```console\n\$ uwsim (.*?--hz)\n(.*?)^```", PAGE, re.M | re.S)

@@ -60,7 +60,7 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
     folder = Path(named_by).parent if named_by else Path()
     path = find(name, named_by=folder)
     if path is None:
-        raise AssetNotFound(f"{name!r} is not in the folder {folder}.", name=name)
+        raise AssetNotFound(f"{name!r} is not in the folder of {Path(named_by).name}.", name=name)
     text = read_bytes(path, name=name, at_most=MAX_BYTES).decode("utf-8-sig", errors="replace")
     lines = csv.reader(io.StringIO(text))
     try:

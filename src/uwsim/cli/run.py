@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -231,11 +232,15 @@ def run_and_report(
     from ..middleware.recording import Recorder, TopicRates
 
     node = None
+    # what a program prints is no part of the JSON
+    aside = redirect_stdout(sys.stderr) if output.as_json else nullcontext()
     if wanted.program is not None:
-        node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
+        with aside:
+            node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
         for sentence in node.unconnected():
             warn(sentence)
     with running(), ExitStack() as last, ExitStack() as stack:
+        stack.enter_context(aside)
         recorder = None
         if output.record is not None:
             recorder = Recorder(simulation.bus, output.record, images=wanted.images)

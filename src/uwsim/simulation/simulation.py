@@ -390,7 +390,11 @@ class Simulation:
 
         What it raises comes out here and out of `advance`; without ``raises`` it is kept in the
         node's ``error``, and the algorithm is not called any more. ``calls`` counts those into it.
+
+        Raises:
+            BadSetting: it is a class, or has no method ``start(node)``.
         """
+        arguments.checked_algorithm(algorithm)
         node = InProcessNode(
             self.bus,
             name=name or type(algorithm).__name__,

@@ -220,7 +220,7 @@ def _axes(ahead: Array, bearing: float, elevation: float) -> Array:
 def _looking(eye: Array, ahead: Array, what: str) -> Pose:
     distance = length(ahead)
     if not distance > 0.0:
-        raise BadSetting(f"{what} looks at its own position: {', '.join(f'{x:g}' for x in eye)}.")
+        raise BadSetting(f"{what} looks at its own position.")
     return Pose(eye, camera_axes(ahead / distance, UP))
 
 

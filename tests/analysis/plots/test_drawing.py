@@ -157,6 +157,14 @@ def test_a_control_far_above_is_named_and_does_not_press_the_curve_flat() -> Non
     assert figure.axes[0].get_ylim()[1] > 4
 
 
+def test_the_value_of_a_control_is_that_of_its_means_not_of_their_intervals() -> None:
+    (found,) = curves_of(frozen(), "corners")
+    curve = replace(found, x=(0.0, 1.0), mean=(104.64, 104.64), low=(70.0,) * 2, high=(148.0,) * 2)
+    assert curve.mean_text == "105"
+    assert replace(curve, mean=(32.0, 48.6)).mean_text == "32 to 48.6"
+    assert replace(curve, mean=(math.nan, 48.6)).mean_text == "48.6"
+
+
 def test_few_levels_have_a_tick_each_and_iterations_are_whole_numbers() -> None:
     few = replace(frozen(), rows=frozen().rows[:3])
     assert list(value_plot(few, "corners").axes[0].get_xticks()) == [0.0, 0.05, 0.1]

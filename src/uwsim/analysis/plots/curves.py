@@ -48,6 +48,12 @@ class Curve:
         return (min(known), max(known + limits)) if known else None
 
     @property
+    def mean_text(self) -> str:
+        """The span of its means: ``48.6``, or ``32 to 48.6``."""
+        known = [f"{v:.3g}" for v in sorted(self.mean) if not np.isnan(v)] or ["nan"]
+        return " to ".join(dict.fromkeys([known[0], known[-1]]))
+
+    @property
     def loss_text(self) -> str:
         """``lost at 1.2``, or over repeats ``lost at 1.15 to 1.25``; empty without a loss."""
         if not self.losses:

@@ -84,7 +84,7 @@ def draw_column(
     for other, is_above in zip(compared, above, strict=True):
         name = f"{CONTROL}, {other.name}" if other.name else CONTROL
         if is_above:
-            name += f": {_span_text(other)}, above"
+            name += f": {other.mean_text}, above"
         draw_curve(axes, other, CONTROL_LOOK, name)
     near = [other for other, is_above in zip(compared, above, strict=True) if not is_above]
     scale_axes(axes, [*curves, *near])
@@ -323,12 +323,6 @@ def _is_far_above(other: Curve, curves: Sequence[Curve]) -> bool:
         and min(low for low, _ in spans) >= 0
         and other.span[0] > FAR_ABOVE * max(high for _, high in spans)
     )
-
-
-def _span_text(curve: Curve) -> str:
-    """``48.6``, or ``32 to 48.6``."""
-    low, high = curve.span or (math.nan, math.nan)
-    return f"{low:.3g}" if f"{low:.3g}" == f"{high:.3g}" else f"{low:.3g} to {high:.3g}"
 
 
 def say_no_data(axes: Axes, why: str | None) -> None:

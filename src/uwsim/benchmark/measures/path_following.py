@@ -82,7 +82,7 @@ class PathFollowingSpec(MeasureSpec):
 
 
 class PathFollowing(Measure):
-    r"""Integral of the distance :math:`d` of a body's origin from a path, over time.
+    r"""Distance :math:`d` of a body's origin from a path, or its integral over time.
 
     .. math:: \text{iae} = \int d \, dt \qquad \text{ise} = \int d^2 \, dt
 

@@ -12,7 +12,7 @@ from itertools import chain
 
 from ...devices.force_sensor import ForceSensorSpec
 from ...devices.lamp import MAX_LAMPS, LampSpec
-from ...schema import Diagnostics, line_of
+from ...schema import Diagnostics, line_of, shown_tag
 from ...topics import InterfaceSpec, element_of
 from ...topics.simulated_device_ros import unwrapped
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
@@ -93,7 +93,7 @@ def _check_links(
             is_error = isinstance(part, ForceSensorSpec | LampSpec)
             severity = "error" if is_error else "warning"
             near = diagnostics.near(link, links, severity)
-            message = f"<{element}>: {link!r} is no link of {vehicle.file}.{near}"
+            message = f"{shown_tag(element)}: {link!r} is no link of {vehicle.file}.{near}"
             if is_error:
                 diagnostics.error(part, message)
             else:
@@ -101,7 +101,7 @@ def _check_links(
         elif isinstance(part, ForceSensorSpec) and scene.sim_params.enable_physics:
             mass = next(each.mass for each in robot.links if each.name == link)
             if mass <= 0 and is_its_own:
-                diagnostics.warning(part, f"<{element}>: its link {link!r} has no mass")
+                diagnostics.warning(part, f"{shown_tag(element)}: its link {link!r} has no mass")
 
 
 def _check_joints(vehicle: VehicleSpec, robot: RobotSpec, diagnostics: Diagnostics) -> None:
@@ -155,7 +155,7 @@ def _check_interface(
         near = diagnostics.near(wanted, chain(*(known.get(kind, {}) for kind in kinds)), "warning")
         diagnostics.warning(
             interface,
-            f"<{element}>: no {_or(kinds)} is called {wanted!r}.{near} "
+            f"{shown_tag(element)}: no {_or(kinds)} is called {wanted!r}.{near} "
             "The interface is left out, as in the original",
         )
     elif (
@@ -164,7 +164,8 @@ def _check_interface(
         and wanted not in known.get("virtualRangeImage", {})
     ):
         diagnostics.error(
-            interface, f"<{element}>: <depth> 1 needs a virtualRangeImage; {wanted!r} is none"
+            interface,
+            f"{shown_tag(element)}: <depth> 1 needs a virtualRangeImage; {wanted!r} is none",
         )
 
 

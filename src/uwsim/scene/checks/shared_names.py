@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from ...schema import Diagnostics
+from ...schema import Diagnostics, shown_tag
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...topics import InterfaceSpec, element_of
 from ...topics.interface import VehiclePublisherSpec
@@ -60,7 +60,7 @@ def _check_parts(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             else:
                 why = ""
             if why:
-                diagnostics.warning(part, f"<{element}>: {why}")
+                diagnostics.warning(part, f"{shown_tag(element)}: {why}")
             of_kind.add((element, name))
             of_vehicle.setdefault(name, element)
 
@@ -74,7 +74,7 @@ def _check_topics(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             key = topic.strip("/")
             if not NAME.fullmatch(key):
                 why = "is no name of a topic in ROS"
-                diagnostics.warning(interface, f"<{element}>: the topic {topic!r} {why}")
+                diagnostics.warning(interface, f"{shown_tag(element)}: the topic {topic!r} {why}")
             if interface.subscribes:
                 continue
             other = writers.get(key)
@@ -86,8 +86,8 @@ def _check_topics(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             elif other is not None:
                 diagnostics.warning(
                     interface,
-                    f"<{element}>: the topic {topic!r} of {own!r} carries {other[1]!r} of "
-                    f"<{other[0]}>, too: who reads it gets both",
+                    f"{shown_tag(element)}: the topic {topic!r} of {own!r} carries {other[1]!r} of "
+                    f"{shown_tag(other[0])}, too: who reads it gets both",
                 )
             writers.setdefault(key, (element, own))
 

@@ -30,7 +30,7 @@ def find_vehicle(name: str, named_by: Path | None = None) -> Path:
                 return own
     known = vehicle_sets()
     if name not in known:
-        raise UnknownName("hydrodynamics set", name, [*_own_sets(named_by), *known])
+        raise UnknownName("hydrodynamics set", name, dict.fromkeys([*_own_sets(named_by), *known]))
     return known[name]
 
 

@@ -32,6 +32,17 @@ def checked_time(seconds: float) -> float:
     return float(seconds)
 
 
+def checked_algorithm(algorithm: object) -> None:
+    """Refuse what has no method ``start(node)`` to be called; raises BadSetting."""
+    if isinstance(algorithm, type):
+        raise BadSetting(
+            f"attach({algorithm.__name__}): expected an algorithm, not its class: "
+            f"attach({algorithm.__name__}())."
+        )
+    if not callable(getattr(algorithm, "start", None)):
+        raise BadSetting(f"attach({shown(algorithm)}): it has no method start(node).")
+
+
 def checked_number(method: str, number: float) -> float:
     """Return a number; BadSetting if it is negative or not finite."""
     if not isinstance(number, int | float | np.number) or not 0.0 <= number < math.inf:
