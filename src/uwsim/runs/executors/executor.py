@@ -102,6 +102,11 @@ class JobQueue:
         """Whose jobs are waiting."""
         return tuple({id(job.run): job.run.plan for job in self._waiting}.values())
 
+    @property
+    def is_sealed(self) -> bool:
+        """Whether a job that waits is of a run whose rows its algorithm must not read."""
+        return any(job.run.seal is not None for job in self._waiting)
+
     def take(self) -> Job | None:
         """Take the next job; None when there is none now."""
         return self._waiting.popleft() if self._waiting else None

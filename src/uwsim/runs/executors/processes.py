@@ -1,10 +1,10 @@
 """Processes of this machine, each with its own graphics context and one thread a library.
 
-They are started with ``spawn`` and write rows where the result is; what they say through their pipe
-is only how far they are. A worker that dies takes nothing with it but the level it was in: a fresh
-one runs its trial again, and has to reproduce the rows that are on disk. No process sees two
-algorithms. A call into an algorithm that kills its process twice, or does not come back, is left
-out when its trial is run again, and its row says so.
+They are started with ``spawn``, those of a sealed run by `ClosedForks`. They write rows where the
+result is; what they say through their pipe is only how far they are. A worker that dies takes
+nothing with it but the level it was in: a fresh one runs its trial again, and has to reproduce the
+rows that are on disk. No process sees two algorithms. A call into an algorithm that kills its
+process twice, or does not come back, is left out when its trial is run again, and its row says so.
 """
 
 from __future__ import annotations
@@ -15,13 +15,16 @@ import time
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
 
 from ...base.environment import environment
 from ...base.interrupts import is_of_user
 from ...base.terminal import ignore_casts
 from ...simulation import BEFORE, Calls, Counter, Cut, RendererPool, open_call
 from ..own_process.process import TOO_LONG, how
+from .closed_forks import ClosedForks, closes_forks
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 from .worker import TrialFailed, picklable
@@ -69,14 +72,16 @@ class ProcessExecutor:
             SerialExecutor().execute(queue)
             return
         settings = ENVIRONMENT if n > 1 else {}
-        workers = [WorkerProcess(settings, limit) for _ in range(n)]
+        forks = ClosedForks() if queue.is_sealed and closes_forks() else None
+        start = partial(WorkerProcess, settings, limit, forks)
+        workers = [start() for _ in range(n)]
         try:
             while True:
                 for i, worker in enumerate(workers):
                     if worker.job is None and (job := queue.take()) is not None:
                         if not worker.may_play(job):
                             worker.kill()
-                            workers[i] = WorkerProcess(settings, limit)
+                            workers[i] = start()
                         workers[i].give(job)
                 busy = [worker for worker in workers if worker.job is not None]
                 if not busy:
@@ -106,16 +111,30 @@ class WorkerProcess:
     Args:
         settings: environment variables that it gets unless the user has set them.
         limit: how long a call into an algorithm in a process of its own may take [s].
+        forks: make the processes of a sealed run.
     """
 
-    def __init__(self, settings: Mapping[str, str], limit: float | None = None) -> None:
+    def __init__(
+        self,
+        settings: Mapping[str, str],
+        limit: float | None = None,
+        forks: ClosedForks | None = None,
+    ) -> None:
         context = multiprocessing.get_context("spawn")
         self._pipe, theirs = context.Pipe()
         parent, self._parent = context.Pipe(duplex=False)
         self._counter: Counter = context.RawValue(ctypes.c_longlong, BEFORE)
-        self._process = context.Process(target=work, args=(theirs, parent, self._counter, limit))
+        arguments = (theirs, parent, self._counter, limit)
+        self._process: BaseProcess = (
+            forks.make(work, arguments, settings)
+            if forks is not None
+            else context.Process(target=work, args=arguments)
+        )
         with environment(settings):
-            start_ignoring_interrupts(self._process)
+            if forks is not None:
+                forks.start(self._process)
+            else:
+                start_ignoring_interrupts(self._process)
         for end in (theirs, parent):
             end.close()  # so that a pipe ends when the process at its other end does
         self.job: Job | None = None
