@@ -73,6 +73,7 @@ def headed(data: bytes, name: str, value: float) -> bytes:
         lambda data: headed(data, "rate", 0.0),
         lambda data: headed(data, "length", float("inf")),
         lambda data: headed(data, "n", float("inf")),
+        lambda data: headed(data, "quaternion", 1e-320),
         lambda data: data[:40] + bytes([data[40] ^ 1]) + data[41:],
     ],
 )

@@ -10,6 +10,8 @@ from ..errors import RunFailed
 
 SHORTEST_SLEEP_S = 0.001
 """A step that is early by less is not held up [s]."""
+MIN_SPEED = 1e-6
+"""The least simulation time per real time: that of the longest wait between two steps."""
 MAX_LAG_S = 0.2
 """A simulation that lags by more does not catch up: time is lost instead [s]."""
 

@@ -54,6 +54,18 @@ def test_a_blank_or_endless_secret_is_one_line(
             client_secret(None)
 
 
+def test_a_secret_that_is_no_text_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "secret"
+    file.write_bytes(b"tide\xff\n")
+    with pytest.raises(BadSetting, match=r"--web-token-file .* no characters of UTF-8"):
+        web_token(None, file)
+    monkeypatch.setenv("UWSIM_CLIENT_SECRET", "ebb\udcff")  # as Python reads the byte 0xff
+    with pytest.raises(BadSetting, match="UWSIM_CLIENT_SECRET: it has bytes that are no char"):
+        client_secret(None)
+
+
 def test_secrets_are_not_shown_with_what_holds_them(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("UWSIM_WEB_TOKEN", "high-water")
     monkeypatch.setenv("UWSIM_CLIENT_SECRET", "low-water")

@@ -168,6 +168,23 @@ def test_a_join_without_the_secret_is_refused_and_the_right_one_still_counts(giv
     assert any(by == OTHER and "secret" in text for by, text in run.outside.told)
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        *('{"client": "a", "topics": ' + "[" * n + "]" * n + "}" for n in (100, 700, 965, 970)),
+        r'{"client": "a", "topics": [], "secret": "\ud800"}',
+        r'{"client": "a", "topics": ["\ud800"], "secret": "opensesame"}',
+    ],
+)
+def test_a_join_that_cannot_be_read_is_none(text: str) -> None:
+    run = Run(secret="opensesame" if "secret" in text else None)
+    run.outside.put(JOIN, String(data=text), OTHER)
+    run.outside.says(JOIN, by=ITS, topics=["/depth"], next=0.0, secret="opensesame")
+    run.start()
+    run.step()
+    assert [message.data for message in run.estimates.take()] == [1.0]
+
+
 def test_with_a_secret_nobody_else_can_join() -> None:
     run = Run(secret="opensesame")
     run.client._limit = 0.05

@@ -76,7 +76,11 @@ def test_a_join_of_nonsense_leaves_its_client_connected(
 
 @pytest.mark.parametrize(
     "request_lines",
-    ["GET //[x HTTP/1.1", "GET / HTTP/1.1\r\nAuthorization: Bearer a\r\nAuthorization: Bearer b"],
+    [
+        "GET //[x HTTP/1.1",
+        "GET / HTTP/1.1\r\nAuthorization: Bearer \xff",
+        "GET / HTTP/1.1\r\nAuthorization: Bearer a\r\nAuthorization: Bearer b",
+    ],
 )
 def test_a_request_of_nonsense_is_refused_without_a_traceback(
     request_lines: str, bridge: WebBridge, capfd: pytest.CaptureFixture[str]
@@ -84,7 +88,7 @@ def test_a_request_of_nonsense_is_refused_without_a_traceback(
     upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
     key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
     with socket.create_connection(("127.0.0.1", bridge.port)) as client:
-        client.sendall(f"{request_lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode())
+        client.sendall(f"{request_lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode("latin1"))
         answer = client.recv(100).decode()
     assert answer.split()[1] == "401"
     assert "Traceback" not in capfd.readouterr().err

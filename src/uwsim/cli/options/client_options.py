@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from ...errors import AllErrors, BadSetting
+from ...middleware.pacing import MIN_SPEED
 from .connections import ConnectionOptions, DomainOption, Ros1HostOption, Ros1Option, Ros2Option
 from .help_texts import CONNECTED, in_group
 from .secrets import client_secret
@@ -137,8 +138,8 @@ class ClientOptions:
                     "--sync output: add what the client publishes, as --output /cmd_vel=10Hz."
                 )
         with wrong.kept():
-            if not 0.0 < (1.0 if self.speed is None else self.speed) < float("inf"):
-                raise BadSetting(f"--speed {self.speed:g}: expected a number > 0.")
+            if not MIN_SPEED <= (1.0 if self.speed is None else self.speed) < float("inf"):
+                raise BadSetting(f"--speed {self.speed:g}: expected a number >= {MIN_SPEED:g}.")
         with wrong.kept():
             if not 0.0 <= (self.settle or 0.0) < float("inf"):
                 raise BadSetting(f"--settle {self.settle:g}: expected a time >= 0 [s].")

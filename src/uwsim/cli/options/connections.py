@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from ...errors import AllErrors, BadSetting, RunFailed
+from ...middleware.pacing import MIN_SPEED
 from .help_texts import CONNECTED, in_group
 from .secrets import client_secret
 from .web_options import (
@@ -139,8 +140,8 @@ class ConnectionOptions:
             if self.ros1_host is not None and not self.ros1:
                 raise BadSetting("--ros1-host is of --ros1.")
         with wrong.kept():
-            if not 0 <= self.pace < float("inf"):
-                raise BadSetting(f"--speed {self.pace:g}: expected 0 or more.")
+            if not (self.pace == 0 or MIN_SPEED <= self.pace < float("inf")):
+                raise BadSetting(f"--speed {self.pace:g}: expected 0, or {MIN_SPEED:g} or more.")
         with wrong.kept():
             if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
                 raise BadSetting(f"--max-lag {self.max_lag:g}: expected a time > 0 [s].")

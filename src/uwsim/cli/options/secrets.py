@@ -14,6 +14,7 @@ from ...base.environment import CLIENT_SECRET, WEB_TOKEN
 from ...base.terminal import warn
 from ...errors import BadSetting
 
+NO_TEXT = "it has bytes that are no characters of UTF-8"
 MAX_BYTES = 4096
 """Longest file that is read."""
 
@@ -45,9 +46,13 @@ def secret(variable: str, file: Path | None, option: str) -> str | None:
     """
     if file is None:
         found = os.environ.get(variable)
-        if found is not None and not found.strip():
+        if found is None:
+            return None
+        if not found.strip():
             raise BadSetting(f"{variable}: it is blank.")
-        return None if found is None else found.strip()
+        if not found.isprintable():
+            raise BadSetting(f"{variable}: {NO_TEXT}.")
+        return found.strip()
     try:
         with file.open("rb") as stream:
             if os.fstat(stream.fileno()).st_mode & (stat.S_IRWXG | stat.S_IRWXO):
@@ -57,9 +62,11 @@ def secret(variable: str, file: Path | None, option: str) -> str | None:
         raise BadSetting(f"{option} {file}: cannot be read: {error.strerror}.") from None
     if len(content) > MAX_BYTES:
         raise BadSetting(f"{option} {file}: expected one line of at most {MAX_BYTES} bytes.")
-    text = content.decode("utf-8", "replace").strip().partition("\n")[0].strip()
+    text = content.decode("utf-8", "surrogateescape").strip().partition("\n")[0].strip()
     if not text:
         raise BadSetting(f"{option} {file}: it is blank.")
+    if not text.isprintable():
+        raise BadSetting(f"{option} {file}: {NO_TEXT}.")
     return text
 
 

@@ -14,6 +14,8 @@ from .secrets import web_token
 if TYPE_CHECKING:
     from ...middleware.web.options import WebOptions
 
+MAX_LIMIT = 1e6
+"""The longest that a client is waited for [s]."""
 CLIENT_LIMIT = 60.0
 """Default of the longest time that a client in lock-step may take [s of wall time]."""
 
@@ -143,8 +145,12 @@ class WebGiven:
 
 def check_clients(names: Sequence[str], limit: float, transports: Sequence[str]) -> None:
     """Refuse clients that could not come; raises BadSetting."""
-    if not 0.0 < limit < float("inf"):
-        raise BadSetting(f"--client-limit {limit:g}: expected a time > 0 [s].")
+    if not 0.0 < limit <= MAX_LIMIT:
+        raise BadSetting(
+            f"--client-limit {limit:g}: expected a time > 0 and at most {MAX_LIMIT:g} [s]."
+        )
+    if not all(name.strip() for name in names):
+        raise BadSetting("--client: it is blank; expected the name by which the program joins.")
     if names and len(transports) != 1:
         given = " and ".join(f"--{name}" for name in transports)
         raise BadSetting(

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
+from ...base.peer_json import read_peer_json
 from ...bus import Node
 from ...errors import BadMessage, BadSetting, ClientLost, NeverStarted
 from ...messages import Empty, String
@@ -413,7 +414,7 @@ def _object_in(message: object) -> dict[str, Any]:
     if not isinstance(message, String) or len(message.data) > MAX_TEXT:
         return {}
     try:
-        found = json.loads(message.data)
-    except (ValueError, RecursionError):
+        found = read_peer_json(message.data)
+    except ValueError:
         return {}
     return found if isinstance(found, dict) else {}

@@ -358,7 +358,7 @@ class WebBridge(Bridge):
             self.log.say(f"more than {MAX_CLIENTS} clients; one is refused")
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many clients.\n")
         token = self._options.token
-        if token and not hmac.compare_digest(_token_of(request).encode(), token.encode()):
+        if token and not hmac.compare_digest(_token_of(request), token.encode()):
             self.log.say(f"a client at {_peer(connection)} was refused: no token, or a wrong one")
             return connection.respond(http.HTTPStatus.UNAUTHORIZED, "A token is needed.\n")
         return None
@@ -410,14 +410,15 @@ def _node_name(client: str) -> str:
     return "/" + re.sub(r"[^A-Za-z0-9_]", "_", client)
 
 
-def _token_of(request: Request) -> str:
+def _token_of(request: Request) -> bytes:
     """Return the token of a request; empty if it has none, or is not as it should be."""
     headers: Headers = request.headers
     try:
         given = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
-        return given or headers.get("Authorization", "").removeprefix("Bearer ").strip()
+        given = given or headers.get("Authorization", "").removeprefix("Bearer ").strip()
+        return given.encode(errors="surrogateescape")
     except (ValueError, LookupError):  # an address of nonsense, two headers of one name
-        return ""
+        return b""
 
 
 def _peer(connection: ServerConnection) -> str:

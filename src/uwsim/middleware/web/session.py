@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import re
 import threading
 import time
 from collections.abc import Callable
@@ -12,6 +11,7 @@ from concurrent.futures import Future
 from contextlib import suppress
 from typing import Any, cast
 
+from ...base.peer_json import read_peer_json
 from ...errors import BadMessage, UwsimError, did_you_mean
 from ...messages import String
 from ..json_encoding import from_json, to_json
@@ -27,8 +27,6 @@ from .queue import MAX_MESSAGES, Lane, OutQueue
 
 MAX_KEYS = 200_000
 """Fields that a frame may have, those of messages in lists counted each."""
-ESCAPED_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
-"""Half of a character beyond the 16-bit ones, as JSON escapes it."""
 MAX_NAMES = 1000
 """Topics and services that one client may use."""
 
@@ -321,15 +319,13 @@ def read_frame(raw: str | bytes) -> dict[str, Any]:
     if len(raw) > MAX_KEYS and raw.count('":') > MAX_KEYS:
         raise BadMessage(f"A frame has more than {MAX_KEYS} fields.")
     try:
-        found = json.loads(raw)
-    except (ValueError, RecursionError) as error:
+        found = read_peer_json(raw)
+    except ValueError as error:
         raise BadMessage(f"A frame is not JSON: {str(error)[:100]}.") from None
     if not isinstance(found, dict) or not isinstance(found.get("op"), str):
         raise BadMessage("A frame is no object with the name of an operation under 'op'.")
     if not _is_json(found.get("id")):
         raise BadMessage("A frame's 'id' has a number that is not finite.")
-    if ESCAPED_SURROGATE.search(raw) and not _is_text(found):
-        raise BadMessage("A frame has half of a surrogate pair, which is no character.")
     return found
 
 
@@ -338,15 +334,6 @@ def _is_json(value: object) -> bool:
     try:
         json.dumps(value, allow_nan=False)
     except ValueError:
-        return False
-    return True
-
-
-def _is_text(found: dict[str, Any]) -> bool:
-    """Whether all texts of an object have characters alone."""
-    try:
-        json.dumps(found, ensure_ascii=False).encode()
-    except UnicodeEncodeError:
         return False
     return True
 
@@ -377,7 +364,7 @@ def number_in(asked: dict[str, Any], key: str) -> float:
 
 def _client_in(text: str) -> object:
     try:
-        found = json.loads(text)
-    except (ValueError, RecursionError):
+        found = read_peer_json(text)
+    except ValueError:
         return None
     return found.get("client") if isinstance(found, dict) else None

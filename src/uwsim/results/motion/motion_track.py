@@ -230,7 +230,10 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
     rows = table * steps
     rows[table == NOTHING] = np.nan
     poses = rows[:, : NUMBERS * len(bodies)].reshape(n, len(bodies), NUMBERS)
-    poses[..., 3:] /= np.maximum(np.linalg.norm(poses[..., 3:], axis=-1, keepdims=True), TURN)
+    norms = np.linalg.norm(poses[..., 3:], axis=-1, keepdims=True)
+    if (norms < 0.5).any():
+        raise ValueError("an orientation is no unit quaternion")
+    poses[..., 3:] /= norms
     return MotionTrack(
         bodies=bodies,
         poses=poses,

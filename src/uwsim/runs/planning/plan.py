@@ -168,7 +168,7 @@ def chosen_levels(
             raise BadSetting(f"--level {name}: this benchmark sweeps {', '.join(known)}.{near}")
         for value in wanted:
             if not any(_same(value, other) for other in has):
-                nearest = min(has, key=lambda other: abs(other - value))
+                nearest = min(sorted(has, reverse=value > 0), key=lambda other: abs(other - value))
                 raise BadSetting(
                     f"--level {name}={value:.12g} is not a level; the nearest is {nearest:.12g}."
                 )

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import asyncio
 import hmac
-import json
 import os
 import secrets
 import threading
@@ -25,6 +24,7 @@ from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
+from ...base.peer_json import read_peer_json
 from ...errors import BadSetting
 
 HOST = "127.0.0.1"
@@ -298,8 +298,8 @@ def _message(text: str | bytes) -> Message | None:
     if not isinstance(text, str):
         return None
     try:
-        message = json.loads(text)
-    except (ValueError, RecursionError):
+        message = read_peer_json(text)
+    except ValueError:
         return None
     return message if isinstance(message, dict) and isinstance(message.get("type"), str) else None
 
