@@ -42,6 +42,18 @@ def test_a_worker_is_closed_before_it_runs_anything() -> None:
     assert (is_dumpable, setting) == (0, "1")
 
 
+def test_a_worker_has_the_environment_of_now(monkeypatch: pytest.MonkeyPatch) -> None:
+    forks = ClosedForks()
+    for value in ("before", "after"):
+        monkeypatch.setenv("UWSIM_TEST_SETTING", value)
+        ours, theirs = multiprocessing.get_context("forkserver").Pipe()
+        process = forks.make(tell, (theirs,), {"UWSIM_TEST_SETTING": "default"})
+        forks.start(process)
+        assert ours.poll(60)
+        assert ours.recv()[1] == value
+        process.join()
+
+
 @pytest.mark.parametrize("is_noticed", [True, False])
 def test_no_other_process_takes_the_place_of_the_one_that_starts_workers(is_noticed: bool) -> None:
     forks = ClosedForks()

@@ -48,7 +48,8 @@ class ClosedForks:
             settings: environment variables that it gets unless the user has set them.
         """
         name = (target.__module__, target.__qualname__)  # imported there, in its environment
-        return self._context.Process(target=begin, args=(dict(settings), name, arguments))
+        variables = {**settings, **os.environ}  # those of the fork server may be older
+        return self._context.Process(target=begin, args=(variables, name, arguments))
 
     def start(self, process: BaseProcess) -> None:
         """Start a process, as a fork of the first fork server.
@@ -68,10 +69,13 @@ class ClosedForks:
             raise RunFailed(SERVER_ENDED)
 
 
-def begin(settings: Mapping[str, str], target: tuple[str, str], arguments: tuple[Any, ...]) -> None:
-    """Run a function, named by its module and its name, in the environment of a worker."""
-    for name, value in settings.items():
-        os.environ.setdefault(name, value)
+def begin(
+    variables: Mapping[str, str], target: tuple[str, str], arguments: tuple[Any, ...]
+) -> None:
+    """Run a function, named by its module and its name, with these environment variables."""
+    os.environ.clear()
+    os.environ.update(variables)
+    importlib.import_module(CLOSED)  # where a program had started a fork server of its own before
     getattr(importlib.import_module(target[0]), target[1])(*arguments)
 
 
