@@ -19,6 +19,7 @@ from ..log import Log
 from .deadline import DeadlineReader
 from .origins import own_names, wrong_in_headers
 from .tcpros import PeerError
+from .turns import Turns
 
 MAX_REQUEST = 2**20
 """Longest request and response read [bytes]."""
@@ -58,7 +59,17 @@ class RequestHandler(SimpleXMLRPCRequestHandler):
             self.send_error(413)
             self.close_connection = True
             return
+        if self.headers.get("content-encoding", "identity").lower() != "identity":
+            self.send_error(415)  # clients of ROS do not compress, and little unpacks to much
+            self.close_connection = True
+            return
         super().do_POST()
+
+    def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
+        """Refuse a request, in its turn: also a flood of those must not stop the simulation."""
+        assert isinstance(self.server, XmlRpcServer)
+        with self.server.turns.turn(0):
+            super().send_error(code, message, explain)
 
     def log_message(self, format: str, *args: object) -> None:
         """Print nothing: errors of a request are the peer's."""
@@ -87,11 +98,18 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         self._log, self._name = log, name
         self._hosts = own_names(host)
         self._free = threading.BoundedSemaphore(MAX_AT_ONCE)
+        self.turns = Turns()
+        """When each request is worked on."""
         for each, method in methods.items():
             self.register_function(method, each)
         self.register_multicall_functions()  # by which rospy takes back all that it registered
         self._thread = threading.Thread(target=self.serve_forever, args=(0.1,), daemon=True)
         self._thread.start()
+
+    def _marshaled_dispatch(self, data: Any, *arguments: Any) -> str:
+        """Parse a request that was read, and call its method, in its turn."""
+        with self.turns.turn(len(data)):
+            return super()._marshaled_dispatch(data, *arguments)
 
     def _dispatch(self, method: str, params: Any) -> Any:
         """Call a method; a fault names the method, not how this program is made."""
