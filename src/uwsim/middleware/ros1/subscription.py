@@ -23,7 +23,7 @@ from .tcpros import (
     read_header,
     write,
 )
-from .xmlrpc import call
+from .xmlrpc import MAX_NODE_ANSWER, call
 
 RETRY = 1.0
 """How long after a lost connection it is tried again [s]."""
@@ -119,7 +119,8 @@ class Subscription:
         Returns:
             The connection, and the name of the node.
         """
-        answer = call(uri, "requestTopic", self._caller, self.topic, [["TCPROS"]])
+        wanted = (self._caller, self.topic, [["TCPROS"]])
+        answer = call(uri, "requestTopic", *wanted, longest=MAX_NODE_ANSWER)
         match answer:
             case ["TCPROS", str(host), int(port)]:
                 connection = open_connection(host, port, CONNECT_TIMEOUT)

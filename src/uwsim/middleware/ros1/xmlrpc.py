@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import http.client
 import io
+import socket
 import threading
+import time
 import xmlrpc.client
 from collections.abc import Callable, Iterable, Mapping
 from socketserver import ThreadingMixIn
@@ -16,19 +18,21 @@ from typing import Any
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 from ..log import Log
-from .deadline import DeadlineReader
+from .deadline import DeadlineReader, time_left
 from .origins import own_names, wrong_in_headers
 from .tcpros import PeerError
 from .turns import Turns
 
 MAX_REQUEST = 2**20
-"""Longest request and response read [bytes]."""
+"""Longest request read [bytes]."""
+MAX_ANSWER, MAX_NODE_ANSWER = 2**23, 2**16
+"""Longest answer of a master, and of a node, that is read [bytes]."""
 MAX_AT_ONCE = 64
 """Requests that a server works on at the same time; others are closed."""
 READ_TIMEOUT = 15.0
 """How long a client may take to send its whole request [s]."""
 CALL_TIMEOUT = 5.0
-"""How long a call waits for its answer [s]."""
+"""How long a call may take in all [s]."""
 Answer = list[Any]
 Methods = Mapping[str, Callable[..., Answer]]
 
@@ -159,41 +163,90 @@ def _lower(headers: Iterable[tuple[str, str]]) -> dict[str, str]:
     return {name.lower(): value for name, value in headers}
 
 
+class _Response(http.client.HTTPResponse):
+    """A response that has to come within the timeout of its connection, however slowly it does."""
+
+    def __init__(self, sock: socket.socket, *arguments: Any, **options: Any) -> None:
+        super().__init__(sock, *arguments, **options)
+        self.fp.close()
+        self.fp = io.BufferedReader(DeadlineReader(sock, sock.gettimeout() or 0.0))
+
+
+class _Connection(http.client.HTTPConnection):
+    """A connection for a limited time."""
+
+    response_class = _Response
+
+    def __init__(self, host: str, end: float) -> None:
+        super().__init__(host, timeout=time_left(end))
+        self._end = end
+
+    def send(self, data: Any) -> None:
+        """Send a part of the request."""
+        if self.sock is not None:
+            self.sock.settimeout(time_left(self._end))
+        super().send(data)
+
+    def getresponse(self) -> http.client.HTTPResponse:
+        """Read the headers of the response."""
+        self.sock.settimeout(time_left(self._end))
+        return super().getresponse()
+
+
 class _Transport(xmlrpc.client.Transport):
-    """Calls with a time limit and responses of limited length, which are not compressed."""
+    """Calls with a time limit and responses of limited length, which are not compressed.
+
+    Args:
+        timeout: how long all calls with it may take together [s].
+        longest: longest response read [bytes].
+    """
 
     accept_gzip_encoding = False
 
-    def __init__(self, timeout: float) -> None:
+    def __init__(self, timeout: float, longest: int) -> None:
         super().__init__()
-        self._timeout = timeout
+        self._end, self._longest = time.monotonic() + timeout, longest
 
     def make_connection(self, host: Any) -> http.client.HTTPConnection:
-        """Connect with a time limit."""
-        connection = super().make_connection(host)
-        connection.timeout = self._timeout
+        """Make a connection with a time limit, which `close` closes."""
+        connection = _Connection(self.get_host_info(host)[0], self._end)
+        self._connection = host, connection
         return connection
 
     def parse_response(self, response: http.client.HTTPResponse) -> Any:
         """Parse a response of limited length."""
         parser, unmarshaller = self.getparser()
-        data = response.read(8 * MAX_REQUEST + 1)
-        if len(data) > 8 * MAX_REQUEST:
+        data = response.read(self._longest + 1)
+        response.close()
+        if len(data) > self._longest:
             raise ValueError("the response is too long")
         parser.feed(data)
         parser.close()
         return unmarshaller.close()
 
 
-def call(uri: str, method: str, *arguments: Any, timeout: float = CALL_TIMEOUT) -> Any:
+def call(
+    uri: str,
+    method: str,
+    *arguments: Any,
+    timeout: float = CALL_TIMEOUT,
+    longest: int = MAX_ANSWER,
+) -> Any:
     """Call a method of a master or a node, and return the value of its answer.
+
+    Args:
+        uri: address of the master or the node.
+        method: name of the method.
+        arguments: of the method.
+        timeout: how long the whole call may take, but for looking up the host's address [s].
+        longest: longest answer read [bytes].
 
     Raises:
         Refused: the answer's code is not 1.
         PeerError: nothing answered, or no answer of ROS.
     """
     try:
-        with xmlrpc.client.ServerProxy(uri, _Transport(timeout), allow_none=True) as proxy:
+        with xmlrpc.client.ServerProxy(uri, _Transport(timeout, longest), allow_none=True) as proxy:
             answer = getattr(proxy, method)(*arguments)
     except OSError as error:
         raise PeerError(f"{uri} does not answer: {error.strerror or error}") from error
