@@ -89,6 +89,7 @@ class Ros1Bridge(Bridge):
         self._subscriptions: dict[str, Subscription] = {}
         self._reading = ReadingLimit(self._is_waited_for)
         self._offered: dict[str, WireService] = {}
+        self._idle = tcp_services.IdleClients()
         self._clock = self._publication("/clock", "rosgraph_msgs/Clock")
         self._rosout = rosout(node, self.log, clock, waits.send)
         self._publications["/rosout"] = self._rosout
@@ -252,7 +253,7 @@ class Ros1Bridge(Bridge):
             return refusal
         request = partial(self.request, name, by=node_of(header))
         return lambda connection, header: tcp_services.serve(
-            connection, header, offered, self._node, request
+            connection, header, offered, self._node, request, self._idle
         )
 
     def _is_offered_outside(self, name: str) -> bool:
