@@ -6,7 +6,8 @@ import socket
 import struct
 import threading
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import ExitStack, suppress
+from select import select
 from typing import Any
 
 import numpy as np
@@ -14,9 +15,11 @@ import pytest
 
 from tests.middleware.ros1.nodes import Graph
 from tests.support.waiting import LIMIT, until
-from uwsim.messages import Float64, Image, JointState, image
+from uwsim.messages import Empty, EmptyResponse, Float64, Image, JointState, image
+from uwsim.middleware.admission import Joined
 from uwsim.middleware.encodings import to_ros1
 from uwsim.middleware.log import Log
+from uwsim.middleware.ros1 import subscription
 from uwsim.middleware.ros1.bridge import Ros1Bridge
 from uwsim.middleware.ros1.publication import QUEUE_BYTES, QUEUE_LENGTH
 from uwsim.middleware.ros1.tcpros import encode_header, framed, read_header
@@ -158,7 +161,9 @@ def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
 
 
 @pytest.mark.slow
-def test_a_flood_of_messages_is_bounded(graph: Graph) -> None:
+def test_a_flood_of_messages_is_bounded(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(subscription, "LINK_SHARE", 1e3)  # read as fast as it comes
+    monkeypatch.setattr(subscription, "ALL_SHARE", 1e3)
     sim = graph.node()
     found: list[Float64] = []
     sim.bus.subscribe("cmd", Float64, found.append)
@@ -173,6 +178,45 @@ def test_a_flood_of_messages_is_bounded(graph: Graph) -> None:
     assert found[-1].data == last
     assert len(found) <= 1000
     assert any("faster than the simulation takes them" in line for line in graph.printed)
+    connection.close()
+    publisher.close()
+
+
+N_FLOOD = 3000
+
+
+@pytest.mark.parametrize("name", ["LINK", "ALL"])
+def test_a_flood_of_messages_waits_in_the_sockets(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    monkeypatch.setattr(subscription, f"{name}_BURST", 1e-3)  # [s]
+    monkeypatch.setattr(subscription, f"{name}_SHARE", 1e-7)
+    sim = graph.node()
+    sim.bus.subscribe("cmd", Float64, print)
+    graph.ready()
+    publisher = FakePublisher(graph, "/cmd", Float64)
+    connection = publisher.accept()
+    connection.sendall(framed(to_ros1(Float64(data=1.0))) * N_FLOOD)
+    until(lambda: any("faster than it is read" in line for line in graph.printed))
+    assert 0 < sim.n_arrived["cmd"] < N_FLOOD
+    connection.close()
+    publisher.close()
+
+
+def test_a_node_that_the_run_waits_for_does_not_wait(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(subscription, "LINK_BURST", 1e-3)  # [s]
+    monkeypatch.setattr(subscription, "LINK_SHARE", 1e-7)
+    sim = graph.node()
+    sim.admission = Joined(lambda by, text: None)
+    sim.admission.admit("node /x")
+    sim.bus.subscribe("cmd", Float64, print)
+    graph.ready()
+    publisher = FakePublisher(graph, "/cmd", Float64)
+    connection = publisher.accept()
+    connection.sendall(framed(to_ros1(Float64(data=1.0))) * N_FLOOD)
+    until(lambda: sim.n_arrived["cmd"] == N_FLOOD)
     connection.close()
     publisher.close()
 
@@ -276,6 +320,41 @@ def test_a_client_of_a_service_killed_in_the_middle_of_its_request_is_forgotten(
         until(lambda: asked, graph.step)
     until(lambda: not sim._listener.n_connections, graph.step)
     assert len(asked) == 1
+
+
+def ask_persistently(sim: Ros1Bridge) -> socket.socket:
+    """Connect to a service for several requests; returns when the first of them is awaited."""
+    peer = connect(port_of(sim))
+    fields = {"callerid": "/x", "md5sum": "*", "service": "/reset", "persistent": "1"}
+    peer.sendall(encode_header(fields))
+    read_header(peer)
+    port = peer.getsockname()[1]
+
+    def is_awaited() -> bool:
+        with sim._idle._lock:
+            return any(port == each.getpeername()[1] for each in sim._idle._connections)
+
+    until(is_awaited)
+    return peer
+
+
+def test_of_too_many_clients_that_ask_nothing_the_longest_idle_is_left(
+    graph: Graph, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("uwsim.middleware.ros1.services.MAX_IDLE", 2)
+    sim = graph.node()
+    sim.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
+    graph.ready()
+    with ExitStack() as stack:
+        first, second, third = (stack.enter_context(ask_persistently(sim)) for _ in range(3))
+        assert first.recv(1) == b""
+        fourth = stack.enter_context(ask_persistently(sim))
+        assert second.recv(1) == b""
+        for peer in (third, fourth, third):
+            peer.sendall(framed(b""))
+            until(lambda peer=peer: select([peer], [], [], 0.0)[0], graph.step)
+            assert peer.recv(5, socket.MSG_WAITALL) == b"\x01" + bytes(4)
+    until(lambda: any("it asked nothing" in line for line in graph.printed))
 
 
 def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:

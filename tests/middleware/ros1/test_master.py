@@ -257,7 +257,9 @@ def test_the_last_update_that_a_subscriber_gets_is_the_newest(
     sent: list[list[str]] = []
     is_newest_sent = threading.Event()
 
-    def slow(uri: str, method: str, caller: str, topic: str, publishers: list[str]) -> Answer:
+    def slow(
+        uri: str, method: str, caller: str, topic: str, publishers: list[str], *, longest: int
+    ) -> Answer:
         if len(publishers) == 1:
             is_newest_sent.wait(0.5)
         sent.append(publishers)

@@ -32,7 +32,7 @@ from .listener import HEADER_TIMEOUT, Listener, Serve
 from .publication import Publication
 from .registrar import POLL, Registrar, Wanted
 from .rosout import rosout
-from .subscription import Subscription
+from .subscription import ReadingLimit, Subscription
 from .tcpros import PeerError, node_of
 from .xmlrpc import Answer, Refused, XmlRpcServer
 
@@ -87,7 +87,9 @@ class Ros1Bridge(Bridge):
         self._waits = waits = waits or Waits()
         self._publications: dict[str, Publication] = {}
         self._subscriptions: dict[str, Subscription] = {}
+        self._reading = ReadingLimit(self._is_waited_for)
         self._offered: dict[str, WireService] = {}
+        self._idle = tcp_services.IdleClients()
         self._clock = self._publication("/clock", "rosgraph_msgs/Clock")
         self._rosout = rosout(node, self.log, clock, waits.send)
         self._publications["/rosout"] = self._rosout
@@ -152,7 +154,7 @@ class Ros1Bridge(Bridge):
                 )
             if topic in to_read and topic not in subscriptions:
                 subscriptions[topic] = Subscription(
-                    topic, kind, self._node, self.log, self._receiver(topic)
+                    topic, kind, self._node, self.log, self._receiver(topic), self._reading
                 )
         gone = [subscriptions.pop(topic) for topic in self._subscriptions if topic not in to_read]
         # at once, because other nodes ask for them: who sees a publication sees all subscriptions
@@ -210,6 +212,10 @@ class Ros1Bridge(Bridge):
     def _receiver(self, topic: str) -> Callable[[object, str], None]:
         return lambda message, by: self.put(topic, message, by)
 
+    def _is_waited_for(self, by: str) -> bool:
+        """Whether the run waits for what a node publishes; any thread."""
+        return self.admission is not None and self.admission.is_waited_for(by)
+
     def _register(self) -> None:
         at = f"rosrpc://{self._host}:{self._listener.port}"
         self._registrar.want(
@@ -247,7 +253,7 @@ class Ros1Bridge(Bridge):
             return refusal
         request = partial(self.request, name, by=node_of(header))
         return lambda connection, header: tcp_services.serve(
-            connection, header, offered, self._node, request
+            connection, header, offered, self._node, request, self._idle
         )
 
     def _is_offered_outside(self, name: str) -> bool:

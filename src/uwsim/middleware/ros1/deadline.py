@@ -11,6 +11,8 @@ from typing import Any
 class DeadlineReader(io.RawIOBase):
     """A stream of what a connection receives, for a limited time.
 
+    The connection stays open until the stream is closed, as with `socket.socket.makefile`.
+
     Args:
         connection: read from; its timeout is changed.
         limit: how long all of it may take [s].
@@ -22,6 +24,7 @@ class DeadlineReader(io.RawIOBase):
     def __init__(self, connection: socket.socket, limit: float) -> None:
         self._connection, self._before = connection, connection.gettimeout()
         self._end = time.monotonic() + limit
+        self._hold = connection.makefile("rb")  # nothing is read through it
 
     def readable(self) -> bool:
         """It is."""
@@ -34,6 +37,11 @@ class DeadlineReader(io.RawIOBase):
             return self._connection.recv_into(buffer)
         finally:
             self._connection.settimeout(self._before)
+
+    def close(self) -> None:
+        """Close the stream."""
+        super().close()
+        self._hold.close()
 
 
 def time_left(end: float) -> float:

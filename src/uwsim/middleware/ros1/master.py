@@ -10,20 +10,19 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 from typing import Any
 
 from ..log import Log
 from .arguments import MASTER_METHODS, PARAMETER_METHODS, checked
+from .node_calls import NodeCalls
 from .parameters import Parameters, resolve
 from .tcpros import PeerError
-from .xmlrpc import Answer, XmlRpcServer, call
+from .xmlrpc import MAX_NODE_ANSWER, Answer, XmlRpcServer, call
 
 MAX_ENTRIES = 10_000
 """Publishers, subscribers, services and nodes that are registered, of each kind."""
-N_SENDING = 64
-"""Locks among which subscribers and topics are shared out, so that updates keep their order."""
 FULL = f"at most {MAX_ENTRIES} entries of a kind are kept"
 Registrations = dict[str, dict[str, str]]
 """Topic or service -> node -> its URI."""
@@ -49,9 +48,7 @@ class Master:
         self._nodes: dict[str, str] = {}
         self._types: dict[str, str] = {}
         self._parameters = Parameters()
-        self._updates = ThreadPoolExecutor(4, thread_name_prefix="ros1-master")
-        self._due: set[tuple[str, str]] = set()  # subscriber and topic of updates not begun
-        self._sending = [threading.Lock() for _ in range(N_SENDING)]  # by subscriber and topic
+        self._node_calls = NodeCalls()
         methods = {
             name: checked(method, self._limited(name, getattr(self, f"_{_snake(name)}")))
             for name, method in MASTER_METHODS.items()
@@ -66,7 +63,7 @@ class Master:
     def close(self) -> None:
         """Stop."""
         self._server.close()
-        self._updates.shutdown(wait=False, cancel_futures=True)
+        self._node_calls.close()
 
     def _guarded(self, name: str) -> Any:
         method = getattr(self._parameters, _snake(name))
@@ -220,29 +217,24 @@ class Master:
     def _tell(self, topic: str) -> None:
         """Tell the subscribers of a topic its publishers; the list is read when it is sent."""
         with self._lock:
-            uris = self._subscribers.get(topic, {}).values()
-            untold = [uri for uri in dict.fromkeys(uris) if (uri, topic) not in self._due]
-            self._due.update((uri, topic) for uri in untold)
-        for uri in untold:
-            with suppress(RuntimeError):  # closed
-                self._updates.submit(self._send_publishers, uri, topic)
+            uris = list(self._subscribers.get(topic, {}).values())
+        for uri in uris:
+            send = partial(self._send_publishers, uri, topic)
+            self._node_calls.add(uri, f"publisherUpdate {topic}", send)
 
     def _send_publishers(self, uri: str, topic: str) -> None:
-        """Send a subscriber the publishers of a topic, after any update before it."""
-        with self._sending[hash((uri, topic)) % N_SENDING]:
-            with self._lock:
-                self._due.discard((uri, topic))
-                publishers = list(self._publishers.get(topic, {}).values())
-            with suppress(PeerError):
-                call(uri, "publisherUpdate", "/master", topic, publishers)
+        with self._lock:
+            publishers = list(self._publishers.get(topic, {}).values())
+        _call_node(uri, "publisherUpdate", "/master", topic, publishers)
 
     def _later(self, uri: str, method: str, *arguments: Any) -> None:
-        def run() -> None:
-            with suppress(PeerError):
-                call(uri, method, *arguments)
+        key = f"{method} {arguments[1]}"  # of a parameter its newest value is sent
+        self._node_calls.add(uri, key, partial(_call_node, uri, method, *arguments))
 
-        with suppress(RuntimeError):  # closed
-            self._updates.submit(run)
+
+def _call_node(uri: str, method: str, *arguments: Any) -> None:
+    with suppress(PeerError):
+        call(uri, method, *arguments, longest=MAX_NODE_ANSWER)
 
 
 def _snake(name: str) -> str:

@@ -121,6 +121,9 @@ class Registrar:
                 if not self._is_lost:
                     self._log.say(f"the master: {error}; it is tried again", kind="master lost")
                 self._is_lost = True
+            except Exception as error:  # a defect here must not end the registrations
+                what = f"{type(error).__name__}: {error}"
+                self._log.say(f"registering failed: {what}; it is tried again", kind="registering")
             self._news.wait(self._poll)
             self._news.clear()
         with suppress(PeerError):
@@ -178,6 +181,8 @@ class Registrar:
         with self._update_lock:
             self._updated.discard(topic)
         found = self.call("registerSubscriber", topic, kind, self._uri)
+        if not isinstance(found, list):
+            raise PeerError(f"registerSubscriber: expected a list, not {type(found).__name__}")
         with self._update_lock:
             if topic not in self._updated:
                 self._publishers(topic, [each for each in found if isinstance(each, str)])

@@ -7,9 +7,11 @@ the error.
 from __future__ import annotations
 
 import socket
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeout
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 from urllib.parse import urlsplit
@@ -35,6 +37,39 @@ ANSWER_TIMEOUT = 60.0
 CALL_TIMEOUT = 30.0
 """How long a service outside may take to answer [s]."""
 
+MAX_IDLE = 64
+"""Clients that are connected and ask nothing; of more, the longest idle is left."""
+
+
+class IdleClients:
+    """The connections of clients from which a request is awaited, the longest idle first."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._connections: dict[socket.socket, None] = {}
+
+    @contextmanager
+    def awaiting(self, connection: socket.socket) -> Iterator[None]:
+        """Count a client as idle in the context.
+
+        Raises:
+            PeerError: at the end, if the client was left.
+        """
+        with self._lock:
+            self._connections[connection] = None
+            if len(self._connections) > MAX_IDLE:
+                longest_idle = next(iter(self._connections))
+                del self._connections[longest_idle]
+                close(longest_idle)
+        try:
+            yield
+        finally:
+            with self._lock:
+                is_left = connection not in self._connections
+                self._connections.pop(connection, None)
+            if is_left:
+                raise PeerError(f"it asked nothing, as {MAX_IDLE} others; it is left")
+
 
 def check(offered: WireService, header: dict[str, str]) -> str | None:
     """Why a client with this connection header cannot be served; None if it can."""
@@ -50,8 +85,17 @@ def serve(
     offered: WireService,
     caller: str,
     request: Callable[[Any], Future[object]],
+    idle: IdleClients,
 ) -> None:
     """Answer the calls of one client; in the connection's thread.
+
+    Args:
+        connection: to the client.
+        header: of the client.
+        offered: type of the service.
+        caller: name of this node.
+        request: asks the simulation.
+        idle: clients that ask nothing, of all services.
 
     Raises:
         PeerError: the client broke off.
@@ -71,9 +115,14 @@ def serve(
     if header.get("probe") == "1":
         return
     is_persistent = header.get("persistent") == "1"
-    if is_persistent:
-        connection.settimeout(None)
-    while (data := read_frame(connection)) is not None:
+    timeout = connection.gettimeout()
+    while True:
+        with idle.awaiting(connection):
+            connection.settimeout(None if is_persistent else timeout)
+            data = read_frame(connection)
+            connection.settimeout(timeout)  # it has to read its answer in time
+        if data is None:
+            return
         write(connection, _answer(data, offered, request))
         if not is_persistent:
             return

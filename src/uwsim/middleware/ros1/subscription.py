@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import socket
 import threading
+import time
 from collections.abc import Callable, Iterable
 
 from ...errors import BadMessage
@@ -11,6 +12,7 @@ from ..encodings import from_ros1
 from ..log import Log
 from ..stamps import inward
 from ..types import WireType
+from ..work_budget import WorkBudget
 from .tcpros import (
     PeerError,
     close,
@@ -21,7 +23,7 @@ from .tcpros import (
     read_header,
     write,
 )
-from .xmlrpc import call
+from .xmlrpc import MAX_NODE_ANSWER, call
 
 RETRY = 1.0
 """How long after a lost connection it is tried again [s]."""
@@ -29,6 +31,26 @@ MAX_PUBLISHERS = 100
 """Publishers of a topic that are read, each in a thread."""
 CONNECT_TIMEOUT = 10.0
 """How long a publisher may take to answer [s]."""
+LINK_SHARE, LINK_BURST = 0.05, 0.1
+"""The share of the wall time in which one publisher is read, and the time at once [s]."""
+ALL_SHARE, ALL_BURST = 0.1, 0.2
+"""The same of all publishers together, but those that a run in lock-step waits for."""
+REST = 0.1
+"""How long a publisher beyond its share is not read, besides what it has taken too much [s]: each
+time that its thread wakes, the simulation waits for Python's lock."""
+
+
+class ReadingLimit:
+    """A limit on the time that reading publishers takes from the simulation.
+
+    Args:
+        is_waited_for: whether the run waits for what a node, as `node_of` names it, publishes; such
+            a node is not limited.
+    """
+
+    def __init__(self, is_waited_for: Callable[[str], bool] = lambda node: False) -> None:
+        self.is_waited_for = is_waited_for
+        self.all = WorkBudget(ALL_SHARE, ALL_BURST)
 
 
 class Subscription:
@@ -41,6 +63,7 @@ class Subscription:
         log: where it reports.
         receive: called with each message, stamps in simulation time, and the name of the node that
             published it; in a publisher's thread.
+        limit: of the time that reading takes.
     """
 
     def __init__(
@@ -50,7 +73,9 @@ class Subscription:
         caller: str,
         log: Log,
         receive: Callable[[object, str], None],
+        limit: ReadingLimit,
     ) -> None:
+        self.limit = limit
         self.topic, self.kind = topic, kind
         self._caller, self._log, self._receive = caller, log, receive
         self._lock = threading.Lock()
@@ -94,7 +119,8 @@ class Subscription:
         Returns:
             The connection, and the name of the node.
         """
-        answer = call(uri, "requestTopic", self._caller, self.topic, [["TCPROS"]])
+        wanted = (self._caller, self.topic, [["TCPROS"]])
+        answer = call(uri, "requestTopic", *wanted, longest=MAX_NODE_ANSWER)
         match answer:
             case ["TCPROS", str(host), int(port)]:
                 connection = open_connection(host, port, CONNECT_TIMEOUT)
@@ -132,6 +158,11 @@ class Subscription:
         else:
             self._receive(message, by)
 
+    def report_flood(self, by: str) -> None:
+        """Report that a publisher has to wait."""
+        line = f"{self.topic}: {by} publishes faster than it is read; its messages wait"
+        self._log.say(line, kind=f"faster than it is read {self.topic}")
+
     def report(self, uri: str, error: PeerError) -> None:
         """Report what a publisher did."""
         self._log.say(f"{self.topic}: publisher {uri}: {error}", kind=f"lost {self.topic} {uri}")
@@ -144,6 +175,7 @@ class _Link:
         self._subscription, self._uri = subscription, uri
         self._stopped = threading.Event()
         self._connection: socket.socket | None = None
+        self._work = WorkBudget(LINK_SHARE, LINK_BURST)
         self.is_connected = False
         threading.Thread(target=self._run, name=f"ros1{subscription.topic}", daemon=True).start()
 
@@ -152,11 +184,7 @@ class _Link:
             try:
                 self._connection, by = self._subscription.connect(self._uri)
                 self.is_connected = True
-                while not self._stopped.is_set():
-                    data = read_frame(self._connection)
-                    if data is None:
-                        break
-                    self._subscription.take(data, by)
+                self._read(self._connection, by)
             except PeerError as error:
                 if not self._stopped.is_set():
                     self._subscription.report(self._uri, error)
@@ -165,6 +193,23 @@ class _Link:
                 if self._connection is not None:
                     close(self._connection)
             self._stopped.wait(RETRY)
+
+    def _read(self, connection: socket.socket, by: str) -> None:
+        """Hand on messages until the connection ends; a flood waits in the sockets, not here."""
+        limit = self._subscription.limit
+        while not self._stopped.is_set():
+            began = time.thread_time()
+            data = read_frame(connection)
+            if data is None:
+                return
+            self._subscription.take(data, by)
+            if not limit.is_waited_for(by):
+                took = time.thread_time() - began
+                self._work.spend(took)
+                limit.all.spend(took)
+                if (delay := max(self._work.delay, limit.all.delay)) > 0.0:
+                    self._subscription.report_flood(by)
+                    self._stopped.wait(delay + REST)
 
     def close(self) -> None:
         self._stopped.set()

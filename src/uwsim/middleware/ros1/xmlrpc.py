@@ -10,26 +10,29 @@ import http.client
 import io
 import socket
 import threading
+import time
 import xmlrpc.client
 from collections.abc import Callable, Iterable, Mapping
 from socketserver import ThreadingMixIn
 from typing import Any
-from xml.parsers.expat import ExpatError
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 from ..log import Log
-from .deadline import DeadlineReader
+from .deadline import DeadlineReader, time_left
 from .origins import own_names, wrong_in_headers
 from .tcpros import PeerError
+from .turns import Turns
 
 MAX_REQUEST = 2**20
-"""Longest request and response read [bytes]."""
+"""Longest request read [bytes]."""
+MAX_ANSWER, MAX_NODE_ANSWER = 2**23, 2**16
+"""Longest answer of a master, and of a node, that is read [bytes]."""
 MAX_AT_ONCE = 64
 """Requests that a server works on at the same time; others are closed."""
 READ_TIMEOUT = 15.0
 """How long a client may take to send its whole request [s]."""
 CALL_TIMEOUT = 5.0
-"""How long a call waits for its answer [s]."""
+"""How long a call may take in all [s]."""
 Answer = list[Any]
 Methods = Mapping[str, Callable[..., Answer]]
 
@@ -60,7 +63,17 @@ class RequestHandler(SimpleXMLRPCRequestHandler):
             self.send_error(413)
             self.close_connection = True
             return
+        if self.headers.get("content-encoding", "identity").lower() != "identity":
+            self.send_error(415)  # clients of ROS do not compress, and little unpacks to much
+            self.close_connection = True
+            return
         super().do_POST()
+
+    def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
+        """Refuse a request, in its turn: also a flood of those must not stop the simulation."""
+        assert isinstance(self.server, XmlRpcServer)
+        with self.server.turns.turn(0):
+            super().send_error(code, message, explain)
 
     def log_message(self, format: str, *args: object) -> None:
         """Print nothing: errors of a request are the peer's."""
@@ -89,11 +102,18 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         self._log, self._name = log, name
         self._hosts = own_names(host)
         self._free = threading.BoundedSemaphore(MAX_AT_ONCE)
+        self.turns = Turns()
+        """When each request is worked on."""
         for each, method in methods.items():
             self.register_function(method, each)
         self.register_multicall_functions()  # by which rospy takes back all that it registered
         self._thread = threading.Thread(target=self.serve_forever, args=(0.1,), daemon=True)
         self._thread.start()
+
+    def _marshaled_dispatch(self, data: Any, *arguments: Any) -> str:
+        """Parse a request that was read, and call its method, in its turn."""
+        with self.turns.turn(len(data)):
+            return super()._marshaled_dispatch(data, *arguments)
 
     def _dispatch(self, method: str, params: Any) -> Any:
         """Call a method; a fault names the method, not how this program is made."""
@@ -143,54 +163,102 @@ def _lower(headers: Iterable[tuple[str, str]]) -> dict[str, str]:
     return {name.lower(): value for name, value in headers}
 
 
+class _Response(http.client.HTTPResponse):
+    """A response that has to come within the timeout of its connection, however slowly it does."""
+
+    def __init__(self, sock: socket.socket, *arguments: Any, **options: Any) -> None:
+        super().__init__(sock, *arguments, **options)
+        self.fp.close()
+        self.fp = io.BufferedReader(DeadlineReader(sock, sock.gettimeout() or 0.0))
+
+
+class _Connection(http.client.HTTPConnection):
+    """A connection for a limited time."""
+
+    response_class = _Response
+
+    def __init__(self, host: str, end: float) -> None:
+        super().__init__(host, timeout=time_left(end))
+        self._end = end
+
+    def send(self, data: Any) -> None:
+        """Send a part of the request."""
+        if self.sock is not None:
+            self.sock.settimeout(time_left(self._end))
+        super().send(data)
+
+    def getresponse(self) -> http.client.HTTPResponse:
+        """Read the headers of the response."""
+        self.sock.settimeout(time_left(self._end))
+        return super().getresponse()
+
+
 class _Transport(xmlrpc.client.Transport):
-    """Calls with a time limit and responses of limited length, which are not compressed."""
+    """Calls with a time limit and responses of limited length, which are not compressed.
+
+    Args:
+        timeout: how long all calls with it may take together [s].
+        longest: longest response read [bytes].
+    """
 
     accept_gzip_encoding = False
 
-    def __init__(self, timeout: float) -> None:
+    def __init__(self, timeout: float, longest: int) -> None:
         super().__init__()
-        self._timeout = timeout
+        self._end, self._longest = time.monotonic() + timeout, longest
 
     def make_connection(self, host: Any) -> http.client.HTTPConnection:
-        """Connect with a time limit."""
-        connection = super().make_connection(host)
-        connection.timeout = self._timeout
+        """Make a connection with a time limit, which `close` closes."""
+        connection = _Connection(self.get_host_info(host)[0], self._end)
+        self._connection = host, connection
         return connection
 
     def parse_response(self, response: http.client.HTTPResponse) -> Any:
         """Parse a response of limited length."""
         parser, unmarshaller = self.getparser()
-        data = response.read(8 * MAX_REQUEST + 1)
-        if len(data) > 8 * MAX_REQUEST:
+        data = response.read(self._longest + 1)
+        response.close()
+        if len(data) > self._longest:
             raise ValueError("the response is too long")
         parser.feed(data)
         parser.close()
         return unmarshaller.close()
 
 
-def call(uri: str, method: str, *arguments: Any, timeout: float = CALL_TIMEOUT) -> Any:
+def call(
+    uri: str,
+    method: str,
+    *arguments: Any,
+    timeout: float = CALL_TIMEOUT,
+    longest: int = MAX_ANSWER,
+) -> Any:
     """Call a method of a master or a node, and return the value of its answer.
+
+    Args:
+        uri: address of the master or the node.
+        method: name of the method.
+        arguments: of the method.
+        timeout: how long the whole call may take, but for looking up the host's address [s].
+        longest: longest answer read [bytes].
 
     Raises:
         Refused: the answer's code is not 1.
         PeerError: nothing answered, or no answer of ROS.
     """
     try:
-        with xmlrpc.client.ServerProxy(uri, _Transport(timeout), allow_none=True) as proxy:
+        with xmlrpc.client.ServerProxy(uri, _Transport(timeout, longest), allow_none=True) as proxy:
             answer = getattr(proxy, method)(*arguments)
-    except (OSError, socket.gaierror) as error:
+    except OSError as error:
         raise PeerError(f"{uri} does not answer: {error.strerror or error}") from error
-    except (
-        *(xmlrpc.client.Error, http.client.HTTPException, ExpatError),
-        *(ValueError, TypeError, KeyError, OverflowError, UnicodeError, AssertionError),
-    ) as error:
+    except Exception as error:  # the parser raises much that it does not document
         raise PeerError(f"{uri} gives no answer of ROS: {type(error).__name__}") from error
-    if not isinstance(answer, list) or len(answer) != 3 or not isinstance(answer[0], int):
-        raise PeerError(f"{uri} gives no answer of ROS")
-    if answer[0] != 1:
-        raise Refused(f"{uri} refuses {method}: {str(answer[1])[:300]}")
-    return answer[2]
+    match answer:
+        case [1, _, value]:
+            return value
+        case [int(), str(text), _]:
+            raise Refused(f"{uri} refuses {method}: {text[:300]}")
+        case _:
+            raise PeerError(f"{uri} gives no answer of ROS")
 
 
 class Refused(PeerError):
