@@ -158,7 +158,9 @@ def test_a_dictionary_is_read_from_a_yaml_file(call: str, place: str, tmp_path: 
     ("content", "message"),
     [
         ("a: [1", "not YAML"),
-        ("a: &x [1]\nb: [*x, *x]", "an alias (*name) is not read"),
+        ("a: &x [*x]", "the alias *x is within what it stands for"),
+        ("a: *y", "found undefined alias 'y'"),
+        ("a: 1\nb: : 2", "x.yaml:2: not YAML"),
         ("a: !!python/object/apply:os.system [touch /tmp/x]", "not YAML"),
         ("a: !degrees left", "'left'"),
         (b"\xff\xfe\x00", "not YAML"),

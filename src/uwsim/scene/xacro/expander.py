@@ -90,6 +90,7 @@ class Expander:
         self._path, self._files = path, files
         self._diagnostics: dict[str, Diagnostics] = {}
         self._macros: dict[str, Macro] = {}
+        self._yaml_values: dict[Path, Value] = {}
         self.arguments = Arguments(arguments)
         """The values of ``<xacro:arg>``."""
         self._n_nodes = self._n_files = 0
@@ -129,8 +130,10 @@ class Expander:
         self._of_file().error(node, message)
 
     def _of_file(self) -> Diagnostics:
-        name = str(self._file)
-        return self._diagnostics.setdefault(name, Diagnostics(name))
+        return self._diagnostics_of(self._file)
+
+    def _diagnostics_of(self, file: Path) -> Diagnostics:
+        return self._diagnostics.setdefault(str(file), Diagnostics(file))
 
     def _expanded(self, nodes: Sequence[etree._Element], scope: Scope) -> Iterator[etree._Element]:
         """Give what the nodes stand for."""
@@ -305,8 +308,14 @@ class Expander:
         yield from made
 
     def _yaml(self, name: Value) -> Value:
-        """Return what is in a YAML file."""
-        return read_yaml(self._files.find(written(name), self._file), name=written(name))
+        """Return what is in a YAML file; each file is read once."""
+        path = self._files.find(written(name), self._file)
+        if path not in self._yaml_values:
+            if len(self._yaml_values) >= MAX_FILES:
+                raise ExpressionError(f"reads more than {MAX_FILES} YAML files")
+            warn = self._diagnostics_of(path).warning
+            self._yaml_values[path] = read_yaml(path, name=written(name), warn=warn)
+        return self._yaml_values[path]
 
     @contextmanager
     def _nested(self, file: Path, line: int | None) -> Iterator[None]:
