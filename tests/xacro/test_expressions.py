@@ -51,6 +51,17 @@ NAMES: dict[str, Value] = {
         ("None == 0", False),
         ("max([3, 9, 4])", 9),
         ("math.log2(8)", 3.0),
+        ("hull.get('drag') is None", True),
+        ("n is not None and (n > 2) is True", True),
+        ("python.isinstance(n, int)", True),
+        ("python.isinstance(word, (int, python.float, list))", False),
+        ("isinstance(place, list) and isinstance(hull, dict)", True),
+        ("python.len(python.str(n))", 1),
+        ("xacro.tokenize('a, b;c  d')", ["a", "b", "c", "d"]),
+        ("xacro.tokenize('x-1--y', sep='-', skip_empty=False)", ["x", "1", "", "y"]),
+        ("xacro.tokenize('a^]b', '^]')", ["a", "b"]),
+        ("xacro.tokenize('ab', '')", ["ab"]),
+        ("xacro.dotify(dict(mass=4)).mass", 4),
     ],
 )
 def test_values(text: str, expected: object) -> None:
@@ -72,6 +83,9 @@ def test_values(text: str, expected: object) -> None:
         ("range(10**9)", "a range of more than"),
         ("list(range(9000)) + list(range(9000))", "more than 10000 values"),
         ("n is 3", "write =="),
+        ("isinstance(n, complex)", "'complex' is no kind of value"),
+        ("isinstance(n, n.__class__)", "is no kind of value"),
+        ("xacro.dotify(n)", "is no dictionary"),
     ],
 )
 def test_what_has_no_value(text: str, message: str) -> None:
@@ -158,7 +172,9 @@ def test_a_dictionary_is_read_from_a_yaml_file(call: str, place: str, tmp_path: 
     ("content", "message"),
     [
         ("a: [1", "not YAML"),
-        ("a: &x [1]\nb: [*x, *x]", "an alias (*name) is not read"),
+        ("a: &x [*x]", "the alias *x is within what it stands for"),
+        ("a: *y", "found undefined alias 'y'"),
+        ("a: 1\nb: : 2", "x.yaml:2: not YAML"),
         ("a: !!python/object/apply:os.system [touch /tmp/x]", "not YAML"),
         ("a: !degrees left", "'left'"),
         (b"\xff\xfe\x00", "not YAML"),

@@ -304,3 +304,130 @@ def test_a_robot_may_call_macros_without_the_prefix_as_up_to_melodic(tmp_path: P
 def test_elements_of_other_files_are_no_macros_without_the_prefix(tmp_path: Path) -> None:
     body = '<xacro:macro name="part"><c/></xacro:macro><part/><xacro:part/>'
     assert plain(tmp_path, body) == "<part></part><c></c>"
+
+
+def robot_of(folder: Path, body: str) -> etree._Element:
+    path = folder / "r.urdf.xacro"
+    path.write_text(f'<robot name="r" {NAMESPACES}>{body}</robot>')
+    return parse_expanded(path, error=SceneError).root
+
+
+@pytest.mark.parametrize("name", ["camera", "imu", "ray", "contact"])
+@pytest.mark.parametrize(
+    "around",
+    [
+        '<gazebo reference="a"><sensor>{}</sensor></gazebo>',
+        "<gazebo>{}</gazebo>",
+        '<gazebo><xacro:if value="1">{}</xacro:if></gazebo>',
+        '<ros2_control name="c"><joint name="j">{}</joint></ros2_control>',
+        "<transmission>{}</transmission>",
+        '<link name="l"><sensor>{}</sensor></link>',
+        "<xacro:block><w>{}</w></xacro:block>",
+    ],
+)
+def test_sdf_in_a_robot_calls_no_macro_of_its_name(name: str, around: str, tmp_path: Path) -> None:
+    content = f"<{name}><rate>5</rate></{name}>"
+    macros = (
+        f'<xacro:macro name="{name}" params="needed"><link name="${{needed}}"/></xacro:macro>'
+        '<xacro:macro name="block" params="**b"><gazebo><xacro:insert_block name="b"/></gazebo>'
+        "</xacro:macro>"
+    )
+    if "block" in around:
+        around = around.replace("<w>", "<gazebo>").replace("</w>", "</gazebo>")
+    root = robot_of(tmp_path, macros + around.format(content) + f'<{name} needed="x"/>')
+    assert [each.text for each in root.iter("rate")] == ["5"]
+    assert [each.get("name") for each in root.findall("link")][-1] == "x"
+
+
+def test_an_element_that_is_the_block_of_a_call_is_no_call(tmp_path: Path) -> None:
+    body = (
+        '<xacro:macro name="imu" params="n"><link name="${n}"/></xacro:macro>'
+        '<xacro:macro name="at" params="*b"><gazebo><xacro:insert_block name="b"/></gazebo>'
+        "</xacro:macro><xacro:at><imu><rate>7</rate></imu></xacro:at>"
+    )
+    assert robot_of(tmp_path, body).findtext("gazebo/imu/rate") == "7"
+
+
+def test_a_macro_without_the_prefix_is_called_in_a_link(tmp_path: Path) -> None:
+    body = (
+        '<xacro:macro name="round" params="m"><inertial><mass value="${m}"/></inertial>'
+        '</xacro:macro><link name="a"><round m="4"/></link>'
+    )
+    mass = robot_of(tmp_path, body).find("link/inertial/mass")
+    assert mass is not None
+    assert mass.get("value") == "4"
+
+
+def of_property(attributes: str) -> str:
+    return f"<xacro:property {attributes}/>"
+
+
+@pytest.mark.parametrize(
+    ("properties", "expected"),
+    [
+        (('name="w" value="3"', 'name="a" value="${w}"', 'name="w" value="8"'), "8"),
+        (
+            ('name="w" value="3"', 'name="a" value="${w}" lazy_eval="false"', 'name="w" value="8"'),
+            "3",
+        ),
+        (('name="a" value="4"', 'name="a" value="${a + 1}" lazy_eval="false"'), "5"),
+        (
+            (
+                *('name="k" value="false"', 'name="w" value="3"'),
+                *('name="a" value="${w}" lazy_eval="${k}"', 'name="w" value="8"'),
+            ),
+            "3",
+        ),
+        (('name="a" value="5"', 'name="a" remove="true"', 'name="a" default="3"'), "3"),
+        (('name="a" value="5"', 'name="a" remove="false" default="3"'), "5"),
+        (('name="p" value="a"', 'name="${p}" value="6"'), "6"),
+    ],
+)
+@pytest.mark.parametrize("in_macro", [False, True])
+def test_when_a_property_is_evaluated_or_removed(
+    properties: tuple[str, ...], expected: str, in_macro: bool, tmp_path: Path
+) -> None:
+    body = "".join(map(of_property, properties)) + "<b>${a}</b>"
+    if in_macro:
+        body = f'<xacro:macro name="m">{body}</xacro:macro><xacro:m/>'
+    assert plain(tmp_path, body) == f"<b>{expected}</b>"
+
+
+def test_a_property_in_a_macro_is_evaluated_when_it_is_used(tmp_path: Path) -> None:
+    body = (
+        of_property('name="r" value="1"')
+        + '<xacro:macro name="m" params="q">'
+        + of_property('name="d" value="${2*r + q}"')
+        + of_property('name="r" value="5"')
+        + "<b>${d}</b></xacro:macro>"
+        + '<xacro:m q="3"/><xacro:m q="4"/><c>${r}</c>'
+    )
+    assert plain(tmp_path, body) == "<b>13</b><b>14</b><c>1</c>"
+
+
+@pytest.mark.parametrize("scope", ["parent", "global"])
+def test_a_property_with_a_computed_name_is_set_outside_its_macro(
+    scope: str, tmp_path: Path
+) -> None:
+    body = (
+        '<xacro:macro name="size" params="p v">'
+        + of_property(f'name="${{p}}_size" value="${{v}}" scope="{scope}"')
+        + '</xacro:macro><xacro:size p="hand" v="2"/><xacro:size p="arm" v="4"/>'
+        "<b>${arm_size - hand_size}</b>"
+    )
+    assert plain(tmp_path, body) == "<b>2</b>"
+
+
+@pytest.mark.parametrize(
+    ("attributes", "message"),
+    [
+        ('name="a" value="1" default="2"', "only one of value, default, remove"),
+        ('name="a" value="1" remove="true"', "only one of value, default, remove"),
+        ('name="a" value="1" lazy_eval="maybe"', "lazy_eval='maybe' is neither true nor false"),
+        ('name="a" value="${a}"', 'lazy_eval="false"'),
+    ],
+)
+def test_a_wrong_property_is_one_error(attributes: str, message: str, tmp_path: Path) -> None:
+    with pytest.raises(SceneError) as caught:
+        plain(tmp_path, of_property(attributes) + "<b>${a if 1 else 0}</b>")
+    assert message in str(caught.value)

@@ -10,7 +10,7 @@ from lxml import etree
 
 from ...errors import AssetError, FileError
 from ...schema import Document, Expansion, parse
-from .expander import XACRO, XINCLUDE, Expander, NotFound, namespace_of
+from .expander import XACRO, XINCLUDE, Expander, NotFound, local, namespace_of
 from .value import ExpressionError
 
 SUFFIX = ".xacro"
@@ -114,11 +114,6 @@ def library_of(root: etree._Element) -> tuple[str, tuple[str, ...]] | None:
         if names_of := tuple(str(each.get("name")) for each in children if local(each) == kind):
             return plural, names_of
     return None
-
-
-def local(node: etree._Element) -> str:
-    """Return the name of an element without its namespace."""
-    return etree.QName(node).localname
 
 
 def _is_to_expand(document: Document) -> bool:

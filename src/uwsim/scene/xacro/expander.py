@@ -40,6 +40,10 @@ OF_ROBOTS = frozenset(
     }
 )
 """Elements of robot files, which call no macro of their name."""
+FOREIGN = frozenset({"gazebo", "plugin", "ros2_control", "sensor", "transmission"})
+"""Elements of robot files whose content is not URDF: nothing in it is a call without a prefix."""
+CALLING = frozenset({"if", "macro", "unless"})
+"""Elements of xacro in which there are calls without a prefix."""
 MAX_DEPTH = 60
 """Deepest nesting of calls and includes."""
 MAX_FILES = 100
@@ -68,6 +72,11 @@ def namespace_of(node: etree._Element) -> str:
     return etree.QName(node).namespace or ""
 
 
+def local(node: etree._Element) -> str:
+    """Return the name of an element without its namespace."""
+    return etree.QName(node).localname
+
+
 def needed(node: etree._Element, attribute: str) -> str:
     """Return an attribute; raises ExpressionError if it is not there."""
     text = node.get(attribute)
@@ -90,10 +99,12 @@ class Expander:
         self._path, self._files = path, files
         self._diagnostics: dict[str, Diagnostics] = {}
         self._macros: dict[str, Macro] = {}
+        self._yaml_values: dict[Path, Value] = {}
         self.arguments = Arguments(arguments)
         """The values of ``<xacro:arg>``."""
         self._n_nodes = self._n_files = 0
         self._depth = 0
+        self._n_foreign = 0
         self._is_robot = False
         self._file = path
         self._line: int | None = None
@@ -129,8 +140,10 @@ class Expander:
         self._of_file().error(node, message)
 
     def _of_file(self) -> Diagnostics:
-        name = str(self._file)
-        return self._diagnostics.setdefault(name, Diagnostics(name))
+        return self._diagnostics_of(self._file)
+
+    def _diagnostics_of(self, file: Path) -> Diagnostics:
+        return self._diagnostics.setdefault(str(file), Diagnostics(file))
 
     def _expanded(self, nodes: Sequence[etree._Element], scope: Scope) -> Iterator[etree._Element]:
         """Give what the nodes stand for."""
@@ -156,7 +169,8 @@ class Expander:
         elif namespace not in XACRO and not self._is_of_xacro(node, name):
             yield self._plain(node, scope)
         elif name in ("if", "unless"):
-            if self._is_true(node, scope) is (name == "if"):
+            needed(node, "value")
+            if self._flag(node, "value", scope, default="") is (name == "if"):
                 yield from self._expanded(list(node), scope)
         elif name == "property":
             self._property(node, scope)
@@ -179,9 +193,13 @@ class Expander:
     def _is_of_xacro(self, node: etree._Element, name: str) -> bool:
         """Whether an element without xacro's prefix is meant as one with it, as up to ROS Melodic.
 
-        In robot files the calls of known macros are, and definitions of macros and properties.
+        In robot files the calls of known macros are, and definitions of macros and properties, but
+        not in elements of other formats, such as the SDF in ``<gazebo>``, nor in blocks.
         """
-        if not self._is_robot or namespace_of(node) or name in OF_ROBOTS:
+        if not self._is_robot or self._n_foreign or namespace_of(node) or name in OF_ROBOTS:
+            return False
+        around = node.getparent()
+        if around is not None and namespace_of(around) in XACRO and local(around) not in CALLING:
             return False
         is_definition = name in DEFINITIONS and DEFINITIONS[name] <= set(node.attrib)
         if not is_definition and name not in self._macros:
@@ -198,7 +216,10 @@ class Expander:
         self._attributes(node, made, scope)
         made.text = node.text
         self._text(node, made, scope)
+        is_foreign = node.tag in FOREIGN
+        self._n_foreign += is_foreign
         made.extend(self._expanded(list(node), scope))
+        self._n_foreign -= is_foreign
         return made
 
     def _comment(self, node: etree._Element, scope: Scope) -> etree._Element:
@@ -227,27 +248,35 @@ class Expander:
                 self.error(node, f"{made.text.strip()[:60]!r}: {error}")
                 made.text = ""
 
-    def _is_true(self, node: etree._Element, scope: Scope) -> bool:
-        text = needed(node, "value")
+    def _property(self, node: etree._Element, scope: Scope) -> None:
+        """Set or remove a property, which is evaluated when it is used if nothing else is asked."""
+        name = written(scope.text(needed(node, "name")))
+        value, default = node.get("value"), node.get("default")
+        is_removed = self._flag(node, "remove", scope, default="false")
+        if (value is not None) + (default is not None) + is_removed > 1:
+            raise ExpressionError(f"the property {name[:60]!r}: only one of value, default, remove")
+        if is_removed:
+            scope.remove(name)
+            return
+        if default is not None and scope.has(name):
+            return
+        kept_in = node.get("scope", "")
+        where = {"parent": scope.around, "global": scope.outermost}.get(kept_in, scope)
+        is_lazy = self._flag(node, "lazy_eval", scope, default="true")
+        text = default if value is None else value
+        if text is None:
+            where.blocks[name] = list(self._expanded(list(node), scope))
+        elif is_lazy and where is scope:
+            where.set_text(name, str(text))
+        else:
+            where.set_value(name, literal_of(scope.text(str(text))))
+
+    def _flag(self, node: etree._Element, attribute: str, scope: Scope, *, default: str) -> bool:
+        text = str(node.get(attribute, default))
         value = literal_of(scope.text(text))
         if isinstance(value, str):
-            raise ExpressionError(f"value={text[:60]!r} is neither true nor false")
+            raise ExpressionError(f"{attribute}={text[:60]!r} is neither true nor false")
         return bool(value)
-
-    def _property(self, node: etree._Element, scope: Scope) -> None:
-        name = needed(node, "name")
-        where = {"parent": scope.around, "global": scope.outermost}.get(
-            node.get("scope", ""), scope
-        )
-        if (default := node.get("default")) is not None:
-            if not scope.has(name):
-                where.set_text(name, default)
-        elif (text := node.get("value")) is None:
-            where.blocks[name] = list(self._expanded(list(node), scope))
-        elif where is scope.outermost and where is scope:
-            where.set_text(name, text)
-        else:
-            where.set_value(name, literal_of(scope.text(text)))
 
     def _define(self, node: etree._Element) -> None:
         name = needed(node, "name").removeprefix("xacro:")
@@ -305,8 +334,14 @@ class Expander:
         yield from made
 
     def _yaml(self, name: Value) -> Value:
-        """Return what is in a YAML file."""
-        return read_yaml(self._files.find(written(name), self._file), name=written(name))
+        """Return what is in a YAML file; each file is read once."""
+        path = self._files.find(written(name), self._file)
+        if path not in self._yaml_values:
+            if len(self._yaml_values) >= MAX_FILES:
+                raise ExpressionError(f"reads more than {MAX_FILES} YAML files")
+            warn = self._diagnostics_of(path).warning
+            self._yaml_values[path] = read_yaml(path, name=written(name), warn=warn)
+        return self._yaml_values[path]
 
     @contextmanager
     def _nested(self, file: Path, line: int | None) -> Iterator[None]:

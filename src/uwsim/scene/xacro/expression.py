@@ -48,6 +48,13 @@ COMPARE: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.In: lambda item, whole: item in whole,
     ast.NotIn: lambda item, whole: item not in whole,
 }
+SINGLE = (None, True, False)
+"""Values that may be compared with ``is``: there is one of each."""
+KINDS: dict[str, type] = {
+    **{kind.__name__: kind for kind in (int, float, bool, str, list, dict)},
+    "tuple": list,
+}
+"""Kinds of values for ``isinstance``; a tuple is a list here."""
 MAX_TURNS = 2000
 """Most turns of all loops of an expression."""
 MODULES = ("math", "xacro", "python")
@@ -136,6 +143,8 @@ class Evaluation:
             case ast.Call(func=ast.Name(id="map"), args=[ast.Name(id=name), items]):
                 function = self._function(name)
                 return checked([checked(function(item)) for item in self._items(items)])
+            case ast.Call(func=function, args=[item, kinds]) if _is_isinstance(function):
+                return isinstance(self.value(item), _kinds(kinds))
             case ast.Call():
                 return self._call(node)
             case (
@@ -227,9 +236,11 @@ class Evaluation:
     ) -> bool:
         for operation, other in zip(operations, others, strict=True):
             right = self.value(other)
-            if type(operation) not in COMPARE:
-                raise ExpressionError("'is' is not in the language of expressions; write ==")
-            if not COMPARE[type(operation)](left, right):
+            if isinstance(operation, ast.Is | ast.IsNot):
+                holds = _is_same(left, right) is isinstance(operation, ast.Is)
+            else:
+                holds = bool(COMPARE[type(operation)](left, right))
+            if not holds:
                 return False
             left = right
         return True
@@ -239,9 +250,9 @@ class Evaluation:
         named = {each.arg: self.value(each.value) for each in node.keywords if each.arg is not None}
         if len(named) < len(node.keywords):
             raise ExpressionError(f"{ast.unparse(node)[:60]!r}: ** is not in the language")
-        name = ast.unparse(node.func).removeprefix("math.")
+        name = ast.unparse(node.func).removeprefix("math.").removeprefix("python.")
         if name in self._functions:
-            if named and name != "dict":
+            if named and name not in ("dict", "xacro.tokenize"):
                 raise ExpressionError(f"{name}() takes no named values")
             return checked(self._functions[name](*arguments, **named))
         if isinstance(node.func, ast.Attribute) and not named:
@@ -251,6 +262,26 @@ class Evaluation:
             if found is not None:
                 return checked(found(*arguments))
         raise self._no_function(name)
+
+
+def _is_same(left: Value, right: Value) -> bool:
+    """Compare with ``is``, one side of which must be None, True or False."""
+    if not any(each is single for each in (left, right) for single in SINGLE):
+        raise ExpressionError("'is' compares only with None, True and False; write ==")
+    return left is right
+
+
+def _is_isinstance(function: ast.expr) -> bool:
+    return ast.unparse(function) in ("isinstance", "python.isinstance")
+
+
+def _kinds(node: ast.expr) -> tuple[type, ...]:
+    """Return the kinds that ``isinstance`` names: one, or several in brackets."""
+    names = [ast.unparse(each) for each in (node.elts if isinstance(node, ast.Tuple) else [node])]
+    names = [name.removeprefix("python.") for name in names]
+    if unknown := [name for name in names if name not in KINDS]:
+        raise ExpressionError(f"{unknown[0][:40]!r} is no kind of value, such as int or str")
+    return tuple(KINDS[name] for name in names)
 
 
 def _unpacked(target: ast.expr, value: Value) -> dict[str, Value]:

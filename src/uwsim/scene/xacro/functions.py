@@ -62,6 +62,19 @@ def repeated(whole: Any, times: Any) -> Any:
     return whole * times
 
 
+def tokenized(text: Any, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
+    """Return the parts of a text between characters of ``sep``."""
+    parts = re.split(f"[{re.escape(sep)}]", str(text)) if sep else [str(text)]
+    return [part for part in parts if part or not skip_empty]
+
+
+def dotified(entries: Any) -> Any:
+    """Return a dictionary, whose entries may be written with a dot anyway."""
+    if not isinstance(entries, dict):
+        raise ExpressionError(f"{written(entries)[:40]} is no dictionary")
+    return entries
+
+
 WIDTH = re.compile(r"\d+")
 """Numbers in a pattern, among which are those of its fields."""
 
@@ -76,6 +89,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{"int": int, "float": float, "bool": bool, "str": str, "len": len, "range": numbers},
     **{"list": list, "tuple": tuple, "dict": dict, "sorted": sorted, "any": any, "all": all},
     **{"zip": zipped, "enumerate": numbered},
+    **{"xacro.tokenize": tokenized, "xacro.dotify": dotified, "dotify": dotified},
 }
 """Name -> function; those of ``math`` may be written ``math.name``."""
 

@@ -64,6 +64,13 @@ class Scope:
         self._texts.pop(name, None)
         self._values[name] = value
 
+    def remove(self, name: str) -> None:
+        """Remove a property here and in all scopes around."""
+        self._texts.pop(name, None)
+        self._values.pop(name, None)
+        if self._around is not None:
+            self._around.remove(name)
+
     def has(self, name: str) -> bool:
         """Whether there is a property or parameter of that name."""
         return (
@@ -88,7 +95,10 @@ class Scope:
     def _evaluated(self, name: str) -> Value:
         if name in self._busy or len(self._busy) >= MAX_DEPTH:
             chain = " -> ".join([*self._busy[-4:], name])
-            raise ExpressionError(f"the property {name!r} is defined by itself: {chain}")
+            raise ExpressionError(
+                f"the property {name!r} is defined by itself: {chain}; "
+                'lazy_eval="false" evaluates it where it is defined'
+            )
         self._busy.append(name)
         try:
             value = self._values[name] = literal_of(self.text(self._texts[name]))
