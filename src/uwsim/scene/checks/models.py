@@ -113,5 +113,8 @@ def _lost(
     The archive with the original's models is no longer to be had, so that a scene with the
     original's DOCTYPE is not at error for naming what lay in it.
     """
+    from ...assets.packages import without_file_scheme
+
     say = diagnostics.warning if document.has_doctype else diagnostics.error
-    say(spec, f"{what} {name!r} is nowhere and {so}; {library.searched(name, document.path)}")
+    shown = without_file_scheme(name)
+    say(spec, f"{what} {shown!r} is nowhere and {so}; {library.searched(name, document.path)}")
