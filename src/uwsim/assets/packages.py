@@ -40,7 +40,7 @@ REPOSITORY_DEPTH = 3
 """Deepest folder that is looked at below the two folders above a package: ``GROUP/X`` beside it."""
 MAX_FOLDERS = 4000
 """Most folders that are looked at below one, and as many again in the packages there."""
-FILE_SCHEME = re.compile(r"file:/*(?=(?:%s))" % "|".join(PREFIXES))
+FILE_SCHEME = re.compile(rf"file:/*(?=(?:{'|'.join(PREFIXES)}))")
 """What some robot files write before the name of a package, as ``file:///$(find NAME)/...``."""
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
 DECLARED = re.compile(rb"<name>\s*([A-Za-z0-9_.-]+)\s*</name>")
