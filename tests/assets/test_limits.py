@@ -297,6 +297,22 @@ def test_nodes_of_a_collada_file_cannot_stand_for_endless_work(
     assert time.process_time() - start < 2.0
 
 
+@pytest.mark.parametrize("n", [3, 8])
+def test_so_are_those_of_a_skin(n: int, inside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    nodes = "<node>" + '<instance_controller url="#c"/>' * n + "</node>"
+    skin = '<controller id="c"><skin source="#g"/></controller>'
+    text = dae(nodes).replace(
+        "<library_nodes>", f"<library_controllers>{skin}</library_controllers><library_nodes>"
+    )
+    (inside / "x.dae").write_text(text)
+    monkeypatch.setattr(collada_limits, "MAX_TEXT", n * len("0 1 2"))
+    assert load_model(str(inside / "x.dae")).n_triangles == n
+    monkeypatch.setattr(collada_limits, "MAX_TEXT", n * len("0 1 2") - 1)
+    (inside / "y.dae").write_text(text)
+    with pytest.raises(AssetError, match=r"its instances stand for .* MiB of triangles"):
+        load_model(str(inside / "y.dae"))
+
+
 def test_triangles_of_a_collada_file_are_counted_for_each_instance(
     inside: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -157,6 +157,9 @@ def test_a_package_that_appears_later_is_found(tmp_path: Path) -> None:
         "package://arm/meshes/base.obj",
         "model://arm/meshes/base.obj",
         " file://package://arm/meshes/base.obj\n",
+        "file:///package://arm/meshes/base.obj",
+        "\tfile:////model://arm//meshes/base.obj",
+        "file:package://arm/meshes/base.obj",
     ],
 )
 def test_a_package_may_be_written_in_the_ways_of_ros_and_gazebo(
@@ -166,6 +169,78 @@ def test_a_package_may_be_written_in_the_ways_of_ros_and_gazebo(
         package(tmp_path / name, name, declared=False)
     found = find(written, named_by=tmp_path / "hull_pkg" / "urdf" / "r.urdf")
     assert found == tmp_path / "arm" / "meshes" / "base.obj"
+
+
+@pytest.mark.parametrize("slashes", ["//", "///", "/////"])
+def test_messages_show_the_name_of_a_package_alone(slashes: str, tmp_path: Path) -> None:
+    package(tmp_path / "arm", "arm")
+    robot = tmp_path / "arm" / "r.urdf"
+    text = ROBOT.format("arm", "lost").replace("lost/meshes/base", "lost/tool")
+    robot.write_text(text.replace("package:", f"file:{slashes}package:"))
+    scene = tmp_path / "arm" / "scene.xml"
+    file = f"file:{slashes}package://arm/gone.obj"
+    scene.write_text(f"<UWSimScene><object><name>o</name><file>{file}</file></object></UWSimScene>")
+    messages = [each.message for path in (robot, scene) for each in diagnostics_of(path)]
+    assert [each for each in messages if "'package://lost/tool.obj'" in each]
+    assert [each for each in messages if "'package://arm/gone.obj'" in each]
+    assert not [each for each in messages if "file:" in each or "package://arm/meshes" in each]
+
+
+MODELS = {
+    "models of a package": ("ws/src/vendor/objects_pkg", "models"),
+    "worlds of a package": ("ws/worlds", "gazebo/models"),
+    "beside its package.xml": ("ws/a/b/objects", "."),
+}
+"""Layout -> folder of the package, and the folder in it that has the models."""
+
+
+@pytest.mark.parametrize("scheme", ["model", "package"])
+@pytest.mark.parametrize("has_config", [True, False])
+@pytest.mark.parametrize("layout", MODELS)
+def test_a_model_in_a_package_is_found_from_the_workspace(
+    layout: str, has_config: bool, scheme: str, tmp_path: Path
+) -> None:
+    owner, under = (Path(part) for part in MODELS[layout])
+    package(tmp_path / owner, "hull_pkg")
+    for name, edge in {"block": 0.4, "plug_2": 1.5}.items():
+        cube(tmp_path / owner / under / name / "meshes" / "m.obj", edge)
+        if has_config:
+            (tmp_path / owner / under / name / "model.config").write_text("<model/>")
+    scene = tmp_path / "elsewhere" / "scene.xml"
+    scene.parent.mkdir()
+    for name, edge in {"block": 0.4, "plug_2": 1.5}.items():
+        file = f"{scheme}://{name}/meshes/m.obj"
+        model = load_model(file, named_by=scene, data_path=(tmp_path / "ws",))
+        assert model.box.upper[0] == pytest.approx(edge)
+        assert not model_place_remark(file, named_by=scene, data_path=(tmp_path / "ws",))
+
+
+def test_a_package_comes_before_a_folder_of_its_name_in_another(tmp_path: Path) -> None:
+    package(tmp_path / "ws" / "a" / "tool-desc", "tool-desc")
+    package(tmp_path / "ws" / "z" / "deep" / "arm", "arm")
+    for name, edge in {"models/arm": 0.3, "models/tool-desc": 0.9, "x/y/arm": 0.1}.items():
+        cube(tmp_path / "ws" / "a" / "tool-desc" / name / "meshes" / "base.obj", edge)
+    scene = tmp_path / "elsewhere" / "scene.xml"
+    scene.parent.mkdir()
+    for name in ("arm", "tool-desc"):
+        assert edge_of(name, scene, tmp_path / "ws") == pytest.approx(SIZES[name])
+        file = f"package://{name}/meshes/base.obj"
+        assert not model_place_remark(file, named_by=scene, data_path=(tmp_path / "ws",))
+
+
+def test_the_folders_in_packages_are_counted_apart(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("uwsim.assets.packages.MAX_FOLDERS", 12)
+    package(tmp_path / "ws" / "a", "hull_pkg")
+    package(tmp_path / "ws" / "z" / "deep" / "arm", "arm")
+    for i in range(40):
+        cube(tmp_path / "ws" / "a" / f"m{i:02d}" / "base.obj", 0.5)
+    scene = tmp_path / "elsewhere" / "scene.xml"
+    scene.parent.mkdir()
+    assert edge_of("arm", scene, tmp_path / "ws") == pytest.approx(0.7)
+    assert find("model://m03/base.obj", named_by=scene, data_path=(tmp_path / "ws",))
+    assert find("model://m39/base.obj", named_by=scene, data_path=(tmp_path / "ws",)) is None
 
 
 def test_a_mesh_of_another_extension_comes_from_the_package_that_is_named(tmp_path: Path) -> None:

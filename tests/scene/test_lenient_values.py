@@ -66,6 +66,16 @@ def test_what_concerns_the_water_is_an_error_as_before(tmp_path: Path) -> None:
     [
         ("<physics><mass>-2</mass></physics>", ("mass", 0.0), "<mass> is -2"),
         ("<physics><mass>7e12</mass></physics>", ("mass", 1e9), "<mass> is 7e+12"),
+        (
+            "<physics><mass>2</mass><inertia><x>1</x><y>3e9</y><z>2</z></inertia></physics>",
+            ("inertia", (1, 1e9, 2)),
+            "<y> of <inertia> is 3e+09; no quantity is beyond 1e+09",
+        ),
+        (
+            "<physics><inertia><x>-4e11</x><y>0</y><z>0</z></inertia></physics>",
+            ("inertia", (-1e9, 0, 0)),
+            "<x> of <inertia> is -4e+11",
+        ),
         ("<scaleFactor><x>1</x><y>2</y><z>0</z></scaleFactor>", ("scale", (1, 2, 1e-6)), "is 0"),
         (
             "<scaleFactor><x>5e7</x><y>1</y><z>1</z></scaleFactor>",
@@ -81,8 +91,12 @@ def test_a_mass_or_a_size_beyond_a_limit_is_clamped(
     (thing,) = read_scene(tmp_path / "scene.xml").objects
     assert [each.severity for each in found] == ["warning"]
     assert "clamped to" in found[0].message
-    value = thing.scale_factor if read[0] == "scale" else thing.solid.mass
-    assert value == read[1]
+    values = {
+        "scale": thing.scale_factor,
+        "mass": thing.solid.mass,
+        "inertia": thing.solid.inertia,
+    }
+    assert values[read[0]] == read[1]
 
 
 def test_a_mirrored_object_stays_an_error(tmp_path: Path) -> None:

@@ -45,6 +45,7 @@ __all__ = [
     "has_model",
     "load_model",
     "model_place_remark",
+    "model_remarks",
     "package_remark",
     "painted",
     "place_remark",
@@ -133,6 +134,19 @@ def why_unreadable(
     except AssetError as error:
         return str(error).removesuffix(".")
     return ""
+
+
+def model_remarks(
+    name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
+) -> tuple[str, ...]:
+    """What of the file that `load_model` finds cannot be read, though the rest of it can."""
+    try:
+        path = _path_of(name, named_by, data_path)
+        if path is None or path.suffix.lower() in (".stl", ".ply"):  # these have no materials
+            return ()
+        return load_model(name, named_by=named_by, data_path=data_path).remarks
+    except AssetError:
+        return ()
 
 
 def _path_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> Path | None:

@@ -61,6 +61,8 @@ class Model:
     """The file and all that were read with it: materials, buffers, images."""
     asset: ColladaAsset | None = None
     """What a Collada file states of its unit and axes; its vertices are as in the file."""
+    remarks: tuple[str, ...] = ()
+    """What of the file cannot be read, and was left out or replaced."""
     box: Box = field(init=False)
     """Bounding box of all vertices."""
 

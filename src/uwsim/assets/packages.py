@@ -9,6 +9,9 @@ A package is a folder called NAME, or one whose ``package.xml`` gives that name.
    ``AMENT_PREFIX_PATH``;
 4. where the file lies in a package or in a workspace, in all folders of the workspace.
 
+Below a folder, those in another package count, too, after all others: Gazebo's models usually are
+``PACKAGE/models/NAME/model.config``.
+
 The package ``uwsim`` is the original's, whose files are also looked for without its name.
 """
 
@@ -18,6 +21,7 @@ import os
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 
 PREFIXES = ("package://", "model://")
@@ -35,18 +39,27 @@ WORKSPACE_DEPTH = 5
 REPOSITORY_DEPTH = 3
 """Deepest folder that is looked at below the two folders above a package: ``GROUP/X`` beside it."""
 MAX_FOLDERS = 4000
-"""Most folders that are looked at below one."""
+"""Most folders that are looked at below one, and as many again in the packages there."""
+FILE_SCHEME = re.compile(rf"file:/*(?=(?:{'|'.join(PREFIXES)}))")
+"""What some robot files write before the name of a package, as ``file:///$(find NAME)/...``."""
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
 DECLARED = re.compile(rb"<name>\s*([A-Za-z0-9_.-]+)\s*</name>")
+MODEL_FILE = "model.config"
+"""The file that makes a folder a model of Gazebo."""
 HEAD = 65536
 """Bytes of a ``package.xml`` in which its name is looked for."""
 
 
+def without_file_scheme(name: str) -> str:
+    """Return a name without blanks, and without ``file:`` and slashes before ``package://``."""
+    name = name.strip()
+    found = FILE_SCHEME.match(name)
+    return name[found.end() :] if found else name
+
+
 def package_of(name: str) -> tuple[str, str] | None:
     """Split a name into its package and the path in it; None where it has no package."""
-    name = name.strip()
-    if name.startswith("file://") and name.removeprefix("file://").startswith(PREFIXES):
-        name = name.removeprefix("file://")
+    name = without_file_scheme(name)
     for prefix in PREFIXES:
         if name.startswith(prefix):
             package, _, path = name.removeprefix(prefix).partition("/")
@@ -173,29 +186,66 @@ def _packages_below(root: Path, depth: int) -> dict[str, tuple[Path, ...]]:
 
 
 def _walk(root: Path, depth: int) -> _Index:
-    """Look at the folders below one, level by level, in alphabetical order."""
+    """Look at the folders below one, level by level, in alphabetical order; packages at last."""
     stamps: dict[Path, int] = {}
-    by_file: dict[str, list[Path]] = {}
-    by_folder: dict[str, list[Path]] = {}
+    declared: dict[str, list[Path]] = {}
+    named: dict[str, list[Path]] = {}
+    inside: list[list[Path]] = []
     level = [root]
     for _ in range(depth):
-        below = []
-        for folder in level:
-            for child in _children(folder) if len(stamps) < MAX_FOLDERS else ():
-                stamps[child] = _stamp(child)
-                declared = _declared(child)
-                by_folder.setdefault(child.name, []).append(child)
-                if declared:  # a package has no other packages in it
-                    stamps[child / "package.xml"] = _stamp(child / "package.xml")
-                    by_file.setdefault(declared, []).append(child)
-                else:
-                    below.append(child)
+        below, packages = [], []
+        for child in _new_children(level, stamps, MAX_FOLDERS):
+            named.setdefault(child.name, []).append(child)
+            if name := _declared(child):
+                stamps[child / "package.xml"] = _stamp(child / "package.xml")
+                declared.setdefault(name, []).append(child)
+                packages.append(child)
+            else:
+                below.append(child)
+        inside.append(packages)
         level = below
+    models, others = _walk_packages(inside, stamps)
     stamps[root] = _stamp(root)
-    names = {**by_file, **by_folder}
-    return _Index(
-        stamps, {name: (*by_file.get(name, ()), *by_folder.get(name, ())) for name in names}
-    )
+    groups = (declared, named, models)
+    names = dict.fromkeys(name for group in groups for name in group)
+    found = {
+        name: tuple(path for group in groups for path in group.get(name, ())) for name in names
+    }
+    return _Index(stamps, {**{name: tuple(paths) for name, paths in others.items()}, **found})
+
+
+def _walk_packages(
+    packages: Iterable[list[Path]], stamps: dict[Path, int]
+) -> tuple[dict[str, list[Path]], dict[str, list[Path]]]:
+    """Look at the folders in packages, down to the level of the deepest.
+
+    Args:
+        packages: by their level.
+        stamps: when each folder had last changed; those looked at are added.
+
+    Returns:
+        Models of Gazebo and other folders, by their names.
+    """
+    models: dict[str, list[Path]] = {}
+    others: dict[str, list[Path]] = {}
+    most = len(stamps) + MAX_FOLDERS
+    level: list[Path] = []
+    for beside in packages:
+        below = list(islice(_new_children(level, stamps, most), most - len(stamps)))
+        for child in below:
+            group = models if os.path.isfile(child / MODEL_FILE) else others
+            group.setdefault(child.name, []).append(child)
+        level = [*below, *beside]
+    return models, others
+
+
+def _new_children(level: Iterable[Path], stamps: dict[Path, int], most: int) -> Iterator[Path]:
+    """Give the folders in those of a level, and stamp them, until there are ``most`` stamps."""
+    for folder in level:
+        for child in _children(folder) if len(stamps) < most else ():
+            if child not in stamps:
+                stamps[child] = _stamp(child)
+                yield child
 
 
 def _children(folder: Path) -> list[Path]:

@@ -283,6 +283,12 @@ class _Folders:
 
         return model_place_remark(name, named_by=named_by, data_path=self._data_path)
 
+    def model_remarks(self, name: str, named_by: Path) -> tuple[str, ...]:
+        """Return what of the file of a model cannot be read, though the rest of it can."""
+        from ..assets import model_remarks
+
+        return model_remarks(name, named_by=named_by, data_path=self._data_path)
+
     def package_remark(self, name: str, named_by: Path) -> str:
         """Return that the package of a name is not found, or where it is."""
         from ..assets import package_remark

@@ -30,7 +30,7 @@ class PhysicsSpec(Spec):
 
     mass: float = element(default=1.0, minimum=0, original=CLAMPED)
     """Its mass; 0 never moves [kg]."""
-    inertia: Triple = ZERO
+    inertia: Triple = element(default=ZERO, original=CLAMPED)
     """About its axes; all zero: that of the ball, or of the box around its shape [kg m2]."""
     collision_shape_type: ShapeType = "box"
     """What is made of its mesh for contacts."""

@@ -185,6 +185,8 @@ def check_robot(
                 diagnostics.warning(shape, remark)
             elif why := library.doubtful_size(name, shape.scale, path):
                 diagnostics.warning(shape, why)
+            for said in library.model_remarks(name, path):
+                diagnostics.warning(shape, said)
     warnings = () if robot is None else robot.expansion.warnings
     return [*warnings, *diagnostics.all()]
 

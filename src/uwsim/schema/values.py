@@ -127,9 +127,9 @@ def _clamped(
     has_no_size = value < lowest and (value < 0.0 < lowest or field.kind == "int")
     if limited == value or has_no_size:
         return value
-    diagnostics.warning(
-        node, f"{shown} is {value:g}; expected {field.expected}; clamped to {limited:g}"
-    )
+    is_allowed = field.allows(value)
+    why = f"no quantity is beyond {MAX_NUMBER:g}" if is_allowed else f"expected {field.expected}"
+    diagnostics.warning(node, f"{shown} is {value:g}; {why}; clamped to {limited:g}")
     return limited if field.kind != "int" else int(limited)
 
 

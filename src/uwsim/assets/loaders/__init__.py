@@ -74,11 +74,11 @@ def _read(path: Path, name: str, within: tuple[Path, ...]) -> Model:
     suffix = path.suffix.lower()
     with recorded() as files:
         if suffix in READABLE:
-            meshes, asset = read_meshes(path, name=name, within=within)
+            meshes, asset, remarks = read_meshes(path, name=name, within=within)
         elif suffix in BY_OSGCONV:
             read_bytes(path, name=name)
             with converted(path) as obj:
-                meshes, asset = read_meshes(obj, name=name, within=within, original=path)
+                meshes, asset, remarks = read_meshes(obj, name=name, within=within, original=path)
         else:
             raise AssetError(why_not_read(path))
     digest = files[0].sha256.removeprefix("sha256:")
@@ -89,4 +89,5 @@ def _read(path: Path, name: str, within: tuple[Path, ...]) -> Model:
         sha256=digest,
         files=tuple(files),
         asset=asset,
+        remarks=remarks,
     )

@@ -47,8 +47,10 @@ def read_meshes(
     name: str = "",
     within: tuple[Path, ...] = (),
     original: Path | None = None,
-) -> tuple[tuple[Mesh, ...], ColladaAsset | None]:
+) -> tuple[tuple[Mesh, ...], ColladaAsset | None, tuple[str, ...]]:
     """The meshes of a file in its own frame and units, and what a Collada file states of those.
+
+    The last are remarks on what of it cannot be read, and was left out or replaced.
 
     Normals are computed anew from the faces. Colours of vertices become one mean colour a mesh.
 
@@ -67,13 +69,14 @@ def read_meshes(
         file = mesh_cache.file_of(data, path.suffix.lower())
         kept = mesh_cache.read(file) if original is None else None
         if kept is not None:
-            return kept, asset
+            return kept, asset, ()
         references = _references(path, name or path.name, within, original)
-        parts = _parts(path, data, references)
-    meshes = _meshes(path, parts)
-    if original is None and not references.were_needed:
+        parts, remarks = _parts(path, data, references)
+    meshes, of_images = _meshes(path, parts, references)
+    remarks = tuple(f"{original or path}: {remark}" for remark in (*remarks, *of_images))
+    if original is None and not references.were_needed and not remarks:
         mesh_cache.keep(file, meshes)
-    return meshes, asset
+    return meshes, asset, remarks
 
 
 @contextlib.contextmanager
@@ -97,13 +100,21 @@ def _errors_as_ours(path: Path) -> Iterator[None]:
         ) from error
 
 
-def _meshes(path: Path, parts: list[tuple[Any, Any]]) -> tuple[Mesh, ...]:
+def _meshes(
+    path: Path, parts: list[tuple[Any, Any]], references: References
+) -> tuple[tuple[Mesh, ...], list[str]]:
+    """The meshes with their looks, and remarks on images that cannot be read."""
     looks = Looks(path)
     made = [_mesh(part, looks, visual, path) for part, visual in parts if len(part.faces)]
     meshes = tuple(found for found in made if found is not None)
     if not meshes:
         raise AssetError(f"{path}: all of its triangles are without area.")
-    return meshes
+    names = references.broken_images(is_decoded=looks.has_broken_image)
+    broken = [f"its image {name[:200]!r}" for name in names]
+    if looks.has_broken_image and not broken:
+        broken = ["an image in it"]
+    end = "cannot be read: the colour of its material is used"
+    return meshes, [f"{image} {end}" for image in broken]
 
 
 def _bytes(path: Path, name: str, original: Path | None) -> bytes:
@@ -158,29 +169,43 @@ def _references(
     )
 
 
-def _parts(path: Path, data: bytes, references: References) -> list[tuple[Any, Any]]:
-    """The meshes of a file at the poses of its nodes, with their materials."""
+def _parts(
+    path: Path, data: bytes, references: References
+) -> tuple[list[tuple[Any, Any]], tuple[str, ...]]:
+    """The meshes of a file at the poses of its nodes, with their materials, and remarks."""
     import trimesh
 
-    resolver: Any = references
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
     suffix = path.suffix.lower()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
-            scene = trimesh.load_scene(
-                io.BytesIO(in_utf8(data, suffix)),
-                file_type=suffix.lstrip("."),
-                resolver=resolver,
-                process=False,
-            )
+            if suffix == ".dae":
+                from .collada_file import read_parts
+
+                found, remarks = read_parts(data, references)
+            else:
+                found, remarks = _read_by_trimesh(data, suffix, references), ()
         finally:
             references.check()
-        placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
-        found = [(transform, scene.geometry[geometry]) for transform, geometry in placed]
         meshes = [each for each in found if isinstance(each[1], trimesh.Trimesh)]
         _check_number(path, sum(len(part.faces) for _, part in meshes))
-        return [(_moved(part, transform), part.visual) for transform, part in meshes]
+        return [(_moved(part, transform), part.visual) for transform, part in meshes], remarks
+
+
+def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[tuple[Any, Any]]:
+    """The pose and the geometry of each node."""
+    import trimesh
+
+    resolver: Any = references
+    scene = trimesh.load_scene(
+        io.BytesIO(in_utf8(data, suffix)),
+        file_type=suffix.lstrip("."),
+        resolver=resolver,
+        process=False,
+    )
+    placed = [scene.graph[node] for node in scene.graph.nodes_geometry]
+    return [(transform, scene.geometry[geometry]) for transform, geometry in placed]
 
 
 def _check_number(path: Path, n_triangles: int) -> None:

@@ -49,11 +49,15 @@ class _Counts:
     def __init__(self, root: Element) -> None:
         self._nodes: dict[str, list[Element]] = {}
         self._texts: dict[str, int] = {}
+        self._sources: dict[str, str] = {}
         self._known: dict[Element, tuple[int, int, int]] = {}
         for each in root.iter():
             called = each.get("id", "")
             if _kind(each) == "node":
                 self._nodes.setdefault(called, []).append(each)
+            elif _kind(each) == "controller":  # its geometry is used as modelled
+                for skin in each:
+                    self._sources[called] = skin.get("source", "").removeprefix("#")
             elif _kind(each) == "geometry":
                 letters = sum(len(p.text or "") for p in each.iter() if _kind(p) in ("p", "vcount"))
                 self._texts[called] = max(letters, self._texts.get(called, 0))
@@ -67,7 +71,7 @@ class _Counts:
             for child in node:
                 wanted = child.get("url", "").removeprefix("#")
                 if _kind(child) in ("instance_geometry", "instance_controller"):
-                    n, text = n + 1, text + self._texts.get(wanted, 0)
+                    n, text = n + 1, text + self._texts.get(self._source_of(wanted), 0)
                     continue
                 is_instance = _kind(child) == "instance_node"
                 nodes = self._nodes.get(wanted, []) if is_instance else [child]
@@ -78,6 +82,12 @@ class _Counts:
                 raise _TooDeep
             self._known[node] = n, text, longest
         return self._known[node]
+
+    def _source_of(self, called: str) -> str:
+        """The geometry of a controller, directly or by way of another; any other name as it is."""
+        for _ in range(2):
+            called = self._sources.get(called, called)
+        return called
 
 
 def _kind(element: Element) -> str:

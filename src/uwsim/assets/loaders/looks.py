@@ -41,6 +41,19 @@ def check_size(data: bytes, name: object) -> None:
         pass
 
 
+def is_broken(path: Path, *, is_decoded: bool) -> bool:
+    """Whether a file of an image cannot be opened, or not decoded, which takes longer."""
+    from PIL import Image
+
+    try:
+        with Image.open(path) as image:
+            if is_decoded and image.width * image.height <= MAX_PIXELS:
+                image.load()
+    except Exception:  # Pillow raises whatever its decoders raise
+        return True
+    return False
+
+
 Look = tuple[tuple[float, float, float], Texture | None]
 
 
@@ -50,13 +63,15 @@ class Looks:
     def __init__(self, path: Path) -> None:
         self._path = path
         self._n_pixels = 0
+        self.has_broken_image = False
+        """Whether an image could not be decoded."""
         self._of_material: dict[int, tuple[Any, Look]] = {}
 
     def of(self, visual: Any) -> Look:
         """Colour and texture of a trimesh visual.
 
         Raises:
-            AssetError: its image cannot be read, or is too large.
+            AssetError: its image is too large, or of a type that is not read.
         """
         material = getattr(visual, "material", None)
         if material is None:
@@ -71,9 +86,10 @@ class Looks:
 
     def _look(self, material: Any) -> Look:
         image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
-        if image is not None:
+        texture = None if image is None else self._texture(image)
+        if texture is not None:
             # A file's diffuse factor beside an image is usually an exporter's default: not used.
-            return (1.0, 1.0, 1.0), self._texture(image)
+            return (1.0, 1.0, 1.0), texture
         factor = getattr(material, "baseColorFactor", None)
         if factor is None and hasattr(material, "diffuse"):
             factor = material.diffuse
@@ -82,8 +98,8 @@ class Looks:
         red, green, blue = np.clip(numbers, 0.0, 1.0).tolist()
         return (red, green, blue), None
 
-    def _texture(self, image: Any) -> Texture:
-        """Decode an image, which trimesh has only opened."""
+    def _texture(self, image: Any) -> Texture | None:
+        """Decode an image, which was only opened; None if it is broken."""
         n = image.width * image.height
         self._n_pixels += n
         if n > MAX_PIXELS or self._n_pixels > MAX_PIXELS_IN_ALL:
@@ -100,9 +116,8 @@ class Looks:
             rgb = image.convert("RGB")
             rgb.thumbnail((MAX_TEXTURE_SIDE, MAX_TEXTURE_SIDE))
             pixels = np.array(rgb, dtype=np.uint8)
-        except Exception as error:  # Pillow raises whatever its decoders raise
-            raise AssetError(
-                f"{self._path}: its image cannot be read ({type(error).__name__})."
-            ) from error
+        except Exception:  # Pillow raises whatever its decoders raise
+            self.has_broken_image = True
+            return None
         digest = hashlib.sha256(pixels.tobytes()).hexdigest()[:16]
         return Texture(name=f"{self._path}#{digest}", pixels=pixels)

@@ -13,6 +13,10 @@ from pathlib import Path, PurePosixPath
 
 from ...base.files.input_files import is_inside
 from ...errors import AssetError
+from .looks import is_broken
+
+NO_IMAGES = (".mtl", ".bin", ".glb", ".gltf", ".obj")
+"""Files that a mesh file names and that are no images."""
 
 
 class References:
@@ -34,6 +38,7 @@ class References:
     ) -> None:
         self._folders, self._within, self._read = tuple(folders), tuple(within), read
         self._refused: list[AssetError] = []
+        self._images: dict[str, Path] = {}
         self.were_needed = False
         """Whether any file was asked for."""
 
@@ -53,12 +58,20 @@ class References:
         for error in self._refused:
             raise error
 
+    def broken_images(self, *, is_decoded: bool) -> list[str]:
+        """Return the names of the images that were read and cannot be opened, or not decoded."""
+        return [
+            name for name, path in self._images.items() if is_broken(path, is_decoded=is_decoded)
+        ]
+
     def _found(self, name: str) -> bytes:
         asked = PurePosixPath(name.strip().replace("\\", "/"))
         for place in (asked, PurePosixPath(asked.name)):
             for folder in self._folders:
                 path = folder / place
                 if not place.is_absolute() and path.exists() and is_inside(path, self._within):
+                    if place.suffix.lower() not in NO_IMAGES:
+                        self._images[name] = path
                     return self._read(path, place)
         if any(_exists(folder / asked) for folder in self._folders):
             raise AssetError(

@@ -43,6 +43,9 @@ class Library(Protocol):
     def model_place_remark(self, name: str, named_by: Path) -> str:
         """The same of a model, whose file may have another extension."""
 
+    def model_remarks(self, name: str, named_by: Path) -> tuple[str, ...]:
+        """What of the file of a model cannot be read, though the rest of it can."""
+
     def package_remark(self, name: str, named_by: Path) -> str:
         """That the package of a name is not found, or where it is; empty without a package."""
 
@@ -70,6 +73,8 @@ def check_models(
             _lost(name, "model", "has no stand-in", spec, document, library, diagnostics)
         elif remark := library.model_place_remark(name, document.path):
             diagnostics.warning(spec, remark)
+        for said in library.model_remarks(name, document.path):
+            diagnostics.warning(spec, said)
 
 
 def _check_projectors(
@@ -113,5 +118,8 @@ def _lost(
     The archive with the original's models is no longer to be had, so that a scene with the
     original's DOCTYPE is not at error for naming what lay in it.
     """
+    from ...assets.packages import without_file_scheme
+
     say = diagnostics.warning if document.has_doctype else diagnostics.error
-    say(spec, f"{what} {name!r} is nowhere and {so}; {library.searched(name, document.path)}")
+    shown = without_file_scheme(name)
+    say(spec, f"{what} {shown!r} is nowhere and {so}; {library.searched(name, document.path)}")

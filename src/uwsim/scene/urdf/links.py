@@ -72,6 +72,12 @@ def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, 
     return found
 
 
+def _file_of(shape: etree._Element) -> str:
+    from ...assets.packages import without_file_scheme
+
+    return without_file_scheme(shape.get("filename") or "")
+
+
 def _edges_of(box: etree._Element, diagnostics: Diagnostics) -> Triple:
     """The edges of a box; one beyond the limit is clamped."""
     edges = numbers_of(box, "size", 3, diagnostics) or [0.0, 0.0, 0.0]
@@ -109,7 +115,7 @@ def _shape(
     kind = shape.tag
     file, size, scale = "", (1.0, 1.0, 1.0), (1.0, 1.0, 1.0)
     if kind == "mesh":
-        file = (shape.get("filename") or "").strip()
+        file = _file_of(shape)
         if not file:
             diagnostics.error(shape, "<mesh> lacks the attribute filename")
         scale = triple_of(shape, "scale", diagnostics, scale)

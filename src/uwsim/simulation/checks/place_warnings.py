@@ -1,4 +1,4 @@
-"""Warnings about files that are not where the scene or its robots state."""
+"""Warnings about files that are not where the scene or its robots state, or broken in part."""
 
 from __future__ import annotations
 
@@ -6,7 +6,14 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TypedDict
 
-from ...assets import find, has_model, model_place_remark, package_remark, place_remark
+from ...assets import (
+    find,
+    has_model,
+    model_place_remark,
+    model_remarks,
+    package_remark,
+    place_remark,
+)
 from ...errors import Diagnostic, UwsimError
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
@@ -23,7 +30,7 @@ class Where(TypedDict):
 def place_warnings(
     scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
 ) -> list[Diagnostic]:
-    """Report each file that was found elsewhere than its name states, and each lost package.
+    """Report each file found elsewhere, each lost package, and each model that is broken in part.
 
     Args:
         scene: spec of the scene.
@@ -44,7 +51,8 @@ def place_warnings(
         remark = model_place_remark(name, **where)
         if not remark and (lost := package_remark(name, **where)) and not has_model(name, **where):
             remark = f"{lost}: a labelled box in place of {name!r}"
-        remarks.setdefault(remark, spec)
+        for said in (remark, *model_remarks(name, **where)):
+            remarks.setdefault(said, spec)
     return [
         diagnostic_at(spec, remark, "file", severity="warning")
         for remark, spec in remarks.items()
