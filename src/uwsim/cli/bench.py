@@ -362,6 +362,8 @@ def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timi
     report = run.out / REPORT
     for line in refused_lines(result):
         warn(line)
+    shown = {remark.text.partition(": ")[2] for remark in result.remarks}  # beside a status
     for note in result.run.notes or ():
-        warn(note)
+        if note.partition(": ")[2] not in shown:
+            warn(note)
     print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")

@@ -23,6 +23,7 @@ from collada.material import DaeMissingSampler2D, Effect, Map, Material
 from collada.scene import GeometryNode, Node
 from PIL import Image
 
+from ...base.numerics.linear import product
 from ...errors import AssetError
 from .references import References
 
@@ -229,7 +230,7 @@ def _parts_of(
             if (mesh := _mesh_of(primitive, symbols)) is not None:
                 yield world_from_parent, mesh
     elif isinstance(node, Node):
-        world_from_node = world_from_parent @ node.matrix
+        world_from_node = product(world_from_parent, node.matrix)
         for child in node.children or ():
             yield from _parts_of(child, world_from_node, materials)
 
