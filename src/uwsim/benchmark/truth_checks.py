@@ -25,7 +25,8 @@ def truth_diagnostics(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic
         if not isinstance(updater, BagFogUpdaterSpec) or updater.truth is None:
             continue
         try:
-            truth, times = updater.truth.read(updater.path), updater.times(stage)
+            truth = updater.truth.read(updater.path)
+            times = updater.times(updater.find(stage))
         except UwsimError:
             continue
         if message := _uncovered(truth, *times):

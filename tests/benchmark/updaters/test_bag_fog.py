@@ -374,7 +374,7 @@ def scored(folder: Path, csv: str, components: str = "u v") -> EuclideanNorm:
         value="mean",
         ground_truth=TopicTruthSpec(topic="truth/corners", components=components, unit="px"),
     ).bind(stage)
-    stage.advance(1)
+    stage.advance(1)  # the first image stands until the benchmark begins
     publish = stage.bus.publisher("estimate", Float32MultiArray)
     message = Float32MultiArray(data=np.array([1.0, 10.0], dtype=np.float32))
     stage.bus.subscribe(IMAGE, Image, lambda _: publish(message))
@@ -424,31 +424,8 @@ def test_a_truth_of_another_time_is_refused(tmp_path: Path, times: tuple[float, 
 
 
 def test_a_moving_target_in_recorded_images_is_scored(tmp_path: Path) -> None:
-    stage = world(timestep=0.01)
-    write_bag(tmp_path, "ros1", images())
-    (tmp_path / "corners.csv").write_text("time,u,v\n0,1,10\n0.25,6,60\n")
-    truth = RecordedTruthSpec(file="corners.csv", topic="truth/corners")
-    updater = spec(tmp_path, truth=truth).bind(stage)
-    measure = EuclideanNormSpec(
-        name="corners",
-        target="estimate",
-        value="mean",
-        ground_truth=TopicTruthSpec(topic="truth/corners", components="u v", unit="px"),
-    ).bind(stage)
+    measure = scored(tmp_path, "time,u,v\n0,1,10\n0.25,6,60\n")
     assert measure.unit == "px"
-    stage.advance(1)  # the first image stands until the benchmark begins
-    publish = stage.bus.publisher("estimate", Float32MultiArray)
-    stage.bus.subscribe(
-        IMAGE,
-        Image,
-        lambda _: publish(Float32MultiArray(data=np.array([1.0, 10.0], dtype=np.float32))),
-    )
-    measure.start()
-    updater.apply(0.0)
-    for _ in range(30):
-        stage.advance(1)
-        measure.update()
-    updater.close()
     offsets = [np.hypot(5 * t, 50 * t) / 0.25 for t in TIMES]
     assert measure.details["frames"] == 3.0
     assert measure.value == pytest.approx(np.mean(offsets), rel=1e-5)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import socket
 from collections.abc import Iterator
 
 import pytest
 from websockets.sync.client import connect
 
+from tests.support.handshakes import status_of
 from tests.support.waiting import until
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage
@@ -85,10 +85,5 @@ def test_a_join_of_nonsense_leaves_its_client_connected(
 def test_a_request_of_nonsense_is_refused_without_a_traceback(
     request_lines: str, bridge: WebBridge, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-    key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
-    with socket.create_connection(("127.0.0.1", bridge.port)) as client:
-        client.sendall(f"{request_lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode("latin1"))
-        answer = client.recv(100).decode()
-    assert answer.split()[1] == "401"
+    assert status_of(bridge.port, request_lines, 60.0) == "401"
     assert "Traceback" not in capfd.readouterr().err

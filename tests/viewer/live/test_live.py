@@ -3,7 +3,6 @@
 import gzip
 import http.client
 import json
-import socket
 import struct
 import threading
 import tracemalloc
@@ -17,6 +16,7 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 
 import uwsim
+from tests.support.handshakes import status_of
 from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from tests.viewer.live.desk import Desk
 from uwsim.algorithms.pilot import AXES, Pilot
@@ -181,13 +181,9 @@ def test_a_reader_who_stalls_holds_less_than_a_megabyte(server: LiveServer) -> N
 def test_a_request_of_nonsense_is_answered_and_the_page_serves_on(
     server: LiveServer, request_lines: str, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-    key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
     target = "/socket?" + server.url.partition("?")[2]
     lines = request_lines.replace("TARGET", target)
-    with socket.create_connection(("127.0.0.1", server.port), WAIT) as client:
-        client.sendall(f"{lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode())
-        assert client.recv(100).decode().split()[1] in ("400", "403")
+    assert status_of(server.port, lines, WAIT) in ("400", "403")
     with socket_of(server):
         pass
     assert "Traceback" not in capfd.readouterr().err

@@ -96,15 +96,14 @@ class BagFogUpdaterSpec(FogSweepSpec):
         """Return the recording."""
         return {self.bag: self.find(stage)}
 
-    def times(self, stage: Stage) -> tuple[float, float]:
+    def times(self, path: Path) -> tuple[float, float]:
         """Return the times from the first image to the next, and to the recording's end [s].
 
         Raises:
-            AssetNotFound: it is nowhere.
             AssetError: it cannot be read, or a topic has another type.
             UnknownName: a topic is not in it.
         """
-        recording = Recording(self.find(stage), self.image_topic, self.info_topic)
+        recording = Recording(path, self.image_topic, self.info_topic)
         recording.close()
         return recording.gap * 1e-9, recording.length * 1e-9
 
@@ -117,7 +116,8 @@ class BagFogUpdaterSpec(FogSweepSpec):
             UnknownName: a topic is not in it.
             BadSetting: the scene publishes on such a topic already.
         """
-        path, (_, length) = self.find(stage), self.times(stage)
+        path = self.find(stage)
+        _, length = self.times(path)
         for tag, topic in zip(("imagePub", "infoPub"), self.topics, strict=True):
             if stage.bus.message_type(topic) is not None:
                 raise BadSetting(

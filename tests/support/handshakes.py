@@ -1,0 +1,18 @@
+"""Requests for a WebSocket, byte for byte, of clients that no library would send."""
+
+import socket
+
+
+def status_of(port: int, request_lines: str, timeout: float) -> str:
+    """Send a request that begins with these lines; returns the status of its answer.
+
+    Args:
+        port: of this computer.
+        request_lines: the first lines, without the last line end.
+        timeout: of the connection [s].
+    """
+    upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+    key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+    with socket.create_connection(("127.0.0.1", port), timeout) as client:
+        client.sendall(f"{request_lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode("latin1"))
+        return client.recv(100).decode().split()[1]
