@@ -375,3 +375,21 @@ def test_a_mesh_of_another_format_is_named(name: str, tmp_path: Path) -> None:
     mesh = cube(robot.parent / "m.obj", 0.2)
     told = model_place_remark(name, named_by=robot)
     assert told == ("" if name.endswith(".ive") else f"'m.dae' is not found; {mesh} is used")
+
+
+@pytest.mark.parametrize("place", ["visual", "collision"])
+@pytest.mark.parametrize("name", ["meshes/none.stl", "/opt/x/none.stl", "file:///opt/x/none.stl"])
+def test_check_and_run_report_a_mesh_that_is_nowhere(name: str, place: str, tmp_path: Path) -> None:
+    """A labelled box is in its place, which sonars measure, too."""
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r"><link name="base"><{place}><geometry><mesh filename="{name}"/>'
+        f"</geometry></{place}></link></robot>"
+    )
+    scene = tmp_path / "scene.xml"
+    scene.write_text(SCENE.format("r.urdf"))
+    found = [str(each) for each in diagnostics_of(scene)]
+    with Simulation(read_scene(scene)) as simulation:
+        told = [str(each) for each in simulation.world.warnings]
+    for messages in (found, told):
+        assert len([each for each in messages if "none.stl" in each and "r.urdf:1" in each]) == 1
+        assert all("a labelled box" in each for each in messages if "none.stl" in each)

@@ -46,3 +46,11 @@ def test_half_of_a_character_is_refused() -> None:
 def test_a_frame_whose_id_is_too_deep_is_refused() -> None:
     with pytest.raises(BadMessage, match=f"nested more than {MAX_DEPTH} deep"):
         read_frame(f'{{"op": "call_service", "service": "/x", "id": {nested(970)}}}')
+
+
+@pytest.mark.parametrize("end", ["", "\\", '"'])
+def test_a_text_without_an_end_is_read_once(end: str) -> None:
+    """Not once for each of its quotes: this took a day."""
+    text = "[" * (MAX_DEPTH + 1) + '"' + r"\"" * 2_000_000 + end
+    with pytest.raises(ValueError, match="nested more than"):
+        read_peer_json(text)

@@ -12,7 +12,7 @@ from uwsim.errors import FileError, SceneError
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.scene.xacro import parse_expanded
 from uwsim.scene.xacro.expression import evaluate
-from uwsim.scene.xacro.value import ExpressionError, Value
+from uwsim.scene.xacro.value import DistinctItems, ExpressionError, Value
 
 NAMES: dict[str, Value] = {
     "place": [1.0, -2.5, 0.25],
@@ -301,3 +301,31 @@ def test_a_file_of_a_lost_package_is_not_another_of_its_name(depth: str, tmp_pat
     body = f'<xacro:include filename="$(find lost_pkg)/{depth}other/parts.xacro"/><b>1</b>'
     with pytest.raises(FileError, match="package 'lost_pkg' is not found"):
         text_of(tmp_path, body)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("python.set('b a b'.split())", ["b", "a"]),
+        ("set([3, 1]) - set([1, 2])", [3]),
+        ("set([3, 1]) & set([1, 2])", [1]),
+        ("set([3, 1]) | set([1, 2])", [3, 1, 2]),
+        ("set([1, 2]) == set([2, 1, 2])", True),
+        ("set([1]) < set([2, 1])", True),
+        ("set([1, 2]) <= set([1])", False),
+        ("len(set('abca'))", 3),
+        ("isinstance(set([1]), list)", False),
+        ("isinstance(set([1]), (list, set))", True),
+        ("'a' in set(['a'])", True),
+        ("1 if set([1]) - set([1]) else 2", 2),
+    ],
+)
+def test_sets_keep_their_order(text: str, value: object) -> None:
+    found = evaluate(text, NAMES.__getitem__)
+    assert (list(found) if isinstance(found, DistinctItems) else found) == value
+
+
+@pytest.mark.parametrize("text", ["set([1]) + set([2])", "set([1]) - [1]", "2 * set([1])"])
+def test_sets_have_the_operations_of_sets_alone(text: str) -> None:
+    with pytest.raises(ExpressionError, match="sets have"):
+        evaluate(text, NAMES.__getitem__)

@@ -74,6 +74,12 @@ def shown(node: etree._Element) -> str:
             "<b><c></c></b>",
         ),
         (
+            """<xacro:macro name="m" params="p=:='0 0 0' q:='a b' r := 'c'd'e' s:=$(arg k) t:=u">"""
+            "<b>${p}|${q}|${r}|${s}|${t}</b></xacro:macro><xacro:arg name='k' default='7'/>"
+            "<xacro:m/>",
+            "<b>:='0 0 0'|a b|c'd'e|7|u</b>",
+        ),
+        (
             '<xacro:macro name="m" params="x:=^|1"><b>${x}</b></xacro:macro><xacro:m/>'
             '<xacro:property name="x" value="2"/><xacro:m/><xacro:call macro="m" x="3"/>',
             "<b>1</b><b>2</b><b>3</b>",

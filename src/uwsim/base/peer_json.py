@@ -11,8 +11,9 @@ MAX_DEPTH = 64
 """The greatest depth of lists and objects in each other."""
 ESCAPED_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
 """Half of a character beyond the 16-bit ones, as JSON escapes it."""
-BRACKET = re.compile(r'[\[\]{}]|"[^"\\]*(?:\\.[^"\\]*)*"', re.S)
-"""A bracket, or a string, whose brackets do not count."""
+BRACKET = re.compile(r'[\[\]{}]|"[^"\\]*(?:\\.[^"\\]*)*(?:"|\\?\Z)', re.S)
+"""A bracket, or a string, whose brackets do not count. One without an end goes on to the end of the
+text: otherwise each of its quotes would be tried, in a time that grows with the square."""
 STEP = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 

@@ -35,7 +35,6 @@ from uwsim.messages import (
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
-from uwsim.middleware.work_budget import WorkBudget
 
 
 class Setting:
@@ -315,11 +314,10 @@ def masked(text: str) -> bytes:
 
 @pytest.mark.slow
 def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
-    setting: Setting, monkeypatch: pytest.MonkeyPatch
+    setting: Setting,
 ) -> None:
-    for name in ("CLIENT_SHARE", "ALL_SHARE"):  # as fast as it can
-        monkeypatch.setattr(f"uwsim.middleware.web.server.{name}", 1e3)
-    setting.bridge._work = WorkBudget(1e3, 1.0)
+    limits = setting.bridge._limits  # read as fast as it can be
+    limits.share, limits.work = 1e3, None
     found: list[String] = []
     setting.bus.subscribe("text", String, found.append)
     setting.bridge.step()

@@ -175,7 +175,10 @@ def test_entities_are_listed_placed_and_spawned(controlled: Controlled) -> None:
     [
         ("get_entity_state", GetEntityState(entity="rob"), Result.NOT_FOUND),
         ("delete_entity", DeleteEntity(entity="rov"), Result.FEATURE_UNSUPPORTED),
-        ("get_entities", GetEntities(filters=EntityFilters(filter="(")), Result.OPERATION_FAILED),
+        *(
+            ("get_entities", GetEntities(filters=EntityFilters(filter=f)), Result.OPERATION_FAILED)
+            for f in ("(", "a{1,99999999999}")
+        ),
         (
             "set_entity_state",
             SetEntityState(

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
 from functools import partial
-from typing import ClassVar
+from typing import Any, ClassVar, cast
 from urllib.parse import parse_qs, urlsplit
 
 from websockets.asyncio.server import ServerConnection, serve
@@ -27,6 +27,7 @@ from ...messages import CompressedImage, Image, TFMessage
 from ...messages.compressed import as_jpeg
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge
+from ..limited_connection import ConnectionLimits, LimitedConnection
 from ..log import Log
 from ..stamps import clock_time
 from ..types import message_class, ros2_store, wire_type
@@ -47,11 +48,8 @@ CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
 """Share of the wall time in which frames of one client are read, and the time at once [s]."""
 ALL_SHARE, ALL_BURST = 0.04, 0.1
 """The same of all clients together, but those that a run in lock-step waits for."""
-REST = 0.1
-"""How long a client beyond its share is not read, besides what it has taken too much [s]: each time
-that the server wakes, the simulation waits for Python's lock."""
-FRAME_COST, MAX_COST = 5e-5, 0.05
-"""Time that the WebSocket library takes for a frame, and the most that a frame counts [s]."""
+FRAME_COST = 5e-5
+"""Time that a frame takes, besides what is measured [s]."""
 MAX_CLIENTS = 64
 PING, PING_LIMIT = 20.0, 300.0
 """How often a client is asked whether it is there, and how long it may take to answer [s]."""
@@ -93,7 +91,9 @@ class WebBridge(Bridge):
         """Services of the bus."""
         self._offerers: dict[str, tuple[Client, ...]] = {}
         self._sessions: set[Session] = set()
-        self._work = WorkBudget(ALL_SHARE, ALL_BURST)
+        self._limits = ConnectionLimits(
+            CLIENT_SHARE, CLIENT_BURST, WorkBudget(ALL_SHARE, ALL_BURST)
+        )
         self._republisher = FrameRepublisher()
         self._republications: dict[Client, list[str]] = {}
         self._loop = asyncio.new_event_loop()
@@ -338,6 +338,7 @@ class WebBridge(Bridge):
             options.port,
             origins=[None, LOCAL_PAGES, *(re.compile(re.escape(o)) for o in options.origins)],
             process_request=self._admit,
+            create_connection=cast(Any, partial(LimitedConnection, limits=self._limits)),
             max_size=MAX_FRAME,
             ping_interval=PING,
             ping_timeout=PING_LIMIT,
@@ -365,12 +366,16 @@ class WebBridge(Bridge):
 
     async def _attend(self, connection: ServerConnection) -> None:
         """Serve one client until it leaves."""
+        assert isinstance(connection, LimitedConnection)
         name = f"client {_peer(connection)}"
         session = Session(self, self._loop, name)
         self._sessions.add(session)
         self.log.say(f"{name} has come", kind="has come")
         writer = asyncio.create_task(_write(connection, session))
-        own = WorkBudget(CLIENT_SHARE, CLIENT_BURST)
+        connection.is_spared = lambda: session.is_waited_for
+        connection.report_rest = lambda: self.log.say(
+            f"{name} sends faster than it is read; its frames wait", kind="faster than it is read"
+        )
         protocol = connection.protocol
         if len(self._sessions) > N_LARGE:
             protocol.max_message_size = min(protocol.max_message_size or MAX_FRAME, SMALL_FRAME)
@@ -379,14 +384,10 @@ class WebBridge(Bridge):
             async for raw in connection:
                 began = time.thread_time()
                 session.handle(raw)
-                if not session.is_waited_for:  # a flood waits in the sockets, not here
-                    took = min(FRAME_COST + time.thread_time() - began, MAX_COST)
-                    own.spend(took)
-                    self._work.spend(took)
-                    if (delay := max(own.delay, self._work.delay)) > 0.0:
-                        line = f"{name} sends faster than it is read; its frames wait"
-                        self.log.say(line, kind="faster than it is read")
-                        await asyncio.sleep(delay + REST)
+                connection.spend(FRAME_COST + time.thread_time() - began)
+                if (rest := connection.rest) > 0.0:  # a flood waits in the sockets, not here
+                    connection.report_rest()
+                    await asyncio.sleep(rest)
         except ConnectionClosed:
             pass
         finally:

@@ -15,7 +15,7 @@ from typing import Any
 
 from ...errors import did_you_mean
 from .functions import FUNCTIONS, formatted, method, repeated
-from .value import MAX_LENGTH, ExpressionError, Value, checked, written
+from .value import MAX_LENGTH, DistinctItems, ExpressionError, Value, checked, written
 
 Functions = Mapping[str, Callable[..., Any]]
 CONSTANTS: dict[str, Value] = {
@@ -37,7 +37,11 @@ BINARY: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.Div: operator.truediv,
     ast.FloorDiv: operator.floordiv,
     ast.Mod: operator.mod,
+    ast.BitOr: operator.or_,
+    ast.BitAnd: operator.and_,
 }
+ON_SETS = ast.Sub | ast.BitOr | ast.BitAnd
+"""Operations between sets."""
 COMPARE: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
@@ -53,6 +57,7 @@ SINGLE = (None, True, False)
 KINDS: dict[str, type] = {
     **{kind.__name__: kind for kind in (int, float, bool, str, list, dict)},
     "tuple": list,
+    "set": DistinctItems,
 }
 """Kinds of values for ``isinstance``; a tuple is a list here."""
 MAX_TURNS = 2000
@@ -144,7 +149,7 @@ class Evaluation:
                 function = self._function(name)
                 return checked([checked(function(item)) for item in self._items(items)])
             case ast.Call(func=function, args=[item, kinds]) if _is_isinstance(function):
-                return isinstance(self.value(item), _kinds(kinds))
+                return _is_of(self.value(item), _kinds(kinds))
             case ast.Call():
                 return self._call(node)
             case (
@@ -271,6 +276,11 @@ def _is_same(left: Value, right: Value) -> bool:
     return left is right
 
 
+def _is_of(value: Value, kinds: tuple[type, ...]) -> bool:
+    """Whether a value is of one of some kinds; a set is no list."""
+    return DistinctItems in kinds if isinstance(value, DistinctItems) else isinstance(value, kinds)
+
+
 def _is_isinstance(function: ast.expr) -> bool:
     return ast.unparse(function) in ("isinstance", "python.isinstance")
 
@@ -323,6 +333,10 @@ def _attribute(whole: Value, name: str) -> Value:
 def _binary(operation: ast.operator, left: Value, right: Value) -> Value:
     if isinstance(operation, ast.Mod) and isinstance(left, str):
         return checked(formatted(left, right))
+    if DistinctItems in (type(left), type(right)):
+        if type(left) is not type(right) or not isinstance(operation, ON_SETS):
+            raise ExpressionError(f"{left!r} and {right!r}: sets have - & | with sets"[:200])
+        return checked(BINARY[type(operation)](left, right))
     is_whole = [isinstance(each, str | list) for each in (left, right)]
     if isinstance(operation, ast.Mult) and is_whole.count(True) == 1:
         return checked(repeated(left, right))

@@ -14,8 +14,10 @@ from .value import ExpressionError, Value
 
 PARAMETER = re.compile(
     r"(?P<stars>\*{0,2})(?P<name>[A-Za-z_][\w.-]*)"
-    r"(?:(?P<colon>:?=)(?P<outer>\^\|?)?(?P<default>'[^']*'|\"[^\"]*\"|\$\{[^{}]*\}|\S*))?(?=\s|$)"
+    r"(?:\s*(?P<colon>:?=)\s*(?P<outer>\^\|?)?"
+    r"(?P<default>\$\{[^{}]*\}|\$\([^()]*\)|(?:'[^']*'|\"[^\"]*\"|[^\s'\"])*|\S*))?(?=\s|$)"
 )
+"""A parameter; its default may be texts in quotes and without, one after the other."""
 COMMAS = re.compile(r"\s*\w+\s*(,\s*\w+\s*)+")
 """Names with commas between them, which xacro takes for parts of the names."""
 

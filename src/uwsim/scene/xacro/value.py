@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import ItemsView, KeysView, ValuesView
+from collections.abc import ItemsView, Iterable, KeysView, ValuesView
 from typing import Any
 
 from ...errors import UwsimError
@@ -22,6 +22,54 @@ MAX_NESTED = 40
 
 class ExpressionError(UwsimError):
     """An expression that cannot be evaluated."""
+
+
+class DistinctItems(list[Any]):
+    """The set of an expression: a list without equal items, in the order of their first ones.
+
+    Python's sets have another order in each process, and no file can rely on that.
+    """
+
+    def __init__(self, items: Iterable[Any] = ()) -> None:
+        super().__init__()
+        for item in items:
+            if item not in self:
+                self.append(item)
+
+    def __repr__(self) -> str:
+        return f"{{{', '.join(map(repr, self))}}}" if self else "set()"
+
+    def __sub__(self, other: Any) -> DistinctItems:
+        return DistinctItems(item for item in self if item not in _distinct(other))
+
+    def __and__(self, other: Any) -> DistinctItems:
+        return DistinctItems(item for item in self if item in _distinct(other))
+
+    def __or__(self, other: Any) -> DistinctItems:
+        return DistinctItems([*self, *_distinct(other)])
+
+    def __le__(self, other: Any) -> bool:
+        return not self - _distinct(other)
+
+    def __ge__(self, other: Any) -> bool:
+        return not _distinct(other) - self
+
+    def __lt__(self, other: Any) -> bool:
+        return self <= other and len(self) < len(other)
+
+    def __gt__(self, other: Any) -> bool:
+        return self >= other and len(self) > len(other)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, DistinctItems) and self <= other <= self
+
+    __hash__ = None
+
+
+def _distinct(value: Any) -> DistinctItems:
+    if not isinstance(value, DistinctItems):
+        raise TypeError(f"a set and a {type(value).__name__} have no such operation")
+    return value
 
 
 def written(value: Value) -> str:

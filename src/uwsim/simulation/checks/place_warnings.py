@@ -49,7 +49,8 @@ def place_warnings(
     for spec, name, file in _models(scene, robots, named_by):
         where = Where(named_by=file, data_path=data_path)
         remark = model_place_remark(name, **where)
-        if not remark and (lost := package_remark(name, **where)) and not has_model(name, **where):
+        if not remark and not has_model(name, **where):
+            lost = package_remark(name, **where) or "there is no model, nor a stand-in"
             remark = f"{lost}: a labelled box in place of {name!r}"
         for said in (remark, *model_remarks(name, **where)):
             remarks.setdefault(said, spec)

@@ -8,6 +8,7 @@ may be placed, at rest. What is spawned is a marker with a mesh (`uwsim.simulati
 from __future__ import annotations
 
 import re
+import warnings
 
 from ... import messages
 from ...base.external_values import EXPECTED_POSE, read_pose
@@ -76,8 +77,9 @@ class Entities:
             return GetEntitiesResponse(Result(Result.FEATURE_UNSUPPORTED, message))
         try:
             check_filter(filters.filter)
-            wanted = re.compile(filters.filter)
-        except re.error as error:
+            with warnings.catch_warnings(action="ignore", category=FutureWarning):
+                wanted = re.compile(filters.filter)
+        except (re.error, OverflowError) as error:
             message = f"The filter is no regular expression: {error}."
             return GetEntitiesResponse(Result(Result.OPERATION_FAILED, message))
         return GetEntitiesResponse(entities=[n for n in self.names if wanted.search(n)])

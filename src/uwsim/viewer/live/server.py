@@ -15,8 +15,9 @@ import threading
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 from http import HTTPStatus
-from typing import Any
+from typing import Any, cast
 from urllib.parse import parse_qs, urlsplit
 
 from websockets.asyncio.server import Server, ServerConnection, serve
@@ -26,12 +27,15 @@ from websockets.http11 import Request, Response
 
 from ...base.peer_json import read_peer_json
 from ...errors import BadSetting
+from ...middleware.limited_connection import ConnectionLimits, LimitedConnection
 
 HOST = "127.0.0.1"
 MAX_MESSAGE = 4096
 """Of a viewer [byte]."""
 MAX_MESSAGES = 120
 """Of a viewer in a second."""
+SHARE, BURST = 0.05, 0.1
+"""Share of the wall time in which a viewer is read, and the time at once [s]."""
 MAX_VIEWERS = 16
 MAX_WANTED = 16
 """Of cameras, and of topics, that a viewer gets."""
@@ -84,6 +88,7 @@ class LiveServer:
         self._version = 0
         self._viewers: dict[int, Viewer] = {}
         self._n_viewers = 0
+        self._limits = ConnectionLimits(SHARE, BURST)
         self._messages: deque[tuple[int, Message]] = deque(maxlen=KEPT)
         self._loop = asyncio.new_event_loop()
         self._stop = asyncio.Event()
@@ -170,6 +175,7 @@ class LiveServer:
                 HOST,
                 self.port,
                 process_request=self._answer,
+                create_connection=cast(Any, partial(LimitedConnection, limits=self._limits)),
                 max_size=MAX_MESSAGE,
                 max_queue=4,
                 write_limit=BUFFER,

@@ -1,0 +1,110 @@
+"""WebSocket connections within limits: of the time to read them, and of their number."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from typing import Any
+
+from websockets.asyncio.server import ServerConnection
+from websockets.protocol import State
+
+from .work_budget import WorkBudget
+
+MAX_COST = 0.05
+"""The most time that one reading counts [s]."""
+REST = 0.1
+"""How long a client beyond its share is not read, besides what it has taken too much [s]: each time
+that the server wakes, the simulation waits for Python's lock."""
+
+
+class ConnectionLimits:
+    """The limits of the connections of one server.
+
+    Args:
+        share: of the wall time, in which one connection is read.
+        burst: the time at once after a rest [s].
+        work: the budget of all connections together; None: there is none.
+        max_waiting: how many connections may be open that are not admitted yet; beyond it, the
+            oldest of them is broken off (1 or more).
+    """
+
+    def __init__(
+        self, share: float, burst: float, work: WorkBudget | None = None, max_waiting: int = 64
+    ) -> None:
+        self.share, self.burst, self.work = share, burst, work
+        self._max_waiting = max_waiting
+        self._open: dict[LimitedConnection, None] = {}  # the oldest first
+
+    def add(self, connection: LimitedConnection) -> None:
+        """Count a new connection; where too many wait, break off the oldest of those."""
+        self._open[connection] = None
+        waiting = [each for each in self._open if each.state is State.CONNECTING]
+        for each in waiting[: -self._max_waiting]:
+            self.discard(each)
+            each.transport.abort()
+
+    def discard(self, connection: LimitedConnection) -> None:
+        """Count a connection no more."""
+        self._open.pop(connection, None)
+
+
+class LimitedConnection(ServerConnection):
+    """A connection that is not read for a while when it has taken more than its share.
+
+    All that arrives counts: the library answers control frames itself.
+
+    Args:
+        arguments: those of `ServerConnection`.
+        limits: those of the server.
+        options: those of `ServerConnection`.
+    """
+
+    def __init__(self, *arguments: Any, limits: ConnectionLimits, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self._limits = limits
+        own = WorkBudget(limits.share, limits.burst)
+        self._budgets = (own,) if limits.work is None else (own, limits.work)
+        self.is_spared: Callable[[], bool] = lambda: False
+        """Returns whether it may take as long as it likes."""
+        self.report_rest: Callable[[], None] = lambda: None
+        """Called when it is not read for a while."""
+
+    def spend(self, seconds: float) -> None:
+        """Count work for this connection [s], unless it is spared."""
+        if self.is_spared():
+            return
+        for budget in self._budgets:
+            budget.spend(min(seconds, MAX_COST))
+
+    @property
+    def rest(self) -> float:
+        """How long it should not be read now [s]; 0: it may be."""
+        delay = 0.0 if self.is_spared() else max(budget.delay for budget in self._budgets)
+        return delay + REST if delay > 0.0 else 0.0
+
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Count it."""
+        super().connection_made(transport)
+        self._limits.add(self)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Count it no more."""
+        self._limits.discard(self)
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        """Read what has arrived, then nothing for a while if that took too long."""
+        began = time.thread_time()
+        super().data_received(data)
+        self.spend(time.thread_time() - began)
+        if (rest := self.rest) > 0.0:
+            self.report_rest()
+            self.transport.pause_reading()
+            self.loop.call_later(rest, self._read_on)
+
+    def _read_on(self) -> None:
+        """Read again, unless messages wait in the queue: the library reads on after those."""
+        if not self.recv_messages.paused and not self.transport.is_closing():
+            self.transport.resume_reading()

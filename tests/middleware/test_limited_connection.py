@@ -1,0 +1,105 @@
+"""Connections of WebSocket servers take no more than their share, of time and of open files."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import socket
+from collections.abc import Iterator
+
+import pytest
+from websockets.sync.client import connect
+
+from tests.support.waiting import until
+from uwsim.bus import Bus
+from uwsim.middleware import limited_connection
+from uwsim.middleware.limited_connection import LimitedConnection
+from uwsim.middleware.log import Log
+from uwsim.middleware.web.options import WebOptions
+from uwsim.middleware.web.server import WebBridge
+from uwsim.viewer.live.server import LiveServer
+
+N_WAITING = 64
+"""Connections that may be open without a handshake."""
+
+
+@pytest.fixture
+def bridge() -> Iterator[WebBridge]:
+    made = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
+    made.step()
+    yield made
+    made.close()
+
+
+@contextlib.contextmanager
+def served(kind: str) -> Iterator[tuple[int, str]]:
+    """A server, as its port and the address of its socket."""
+    if kind == "web":
+        bridge = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
+        bridge.step()
+        yield bridge.port, f"ws://127.0.0.1:{bridge.port}"
+        bridge.close()
+    else:
+        server = LiveServer(lambda: "page")
+        address = server.url.replace("http://", "ws://").replace("/?", "/socket?")
+        yield server.port, address
+        server.close()
+
+
+def n_open_sockets() -> int:
+    found = [f"/proc/self/fd/{name}" for name in os.listdir("/proc/self/fd")]
+    targets = []
+    for path in found:
+        with contextlib.suppress(OSError):  # that of the list itself
+            targets.append(os.readlink(path))
+    return sum(target.startswith("socket:") for target in targets)
+
+
+@pytest.mark.parametrize("kind", ["web", "view"])
+def test_connections_that_say_nothing_take_few_open_files(kind: str) -> None:
+    with served(kind) as (port, address), contextlib.ExitStack() as silent:
+        before, n = n_open_sockets(), 3 * N_WAITING
+        made = [
+            silent.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(n)
+        ]
+        until(lambda: n_open_sockets() == before + n + N_WAITING)
+        broken_off = made[: n - N_WAITING]  # the oldest
+        for each in broken_off:
+            each.settimeout(60.0)
+            with contextlib.suppress(ConnectionResetError):
+                assert each.recv(1) == b""
+        with connect(address, open_timeout=60.0) as client:  # there is room for who asks
+            client.ping().wait(60.0)
+        assert n_open_sockets() <= before + n + N_WAITING
+
+
+def test_pings_beyond_the_share_wait(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The library answers them itself, before anything of ours sees them."""
+    rests: list[float] = []
+    rest = LimitedConnection.rest
+
+    def counted(connection: LimitedConnection) -> float:
+        assert rest.fget is not None
+        found: float = rest.fget(connection)
+        rests.extend([found] if found else [])
+        return found
+
+    monkeypatch.setattr(limited_connection, "REST", 0.01)
+    monkeypatch.setattr(LimitedConnection, "rest", property(counted))
+    with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
+        until(lambda: len(rests) > 3, lambda: client.socket.sendall(b"\x89\x80\0\0\0\0" * 1000))
+    assert any("sends faster than it is read" in line for line in bridge.log.lines)
+
+
+def test_pings_within_the_share_are_answered(bridge: WebBridge) -> None:
+    with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
+        for _ in range(5):
+            assert client.ping().wait(60.0)
+    assert not any("sends faster" in line for line in bridge.log.lines)
+
+
+def test_who_rests_is_read_again(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(limited_connection, "REST", 0.01)
+    with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
+        client.socket.sendall(b"\x89\x80\0\0\0\0" * 20_000)
+        assert client.ping(b"the last").wait(60.0)
