@@ -386,6 +386,28 @@ def test_a_unit_that_is_gone_or_junk_is_named_and_nothing_is_held_against_the_ot
     ]
 
 
+@pytest.mark.parametrize("at", [20, 200, -30])
+def test_a_motion_track_that_is_damaged_is_named(
+    folder: Path, capsys: pytest.CaptureFixture[str], at: int
+) -> None:
+    file = folder / "out" / "units" / "00001.motion"
+    data = bytearray(file.read_bytes())
+    data[at] ^= 0xFF
+    file.write_bytes(data)
+    status, said = verify(capsys, "--sample", "1")
+    assert status == 3
+    assert "units/00001.motion: is no motion track" in said
+
+
+def test_a_motion_track_that_is_gone_is_not_compared(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (folder / "out" / "units" / "00001.motion").unlink()
+    status, said = verify(capsys, "--sample", "1")
+    assert status == 0
+    assert "not compared: units/00001.motion: is not there" in said
+
+
 @pytest.mark.slow
 def test_what_was_typed_in_a_folder_above_is_found_there(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

@@ -16,8 +16,10 @@ from pathlib import Path
 
 from ..base.files.scratch import scratch_folder
 from ..base.rng import stream
+from ..errors import ResultError
 from ..results import journal
 from ..results.leaves import leaves
+from ..results.motion.motion_track import read_track
 from ..results.result import Result
 from ..results.result_file import dumps
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
@@ -102,6 +104,7 @@ def verify(
     with scratch_folder("uwsim-verify-") as scratch:
         if _has_journals(directory):
             _check_files(found, directory, result, replace(run, out=scratch / "stored"))
+            _check_tracks(found, directory, run.plan)
         else:
             found.not_compared.append("units/: rows are compared with result.json alone")
         again = replace(run, out=scratch / "replayed")
@@ -162,6 +165,20 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
             text = there.read_text(encoding="utf-8", errors="replace")
             if difference := differences.of_text(text, path.read_text(encoding="utf-8")):
                 found.add(path.name, f"{difference} by units/")
+
+
+def _check_tracks(found: Verification, directory: Path, plan: Plan) -> None:
+    """Read the motion track of every trial: replays and films are drawn from it."""
+    for trial in plan.trials():
+        path = journal.track_path(directory, trial.index)
+        name = f"{journal.FOLDER}/{path.name}"
+        if not path.is_file():
+            found.not_compared.append(f"{name}: is not there, so that the trial cannot be seen")
+            continue
+        try:
+            read_track(path.read_bytes())
+        except ResultError as error:
+            found.add(name, str(error))
 
 
 def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
