@@ -54,9 +54,11 @@ def load(
         UwsimError: a file, a name or a setting is wrong; names all errors of the file.
     """
     from .assets.bundled import scene_file
+    from .physics.compile_scene import compile_scene
     from .scene.reader import read_scene
     from .scene.settings import apply_setting, xacro_arguments
     from .simulation import Simulation
+    from .simulation.access.arguments import checked_seed
 
     folders = tuple(Path(folder) for folder in data_path)
     settings = _checked_settings(settings)
@@ -66,9 +68,10 @@ def load(
         scene = read_scene(path_of_scene, data_path=folders, arguments=arguments)
     for path, value in settings.items():
         scene = apply_setting(scene, path, str(value))
-    return Simulation(
-        scene, seed=seed, timestep=timestep, data_path=folders, udp_address=udp_address
+    model = compile_scene(
+        scene, seed=checked_seed(seed, "load"), timestep=timestep, data_path=folders
     )
+    return Simulation(model, udp_address=udp_address)
 
 
 def bench(

@@ -18,6 +18,7 @@ from .input_watch import watchable
 from .inputs_read import inputs_of, of_algorithm
 from .planning.plan import Plan
 from .run import Run
+from .trial.trial_cache import compile_plan
 
 
 def prepare_run(plan: Plan, out: Path) -> Run:
@@ -66,13 +67,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
         UwsimError: a file, a body, a camera or a service that is not there.
     """
     with recorded() as files:
-        simulation = Simulation(
-            plan.scene,
-            timestep=plan.timestep,
-            data_path=plan.data_path,
-            compatibility=plan.compatibility,
-            pool=pool,
-        )
+        simulation = Simulation(compile_plan(plan, 0), pool=pool)
         try:
             with attribute_errors_to(plan.plugins):
                 check_bound(plan.plugins, plan.benchmark.parts, simulation.world)

@@ -11,6 +11,7 @@ from ...acoustics import MATERIALS, Material, MaterialName
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import determinant, placed, product
 from ...model.parts import Part
+from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
 from ...rays import Balls, Hits, RayScene, Surface
 from ...scene.spec import SceneSpec
@@ -23,22 +24,21 @@ class SceneRays:
     The triangles of a scene are sorted when the first ray is cast.
 
     Args:
-        scene: spec of the scene.
-        parts: its models.
+        model: of the scene.
         state: where everything is.
         heaps: the sand over buried objects.
     """
 
     def __init__(
         self,
-        scene: SceneSpec,
-        parts: Sequence[Part],
+        model: SceneModel,
         state: Engine,
         heaps: Sequence[Heap] = (),
     ) -> None:
+        scene = model.scene
         self._state, self._heaps = state, tuple(heaps)
         self._cast_heaps: dict[int, tuple[int, RayScene]] = {}
-        self._parts = tuple(part for part in parts if not part.is_hidden)
+        self._parts = tuple(part for part in model.parts if not part.is_hidden)
         names = {part.id: _material(scene, part) for part in self._parts}
         numbers = range(max(names, default=0) + 1)
         self.materials: tuple[Material, ...] = tuple(
