@@ -37,6 +37,7 @@ def load(
     settings: Mapping[str, Setting] | None = None,
     data_path: Sequence[str | Path] = (),
     udp_address: str | None = None,
+    is_blind: bool = False,
 ) -> Simulation:
     """Open a scene at step 0; its first messages go out with the first `advance`.
 
@@ -49,6 +50,7 @@ def load(
         data_path: more folders in which files are looked for.
         udp_address: of this computer, at which vehicles with ``<fdm>`` take UDP packets, for
             example ``127.0.0.1``; without it they take none, and the run can be repeated.
+        is_blind: images on topics are black, and nothing is drawn for them.
 
     Raises:
         UwsimError: a file, a name or a setting is wrong; names all errors of the file.
@@ -71,7 +73,7 @@ def load(
     model = compile_scene(
         scene, seed=checked_seed(seed, "load"), timestep=timestep, data_path=folders
     )
-    return Simulation(model, udp_address=udp_address)
+    return Simulation(model, udp_address=udp_address, is_blind=is_blind)
 
 
 def bench(

@@ -9,13 +9,13 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from uwsim.physics.compile import compile_scene
 
 from uwsim.base.geometry import Pose
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
 from uwsim.physics import compile as compile_module
 from uwsim.physics import compiled_models
-from uwsim.physics.compile import compile_scene
 from uwsim.physics.compiled_models import NoContent, cached_model, content_digest
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.spec import SceneSpec

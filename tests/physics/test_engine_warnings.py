@@ -9,18 +9,18 @@ from pathlib import Path
 import mujoco
 import numpy as np
 import pytest
+from uwsim.physics.compile import compile_scene
 
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.errors import RunFailed
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
-from uwsim.physics.compile import compile_scene
 from uwsim.physics.engine_warnings import hush, say_too_fast, speeds_of, too_fast, why_untrue
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation
 
 BALLS = "".join(f'<body name="b{i}"><freejoint/><geom size="0.1"/></body>' for i in range(30))
 MODEL = '<mujoco><size memory="{memory}"/><worldbody>' + BALLS + "</worldbody></mujoco>"
@@ -28,7 +28,7 @@ SCENE = Path(str(resources.files("uwsim") / "data" / "scenes" / "currents-scene.
 
 
 def diverge() -> None:
-    simulation = Simulation(read_scene(SCENE).nominal, is_blind=True)
+    simulation = open_scene(read_scene(SCENE).nominal, is_blind=True)
     simulation.world.state._data.qvel[0] = 1e12
     try:
         simulation.advance()

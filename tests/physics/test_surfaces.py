@@ -8,11 +8,11 @@ from dataclasses import replace
 import mujoco
 import numpy as np
 import pytest
+from uwsim.physics.compile import compile_scene
 
 from uwsim.base.geometry import Pose
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
-from uwsim.physics.compile import compile_scene
 from uwsim.physics.free_objects import loose_link
 from uwsim.physics.restitution import bounce, contact_spring
 from uwsim.scene.object import ObjectSpec, PhysicsSpec

@@ -5,6 +5,7 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 import pytest
+from uwsim.physics.compile import compile_scene
 
 from tests.physics.collision.surfaces import grid, irregular, model_of, rock
 from uwsim.base.geometry import Array, Pose
@@ -14,7 +15,6 @@ from uwsim.model.collision import height_field as fields
 from uwsim.model.collision.ground import Ground
 from uwsim.model.collision.height_field import EXACT, TILE, HeightField, height_field
 from uwsim.model.collision.shapes import CollisionShape, shapes_of
-from uwsim.physics.compile import compile_scene
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
