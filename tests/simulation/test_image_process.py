@@ -49,7 +49,7 @@ class Seen:
 def elsewhere(scene: str, topic: str) -> Iterator[tuple[Seen, ImageProcess, list[str]]]:
     """A simulation whose images are drawn elsewhere, from some time on."""
     seen, said = Seen(scene, topic), list[str]()
-    process = ImageProcess(seen.simulation, seen.scene, {"seed": SEED}, said.append)
+    process = ImageProcess(seen.simulation, said.append)
     try:
         seen.advance()
         until(lambda: process.is_ready, process.step)

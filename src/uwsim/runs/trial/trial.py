@@ -50,7 +50,7 @@ from .onlooker import Onlooker
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
 from .status import SIMULATION_ERROR, StatusMonitor, legible
-from .trial_cache import TrialCache
+from .trial_cache import TrialCache, compile_plan
 from .trial_recorder import TrialRecorder
 from .triggered_measure import TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts
@@ -66,7 +66,7 @@ def execute(
     plan: Plan,
     trial: Trial,
     *,
-    cache: TrialCache,
+    cache: TrialCache | None = None,
     calls: Calls | None = None,
     onlooker: Onlooker | None = None,
     recorder: TrialRecorder | None = None,
@@ -76,7 +76,8 @@ def execute(
     Args:
         plan: the benchmark to run.
         trial: one of its trials.
-        cache: keeps what does not change from trial to trial.
+        cache: keeps what does not change from trial to trial; without one the trial compiles its
+            scene and has a renderer of its own.
         calls: counts those into the algorithm.
         onlooker: looks on between the steps.
         recorder: writes down the messages.
@@ -87,10 +88,10 @@ def execute(
     calls = calls or Calls()
     with program_of(plan, calls.limit) as program:  # its process starts while the scene is opened
         simulation = Simulation(
-            cache.model(plan, trial.seed),
+            compile_plan(plan, trial.seed) if cache is None else cache.model(plan, trial.seed),
             stream_prefix=trial.stream_prefix,
             is_blind=plan.is_blind,
-            pool=cache.renderers,
+            pool=None if cache is None else cache.renderers,
         )
         try:
             with (
