@@ -8,14 +8,19 @@ from functools import cached_property
 from pathlib import Path
 
 import mujoco
+import numpy as np
 
+from ..base.geometry import Pose, quaternion_from_rotation
+from ..devices.object_picker import ObjectPickerSpec
 from ..scene.hydrodynamics import VehicleHydrodynamics
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
+from .body_names import object_body
 from .collision.scene_shapes import collision_shapes
 from .collision.shapes import CollisionShape
 from .collision.solid_grounds import SolidGround, solid_grounds
 from .parts import Part, parts_of
+from .ray_bodies import RayBodies
 from .water_density import density_levels
 
 
@@ -62,6 +67,34 @@ class SceneModel:
         return collision_shapes(scene, self.robots, vehicles, scene.solid_objects, self.data_path)
 
     @cached_property
+    def placed_objects(self) -> Mapping[int, Pose]:
+        """``world_from_object`` of each object that is no body of the engine, by its number."""
+        bodies = {self.engine_model.body(i).name for i in range(self.engine_model.nbody)}
+        return {
+            index: _as_the_engine_has_it(
+                self.scene.world_from_localized @ thing.localized_from_object
+            )
+            for index, thing in enumerate(self.scene.objects)
+            if object_body(index) not in bodies
+        }
+
+    @cached_property
+    def fixed_objects(self) -> Mapping[int, Pose]:
+        """The same of those that stay where they are for good: nothing can pick them up."""
+        scene = self.scene
+        has_picker = any(each.parts_of(ObjectPickerSpec) for each in scene.vehicles)
+        return {
+            index: pose
+            for index, pose in self.placed_objects.items()
+            if scene.objects[index].is_ground or not has_picker
+        }
+
+    @cached_property
+    def ray_bodies(self) -> RayBodies:
+        """The bodies that rays meet; their triangles are sorted when they are first asked for."""
+        return RayBodies(self.scene, self.parts, self.fixed_objects)
+
+    @cached_property
     def grounds(self) -> tuple[SolidGround, ...]:
         """The ground that bodies may not pass through."""
         return tuple(solid_grounds(self.scene, self.shapes, self.data_path))
@@ -75,3 +108,11 @@ class SceneModel:
     def hydrodynamics_files(self) -> Mapping[str, Path]:
         """The hydrodynamics files of its vehicles, by name."""
         return {path.name: path for each in self.dynamics.values() for path in each.files}
+
+
+def _as_the_engine_has_it(pose: Pose) -> Pose:
+    """Return a pose by way of a quaternion, which is what the engine keeps."""
+    rotation, quaternion = np.zeros(9), quaternion_from_rotation(pose.rotation)
+    mujoco.mju_normalize4(quaternion)
+    mujoco.mju_quat2Mat(rotation, quaternion)
+    return Pose(pose.position.copy(), rotation.reshape(3, 3))

@@ -76,7 +76,7 @@ class Engine:
         names = [body_name(scene, model.body(i).name) for i in range(model.nbody)]
         self.motion = Motion(model, data, names)
         """Positions and velocities of all bodies, as one row of numbers."""
-        self.poses = Poses(scene, robots, model, data)
+        self.poses = Poses(scene_model, model, data)
         """Where everything is, as frames."""
         self.link_motion = LinkMotion(model, data, self.poses)
         """How the links of vehicles move."""
