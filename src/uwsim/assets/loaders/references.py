@@ -19,6 +19,36 @@ NO_IMAGES = (".mtl", ".bin", ".glb", ".gltf", ".obj")
 """Files that a mesh file names and that are no images."""
 
 
+TEXTURE_OPTIONS = {
+    **dict.fromkeys(("-blendu", "-blendv", "-boost", "-texres", "-clamp", "-bm", "-imfchan"), 1),
+    **dict.fromkeys(("-type", "-cc"), 1),
+    "-mm": 2,
+    **dict.fromkeys(("-o", "-s", "-t"), 3),
+}
+"""Options before the name of an image in an .mtl file, and how many values each has at most."""
+UP_TO = ("-o", "-s", "-t")
+"""Options of which fewer values may be given: numbers that follow."""
+
+
+def without_options(text: str) -> str:
+    """Return the name of an image in a line of an .mtl file; options are not applied."""
+    words = text.split()
+    while words and words[0].lower() in TEXTURE_OPTIONS:
+        option, *words = words
+        left = TEXTURE_OPTIONS[option.lower()]
+        while left and words and (option.lower() not in UP_TO or _is_number(words[0])):
+            words, left = words[1:], left - 1
+    return " ".join(words) if words and text.lstrip().startswith("-") else text
+
+
+def _is_number(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
 class References:
     """The resolver with which trimesh opens the files that a mesh file names.
 
@@ -65,15 +95,17 @@ class References:
         ]
 
     def _found(self, name: str) -> bytes:
-        asked = PurePosixPath(name.strip().replace("\\", "/"))
-        for place in (asked, PurePosixPath(asked.name)):
+        plain = without_options(name)
+        texts = (name, plain) if plain != name else (name,)
+        asked = [PurePosixPath(text.strip().replace("\\", "/")) for text in texts]
+        for place in (each for full in asked for each in (full, PurePosixPath(full.name))):
             for folder in self._folders:
                 path = folder / place
                 if not place.is_absolute() and path.exists() and is_inside(path, self._within):
                     if place.suffix.lower() not in NO_IMAGES:
                         self._images[name] = path
                     return self._read(path, place)
-        if any(_exists(folder / asked) for folder in self._folders):
+        if any(_exists(folder / full) for folder in self._folders for full in asked):
             raise AssetError(
                 f"names the file {name[:200]!r}, which is outside its folder; --data-path adds one"
             )

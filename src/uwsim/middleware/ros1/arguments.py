@@ -13,6 +13,8 @@ NAME = re.compile(r"[~/A-Za-z][\w/]*")
 """A legal name in a graph of ROS 1; it has no two slashes in a row."""
 TYPE = re.compile(r"\*|[A-Za-z]\w*/[A-Za-z]\w*")
 """A message type, or any."""
+MAX_TEXT = 1000
+"""Longest name, type or address [characters]; ROS has no limit."""
 ERROR, FAILURE = -1, 0
 """Codes of answers: the caller is wrong; the call failed."""
 Check = Callable[[str, object], "str | None"]
@@ -47,11 +49,15 @@ class Method:
         caller, *given = arguments
         if not isinstance(caller, str):
             return "caller_id must be a string"
+        if len(caller) > MAX_TEXT:
+            return f"caller_id has more than {MAX_TEXT} characters"
         n_needed = sum(not each.is_optional for each in self.parameters)
         if not n_needed <= len(given) <= len(self.parameters):
             names = ", ".join(("caller_id", *(each.name for each in self.parameters)))
             return f"wrong number of arguments ({len(arguments)}); expected {names}"
         for parameter, value in zip(self.parameters, given, strict=False):
+            if parameter.check in TEXTS and isinstance(value, str) and len(value) > MAX_TEXT:
+                return f"parameter [{parameter.name}] has more than {MAX_TEXT} characters"
             if (wrong := parameter.check(parameter.name, value)) is not None:
                 return wrong
         return None
@@ -120,6 +126,8 @@ def _is_given(parameter: str, value: object) -> str | None:
     return f"parameter [{parameter}] must be specified" if value is None else None
 
 
+TEXTS = (_is_name, _is_name_of_something, _is_name_or_empty, _is_type, _is_uri, _is_key)
+"""Checks of names, types and addresses; a value of a parameter may be longer."""
 TOPIC, SERVICE = (Parameter(name, _is_name_of_something) for name in ("topic", "service"))
 TYPE_OF_TOPIC = Parameter("topic_type", _is_type)
 CALLER_URI, SERVICE_URI = (Parameter(name, _is_uri) for name in ("caller_api", "service_api"))

@@ -151,6 +151,18 @@ class Wanted:
     """Whether a node, as `node_of` names it, may answer for the service of that name."""
 
 
+def _address(uri: str, name: str) -> tuple[str, int]:
+    """Return host and port of the service of a name."""
+    try:
+        place = urlsplit(uri)
+        host, port = place.hostname, place.port
+    except ValueError:
+        host, port = None, None
+    if not host or not port:
+        raise PeerError(f"service {name} is at {uri[:100]!r}, which is no address")
+    return host, port
+
+
 def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
     """Call a service outside and return its response.
 
@@ -163,10 +175,8 @@ def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
     Raises:
         PeerError: nobody answers, or with an error; or a node that may not.
     """
-    place, name = urlsplit(uri), wanted.name
-    if not place.hostname or not place.port:
-        raise PeerError(f"service {name} is at {uri}, which is no address")
-    connection = open_connection(place.hostname, place.port, CALL_TIMEOUT)
+    name = wanted.name
+    connection = open_connection(*_address(uri, name), CALL_TIMEOUT)
     try:
         fields = {"callerid": caller, "md5sum": wanted.type.md5, "service": name}
         write(connection, encode_header(fields))

@@ -9,7 +9,7 @@ from lxml import etree
 
 from ...schema import Diagnostics, source_line
 from ..checks.angles import MORE_THAN_A_TURN
-from .robot import JointKind, JointSpec, LinkSpec, MimicSpec
+from .robot import CRANK, MAX_RATIO, JointKind, JointSpec, LinkSpec, MimicSpec
 from .values import name_of, number_of, origin_of, triple_of
 
 MOVABLE = ("revolute", "continuous", "prismatic")
@@ -164,6 +164,56 @@ def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None
             turned = (*loop[i:], *loop[:i], member)[:100]
             message = " mimics ".join(repr(each) for each in turned)
             diagnostics.error(joints[member], f"joint {message[:200]}: a loop")
+
+
+def follow_chains(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> dict[str, JointSpec]:
+    r"""Let joints that mimic one that mimics follow the first of the chain.
+
+    With q_1 = m_1 q_0 + o_1 and q_2 = m_2 q_1 + o_2,
+
+    .. math:: q_2 = m_1 m_2\,q_0 + m_2 o_1 + o_2
+
+    A slider-crank moves otherwise; what mimics it stays at its offset, which is reported. There is
+    no loop (`check_mimics`).
+    """
+    resolved: dict[str, JointSpec] = {}
+    for name in joints:
+        path: list[str] = []
+        while name in joints and name not in resolved:
+            path.append(name)
+            mimic = joints[name].mimic
+            name = "" if mimic is None else mimic.joint
+        for member in reversed(path):
+            resolved[member] = _with_first(joints[member], resolved, diagnostics)
+    return {name: resolved[name] for name in joints}
+
+
+def _with_first(
+    joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
+) -> JointSpec:
+    """Return a joint that mimics one that moves by itself; ``joints`` has its leader."""
+    mimic = joint.mimic
+    leader = None if mimic is None else joints[mimic.joint].mimic
+    if mimic is None or leader is None:
+        return joint
+    if CRANK in mimic.joint or CRANK in joint.name:
+        diagnostics.warning(
+            joint,
+            f"joint {joint.name!r} mimics {mimic.joint!r}, which mimics another; a slider-crank is "
+            "not followed in such a chain: it stays at its offset",
+        )
+        return joint
+    multiplier = leader.multiplier * mimic.multiplier
+    offset = mimic.multiplier * leader.offset + mimic.offset
+    if not max(abs(multiplier), abs(offset)) <= MAX_RATIO:
+        diagnostics.error(
+            joint,
+            f"joint {joint.name!r} mimics {leader.joint!r} with the multiplier {multiplier:.3g} "
+            f"and the offset {offset:.3g}; expected at most {MAX_RATIO:g}",
+        )
+        return joint
+    whole = dataclasses.replace(mimic, joint=leader.joint, multiplier=multiplier, offset=offset)
+    return dataclasses.replace(joint, mimic=whole)
 
 
 def _end(

@@ -28,6 +28,10 @@ Colour = tuple[float, float, float, float]
 ShapeKind = Literal["mesh", "box", "cylinder", "sphere"]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 
+CRANK = "slidercrank"
+"""In the name of a joint that mimics as a slider-crank does."""
+MAX_RATIO = 1e6
+"""Greatest multiplier and offset with which a joint follows the first of a chain."""
 MAX_ANGLE = 1e6
 """Greatest angle that a joint without end stops is set to [rad]."""
 
