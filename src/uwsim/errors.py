@@ -217,8 +217,14 @@ def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
     return f"{meant} Nearest of {len(names)}: {', '.join(near)}"
 
 
+MAX_NAME = 200
+"""The longest text for which a name is looked for [characters]: peers send longer ones."""
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return " Did you mean 'x'?" for the nearest known name, or nothing."""
+    """Return " Did you mean 'x'?" for the nearest known name, or nothing, as for a long text."""
+    if len(name) > MAX_NAME:
+        return ""
     names = list(known)
     by_lower = {candidate.lower(): candidate for candidate in names}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)

@@ -103,3 +103,16 @@ def test_who_rests_is_read_again(bridge: WebBridge, monkeypatch: pytest.MonkeyPa
     with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
         client.socket.sendall(b"\x89\x80\0\0\0\0" * 20_000)
         assert client.ping(b"the last").wait(60.0)
+
+
+def test_a_large_frame_counts_wholly_for_its_client_and_little_for_others(
+    bridge: WebBridge,
+) -> None:
+    limits = bridge._limits
+    with connect(f"ws://127.0.0.1:{bridge.port}") as client:
+        client.ping().wait(60.0)
+        (connection,) = limits._open
+        connection.spend(0.5)  # [s]
+        assert 15.0 < connection.rest < 26.0  # 0.5 s are 2 % of 25 s
+        assert limits.work is not None
+        assert limits.work.delay < 2.0

@@ -12,8 +12,9 @@ from websockets.protocol import State
 
 from .work_budget import WorkBudget
 
-MAX_COST = 0.05
-"""The most time that one reading counts [s]."""
+MAX_COST, MAX_SHARED_COST = 1.0, 0.05
+"""The most time that one reading counts for its client, and for all together [s]: a large frame of
+one client keeps the others from being read for a moment only."""
 REST = 0.1
 """How long a client beyond its share is not read, besides what it has taken too much [s]: each time
 that the server wakes, the simulation waits for Python's lock."""
@@ -64,8 +65,7 @@ class LimitedConnection(ServerConnection):
     def __init__(self, *arguments: Any, limits: ConnectionLimits, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self._limits = limits
-        own = WorkBudget(limits.share, limits.burst)
-        self._budgets = (own,) if limits.work is None else (own, limits.work)
+        self._own = WorkBudget(limits.share, limits.burst)
         self.is_spared: Callable[[], bool] = lambda: False
         """Returns whether it may take as long as it likes."""
         self.report_rest: Callable[[], None] = lambda: None
@@ -75,13 +75,17 @@ class LimitedConnection(ServerConnection):
         """Count work for this connection [s], unless it is spared."""
         if self.is_spared():
             return
-        for budget in self._budgets:
-            budget.spend(min(seconds, MAX_COST))
+        self._own.spend(min(seconds, MAX_COST))
+        if self._limits.work is not None:
+            self._limits.work.spend(min(seconds, MAX_SHARED_COST))
 
     @property
     def rest(self) -> float:
         """How long it should not be read now [s]; 0: it may be."""
-        delay = 0.0 if self.is_spared() else max(budget.delay for budget in self._budgets)
+        if self.is_spared():
+            return 0.0
+        shared = 0.0 if self._limits.work is None else self._limits.work.delay
+        delay = max(self._own.delay, shared)
         return delay + REST if delay > 0.0 else 0.0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
