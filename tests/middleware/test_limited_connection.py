@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 import socket
 from collections.abc import Iterator
 
@@ -13,7 +12,7 @@ from websockets.sync.client import connect
 from tests.support.waiting import until
 from uwsim.bus import Bus
 from uwsim.middleware import limited_connection
-from uwsim.middleware.limited_connection import LimitedConnection
+from uwsim.middleware.limited_connection import ConnectionLimits, LimitedConnection
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
@@ -32,45 +31,34 @@ def bridge() -> Iterator[WebBridge]:
 
 
 @contextlib.contextmanager
-def served(kind: str) -> Iterator[tuple[int, str]]:
-    """A server, as its port and the address of its socket."""
+def served(kind: str) -> Iterator[tuple[int, str, ConnectionLimits]]:
+    """A server: its port, the address of its socket, and its limits."""
     if kind == "web":
         bridge = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
         bridge.step()
-        yield bridge.port, f"ws://127.0.0.1:{bridge.port}"
+        yield bridge.port, f"ws://127.0.0.1:{bridge.port}", bridge._limits
         bridge.close()
     else:
         server = LiveServer(lambda: "page")
         address = server.url.replace("http://", "ws://").replace("/?", "/socket?")
-        yield server.port, address
+        yield server.port, address, server._limits
         server.close()
-
-
-def n_open_sockets() -> int:
-    found = [f"/proc/self/fd/{name}" for name in os.listdir("/proc/self/fd")]
-    targets = []
-    for path in found:
-        with contextlib.suppress(OSError):  # that of the list itself
-            targets.append(os.readlink(path))
-    return sum(target.startswith("socket:") for target in targets)
 
 
 @pytest.mark.parametrize("kind", ["web", "view"])
 def test_connections_that_say_nothing_take_few_open_files(kind: str) -> None:
-    with served(kind) as (port, address), contextlib.ExitStack() as silent:
-        before, n = n_open_sockets(), 3 * N_WAITING
+    with served(kind) as (port, address, limits), contextlib.ExitStack() as silent:
+        n = 3 * N_WAITING
         made = [
             silent.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(n)
         ]
-        until(lambda: n_open_sockets() == before + n + N_WAITING)
-        broken_off = made[: n - N_WAITING]  # the oldest
-        for each in broken_off:
+        for each in made[: n - N_WAITING]:  # the oldest are broken off
             each.settimeout(60.0)
             with contextlib.suppress(ConnectionResetError):
                 assert each.recv(1) == b""
+        assert len(limits._open) <= N_WAITING
         with connect(address, open_timeout=60.0) as client:  # there is room for who asks
-            client.ping().wait(60.0)
-        assert n_open_sockets() <= before + n + N_WAITING
+            assert client.ping().wait(60.0)
 
 
 def test_pings_beyond_the_share_wait(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -85,6 +73,8 @@ def test_pings_beyond_the_share_wait(bridge: WebBridge, monkeypatch: pytest.Monk
         return found
 
     monkeypatch.setattr(limited_connection, "REST", 0.01)
+    limits = bridge._limits
+    limits.share, limits.burst, limits.work = 0.5, 0.001, None  # short rests
     monkeypatch.setattr(LimitedConnection, "rest", property(counted))
     with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
         until(lambda: len(rests) > 3, lambda: client.socket.sendall(b"\x89\x80\0\0\0\0" * 1000))
@@ -100,6 +90,8 @@ def test_pings_within_the_share_are_answered(bridge: WebBridge) -> None:
 
 def test_who_rests_is_read_again(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(limited_connection, "REST", 0.01)
+    limits = bridge._limits
+    limits.share, limits.burst, limits.work = 0.5, 0.001, None  # short rests
     with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
         client.socket.sendall(b"\x89\x80\0\0\0\0" * 20_000)
         assert client.ping(b"the last").wait(60.0)
