@@ -63,4 +63,6 @@ def test_of_many_names_the_nearest_are_listed() -> None:
 def test_no_name_is_looked_for_near_an_endless_text() -> None:
     """Of a peer: it took seconds, in which nothing else was read."""
     assert did_you_mean("publis", ["publish"]) == " Did you mean 'publish'?"
-    assert did_you_mean("publish" * 1_000_000, ["publish" * 1_000_000 + "s"]) == ""
+    endless = "publish" * 1_000_000
+    assert did_you_mean(endless, [f"{endless}s"]) == ""
+    assert "Nearest of 40: " in str(UnknownName("topic", endless, [f"t{i}" for i in range(40)]))

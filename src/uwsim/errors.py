@@ -34,6 +34,8 @@ from typing import Any, Literal
 
 MAX_LISTED = 16
 """Greatest number of names listed; of more, the nearest `N_NEAREST` are."""
+MAX_NAME = 200
+"""The longest text for which a name is looked for [characters]: peers send longer ones."""
 N_NEAREST = 3
 
 
@@ -213,12 +215,8 @@ def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
     meant = did_you_mean(name, names)
     if len(names) <= MAX_LISTED:
         return f"{meant} {called}: {', '.join(names) or 'none'}"
-    near = difflib.get_close_matches(name, names, n=N_NEAREST, cutoff=0.0)
+    near = difflib.get_close_matches(name[:MAX_NAME], names, n=N_NEAREST, cutoff=0.0)
     return f"{meant} Nearest of {len(names)}: {', '.join(near)}"
-
-
-MAX_NAME = 200
-"""The longest text for which a name is looked for [characters]: peers send longer ones."""
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -6,7 +6,7 @@ import math
 
 import mujoco
 
-from ..scene.urdf.robot import CRANK, JointSpec, MimicSpec, RobotSpec
+from ..scene.urdf.robot import JointSpec, MimicSpec, RobotSpec
 
 SERVO = (400.0, 60.0)
 """Stiffness [N m/rad] and damping [N m s/rad] of the servo that holds a joint of much effort."""
@@ -61,7 +61,7 @@ def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
     """Whether a joint is coupled to another by a gear."""
     moving = [other.name for other in robot.joints if other.moves]
     is_bound = joint.mimic is not None and joint.mimic.joint in moving
-    return is_bound and CRANK not in joint.name
+    return is_bound and not joint.is_crank
 
 
 def add_gear(

@@ -8,6 +8,7 @@ file, the mesh goes without it.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
@@ -17,36 +18,12 @@ from .looks import is_broken
 
 NO_IMAGES = (".mtl", ".bin", ".glb", ".gltf", ".obj")
 """Files that a mesh file names and that are no images."""
-
-
-TEXTURE_OPTIONS = {
-    **dict.fromkeys(("-blendu", "-blendv", "-boost", "-texres", "-clamp", "-bm", "-imfchan"), 1),
-    **dict.fromkeys(("-type", "-cc"), 1),
-    "-mm": 2,
-    **dict.fromkeys(("-o", "-s", "-t"), 3),
-}
-"""Options before the name of an image in an .mtl file, and how many values each has at most."""
-UP_TO = ("-o", "-s", "-t")
-"""Options of which fewer values may be given: numbers that follow."""
-
-
-def without_options(text: str) -> str:
-    """Return the name of an image in a line of an .mtl file; options are not applied."""
-    words = text.split()
-    while words and words[0].lower() in TEXTURE_OPTIONS:
-        option, *words = words
-        left = TEXTURE_OPTIONS[option.lower()]
-        while left and words and (option.lower() not in UP_TO or _is_number(words[0])):
-            words, left = words[1:], left - 1
-    return " ".join(words) if words and text.lstrip().startswith("-") else text
-
-
-def _is_number(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
+OPTIONS = re.compile(
+    r"\A\s*(?:-(?:(?:blendu|blendv|boost|texres|clamp|cc|bm|imfchan|type)\s+\S+|mm\s+\S+\s+\S+"
+    r"|[ost](?:\s+[-+.\d][-+.\de]*){0,3})\s+)+",
+    re.IGNORECASE,
+)
+"""Options before the name of an image in an .mtl file, with their values; they are not applied."""
 
 
 class References:
@@ -95,8 +72,7 @@ class References:
         ]
 
     def _found(self, name: str) -> bytes:
-        plain = without_options(name)
-        texts = (name, plain) if plain != name else (name,)
+        texts = dict.fromkeys((name, OPTIONS.sub("", name, count=1)))
         asked = [PurePosixPath(text.strip().replace("\\", "/")) for text in texts]
         for place in (each for full in asked for each in (full, PurePosixPath(full.name))):
             for folder in self._folders:

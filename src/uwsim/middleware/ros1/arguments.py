@@ -49,15 +49,13 @@ class Method:
         caller, *given = arguments
         if not isinstance(caller, str):
             return "caller_id must be a string"
-        if len(caller) > MAX_TEXT:
-            return f"caller_id has more than {MAX_TEXT} characters"
+        if (wrong := _too_long("caller_id", caller)) is not None:
+            return wrong
         n_needed = sum(not each.is_optional for each in self.parameters)
         if not n_needed <= len(given) <= len(self.parameters):
             names = ", ".join(("caller_id", *(each.name for each in self.parameters)))
             return f"wrong number of arguments ({len(arguments)}); expected {names}"
         for parameter, value in zip(self.parameters, given, strict=False):
-            if parameter.check in TEXTS and isinstance(value, str) and len(value) > MAX_TEXT:
-                return f"parameter [{parameter.name}] has more than {MAX_TEXT} characters"
             if (wrong := parameter.check(parameter.name, value)) is not None:
                 return wrong
         return None
@@ -77,9 +75,20 @@ def checked(method: Method, call: Callable[..., Answer]) -> Callable[..., Answer
     return answer
 
 
-def _is_name(parameter: str, value: object) -> str | None:
+def _too_long(what: str, text: str) -> str | None:
+    return f"{what} has more than {MAX_TEXT} characters" if len(text) > MAX_TEXT else None
+
+
+def _is_key(parameter: str, value: object) -> str | None:
     if not isinstance(value, str) or not value:
         return f"parameter [{parameter}] must be a non-empty string"
+    return _too_long(f"parameter [{parameter}]", value)
+
+
+def _is_name(parameter: str, value: object) -> str | None:
+    if (wrong := _is_key(parameter, value)) is not None:
+        return wrong
+    assert isinstance(value, str)
     if not NAME.fullmatch(value) or "//" in value:
         return f"parameter [{parameter}] contains illegal chars"
     return None
@@ -96,8 +105,9 @@ def _is_name_or_empty(parameter: str, value: object) -> str | None:
 
 
 def _is_type(parameter: str, value: object) -> str | None:
-    if not isinstance(value, str) or not value:
-        return f"parameter [{parameter}] must be a non-empty string"
+    if (wrong := _is_key(parameter, value)) is not None:
+        return wrong
+    assert isinstance(value, str)
     is_legal = TYPE.fullmatch(value)
     return None if is_legal else f"parameter [{parameter}] is not a valid package resource name"
 
@@ -105,17 +115,11 @@ def _is_type(parameter: str, value: object) -> str | None:
 def _is_uri(parameter: str, value: object) -> str | None:
     if not isinstance(value, str) or not value.startswith(("http://", "rosrpc://")):
         return f"parameter [{parameter}] is not an RPC URI"
-    return None
+    return _too_long(f"parameter [{parameter}]", value)
 
 
 def _is_text(parameter: str, value: object) -> str | None:
     return None if isinstance(value, str) else f"parameter [{parameter}] must be a string"
-
-
-def _is_key(parameter: str, value: object) -> str | None:
-    if not isinstance(value, str) or not value:
-        return f"parameter [{parameter}] must be a non-empty string"
-    return None
 
 
 def _is_list(parameter: str, value: object) -> str | None:
@@ -126,8 +130,6 @@ def _is_given(parameter: str, value: object) -> str | None:
     return f"parameter [{parameter}] must be specified" if value is None else None
 
 
-TEXTS = (_is_name, _is_name_of_something, _is_name_or_empty, _is_type, _is_uri, _is_key)
-"""Checks of names, types and addresses; a value of a parameter may be longer."""
 TOPIC, SERVICE = (Parameter(name, _is_name_of_something) for name in ("topic", "service"))
 TYPE_OF_TOPIC = Parameter("topic_type", _is_type)
 CALLER_URI, SERVICE_URI = (Parameter(name, _is_uri) for name in ("caller_api", "service_api"))

@@ -14,12 +14,12 @@ from concurrent.futures import TimeoutError as FutureTimeout
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
-from urllib.parse import urlsplit
 
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_ros1, to_ros1
 from ..stamps import inward, outward
 from ..types import WireService
+from .address import read_address
 from .tcpros import (
     PeerError,
     close,
@@ -151,18 +151,6 @@ class Wanted:
     """Whether a node, as `node_of` names it, may answer for the service of that name."""
 
 
-def _address(uri: str, name: str) -> tuple[str, int]:
-    """Return host and port of the service of a name."""
-    try:
-        place = urlsplit(uri)
-        host, port = place.hostname, place.port
-    except ValueError:
-        host, port = None, None
-    if not host or not port:
-        raise PeerError(f"service {name} is at {uri[:100]!r}, which is no address")
-    return host, port
-
-
 def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
     """Call a service outside and return its response.
 
@@ -175,8 +163,10 @@ def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
     Raises:
         PeerError: nobody answers, or with an error; or a node that may not.
     """
-    name = wanted.name
-    connection = open_connection(*_address(uri, name), CALL_TIMEOUT)
+    name, address = wanted.name, read_address(uri)
+    if address is None or not address.port:
+        raise PeerError(f"service {name} is at {uri[:100]!r}, which is no address")
+    connection = open_connection(address.host, address.port, CALL_TIMEOUT)
     try:
         fields = {"callerid": caller, "md5sum": wanted.type.md5, "service": name}
         write(connection, encode_header(fields))

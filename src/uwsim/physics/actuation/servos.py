@@ -19,7 +19,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array
 from ...model.body_names import vehicle_joint
-from ...scene.urdf.robot import CRANK, JointSpec, RobotSpec
+from ...scene.urdf.robot import JointSpec, RobotSpec
 from ..joints import servo_gains, stops
 from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 
@@ -149,7 +149,7 @@ def _joint_records(moving: list[JointSpec]) -> npt.NDArray[np.void]:
         record["max_speed"] = min(joint.velocity, MAX_SPEED)
         record["kind"] = OWN
         if joint.mimic is not None:
-            record["kind"] = CRANKED if CRANK in joint.name else GEARED
+            record["kind"] = CRANKED if joint.is_crank else GEARED
             leads = [one.name for one in moving if one.mimic is None]
             leader = joint.mimic.joint
             record["leader"] = names.index(leader) if leader in leads else -1

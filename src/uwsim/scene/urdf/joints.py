@@ -9,7 +9,7 @@ from lxml import etree
 
 from ...schema import Diagnostics, source_line
 from ..checks.angles import MORE_THAN_A_TURN
-from .robot import CRANK, MAX_RATIO, JointKind, JointSpec, LinkSpec, MimicSpec
+from .robot import JointKind, JointSpec, LinkSpec, MimicSpec
 from .values import name_of, number_of, origin_of, triple_of
 
 MOVABLE = ("revolute", "continuous", "prismatic")
@@ -19,6 +19,8 @@ NO_STOPS = (-math.inf, math.inf)
 
 Bounds of less than a turn hold for it, too, as in the original: its robots are written so.
 """
+MAX_RATIO = 1e6
+"""Greatest multiplier and offset with which a joint follows the first of a chain."""
 A_TURN = 0.99 * math.tau
 """Bounds this far apart leave no angle out: 3.14 on both sides is meant as pi [rad]."""
 
@@ -193,26 +195,27 @@ def _with_first(
 ) -> JointSpec:
     """Return a joint that mimics one that moves by itself; ``joints`` has its leader."""
     mimic = joint.mimic
-    leader = None if mimic is None else joints[mimic.joint].mimic
-    if mimic is None or leader is None:
+    leader = None if mimic is None else joints[mimic.joint]
+    if mimic is None or leader is None or leader.mimic is None:
         return joint
-    if CRANK in mimic.joint or CRANK in joint.name:
+    if leader.is_crank or joint.is_crank:
         diagnostics.warning(
             joint,
             f"joint {joint.name!r} mimics {mimic.joint!r}, which mimics another; a slider-crank is "
             "not followed in such a chain: it stays at its offset",
         )
         return joint
-    multiplier = leader.multiplier * mimic.multiplier
-    offset = mimic.multiplier * leader.offset + mimic.offset
+    first = leader.mimic
+    multiplier = first.multiplier * mimic.multiplier
+    offset = mimic.multiplier * first.offset + mimic.offset
     if not max(abs(multiplier), abs(offset)) <= MAX_RATIO:
         diagnostics.error(
             joint,
-            f"joint {joint.name!r} mimics {leader.joint!r} with the multiplier {multiplier:.3g} "
+            f"joint {joint.name!r} mimics {first.joint!r} with the multiplier {multiplier:.3g} "
             f"and the offset {offset:.3g}; expected at most {MAX_RATIO:g}",
         )
         return joint
-    whole = dataclasses.replace(mimic, joint=leader.joint, multiplier=multiplier, offset=offset)
+    whole = dataclasses.replace(mimic, joint=first.joint, multiplier=multiplier, offset=offset)
     return dataclasses.replace(joint, mimic=whole)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...base.geometry import Pose, rotation_about
 from ...base.numerics.linear import length
-from .robot import CRANK, JointSpec, RobotSpec
+from .robot import JointSpec, RobotSpec
 
 
 def joint_positions(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, float]:
@@ -54,7 +54,7 @@ def _motion(joint: JointSpec, value: float) -> Pose:
 def _follow(joint: JointSpec, source: float) -> float:
     """Return the value of a mimicking joint; the reader has followed chains."""
     assert joint.mimic is not None
-    if CRANK in joint.name:
+    if joint.is_crank:
         reach = joint.mimic.offset * math.sin(source)
         return -(source + math.asin(min(max(reach, -1.0), 1.0)))
     return source * joint.mimic.multiplier + joint.mimic.offset

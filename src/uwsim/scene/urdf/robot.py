@@ -28,10 +28,6 @@ Colour = tuple[float, float, float, float]
 ShapeKind = Literal["mesh", "box", "cylinder", "sphere"]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 
-CRANK = "slidercrank"
-"""In the name of a joint that mimics as a slider-crank does."""
-MAX_RATIO = 1e6
-"""Greatest multiplier and offset with which a joint follows the first of a chain."""
 MAX_ANGLE = 1e6
 """Greatest angle that a joint without end stops is set to [rad]."""
 
@@ -140,6 +136,11 @@ class JointSpec(Spec):
     def has_stops(self) -> bool:
         """Whether it stops at `lower` and `upper`; a ``continuous`` joint may turn without end."""
         return math.isfinite(self.upper - self.lower)
+
+    @property
+    def is_crank(self) -> bool:
+        """Whether it mimics as a slider-crank does; its name says so, as in the original."""
+        return "slidercrank" in self.name
 
     def clamped(self, value: float) -> float:
         """Return a value within the limits [rad or m].
