@@ -123,7 +123,7 @@ def run(kind: str | None) -> dict[str, float]:
         cpu_before, began_all = children_cpu(), time.perf_counter()
         if kind is not None:
             words = [sys.executable, "-c", FLOOD, kind, f"ws://127.0.0.1:{bridge.port}"]
-            program = subprocess.Popen(words, stdout=subprocess.PIPE)
+            program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             assert program.stdout is not None
             program.stdout.readline()
             began_all = time.perf_counter()
