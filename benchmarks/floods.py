@@ -2,7 +2,7 @@
 
 Run ``python benchmarks/floods.py``. The scene of `currents` runs as fast as it can with its port
 open: with no client, and beside a program that floods it with 6 400 small frames a second, with
-calls of a service, or with frames of 700 000 keys. The program is a process of its own, which has
+calls of a service, with frames of 700 000 keys, or with frames of 15 MB by 20 connections. The program is a process of its own, which has
 its share of the last core; a process that computes and does not connect takes a whole core, for
 comparison. Runs with a flood and without take turns; medians are compared, by wall time and by CPU
 time of uwsim's own process, which other programs on the computer change less.
@@ -43,6 +43,18 @@ def drain():
     for _ in socket:
         pass
 
+def send_large():
+    frame = "[" + "0," * (7 * 2**20) + "0]"
+    while True:
+        with connect(uri, max_size=2**26, ping_interval=None, close_timeout=0.0) as socket:
+            socket.send(frame)
+
+if kind == "large":
+    for _ in range(20):
+        threading.Thread(target=send_large, daemon=True).start()
+    print("here", flush=True)
+    time.sleep(3600.0)
+
 with connect(uri, max_size=2**26, max_queue=None) as socket:
     threading.Thread(target=drain, daemon=True).start()
     socket.send(json.dumps({"op": "advertise", "topic": "/flood", "type": "std_msgs/Float64"}))
@@ -67,6 +79,7 @@ KINDS = {
     "6400 frames a second": "frames",
     "calls of a service": "calls",
     "frames of 700 000 keys": "keys",
+    "15 MB frames by 20 connections": "large",
     "a process that computes": "busy",
 }
 QUIET = "quiet"
@@ -110,7 +123,7 @@ def run(kind: str | None) -> dict[str, float]:
         cpu_before, began_all = children_cpu(), time.perf_counter()
         if kind is not None:
             words = [sys.executable, "-c", FLOOD, kind, f"ws://127.0.0.1:{bridge.port}"]
-            program = subprocess.Popen(words, stdout=subprocess.PIPE)
+            program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             assert program.stdout is not None
             program.stdout.readline()
             began_all = time.perf_counter()

@@ -12,6 +12,7 @@ from uwsim.errors import (
     SeveralErrors,
     UnknownName,
     UwsimError,
+    did_you_mean,
 )
 
 
@@ -57,3 +58,11 @@ def test_of_many_names_the_nearest_are_listed() -> None:
         "corners.mean7, corners.mean27, corners.mean17."
     )
     assert str(UnknownName("column", "b", ["a"])) == "No column is called 'b'. Known: a."
+
+
+def test_no_name_is_looked_for_near_an_endless_text() -> None:
+    """Of a peer: it took seconds, in which nothing else was read."""
+    assert did_you_mean("publis", ["publish"]) == " Did you mean 'publish'?"
+    endless = "publish" * 1_000_000
+    assert did_you_mean(endless, [f"{endless}s"]) == ""
+    assert "Nearest of 40: " in str(UnknownName("topic", endless, [f"t{i}" for i in range(40)]))

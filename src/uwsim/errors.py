@@ -34,6 +34,8 @@ from typing import Any, Literal
 
 MAX_LISTED = 16
 """Greatest number of names listed; of more, the nearest `N_NEAREST` are."""
+MAX_NAME = 200
+"""The longest text for which a name is looked for [characters]: peers send longer ones."""
 N_NEAREST = 3
 
 
@@ -213,12 +215,14 @@ def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
     meant = did_you_mean(name, names)
     if len(names) <= MAX_LISTED:
         return f"{meant} {called}: {', '.join(names) or 'none'}"
-    near = difflib.get_close_matches(name, names, n=N_NEAREST, cutoff=0.0)
+    near = difflib.get_close_matches(name[:MAX_NAME], names, n=N_NEAREST, cutoff=0.0)
     return f"{meant} Nearest of {len(names)}: {', '.join(near)}"
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """Return " Did you mean 'x'?" for the nearest known name, or nothing."""
+    """Return " Did you mean 'x'?" for the nearest known name, or nothing, as for a long text."""
+    if len(name) > MAX_NAME:
+        return ""
     names = list(known)
     by_lower = {candidate.lower(): candidate for candidate in names}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)

@@ -63,6 +63,22 @@ def test_an_image_travels_with_an_obj_file(tmp_path: Path) -> None:
     assert at[(0.0, 1.0, 0.0)] == (0.0, 1.0)
 
 
+@pytest.mark.parametrize("name", ["paint.png", "old paint.png", "-s 1 1 1.png"])
+@pytest.mark.parametrize(
+    "options", ["-s 1 1 1", "-clamp on", "-o 0.5 -s 2 2 1 -blendu off", "-mm 0 1", "-bm 0.5 -t 1"]
+)
+def test_an_image_may_have_options_before_its_name(options: str, name: str, tmp_path: Path) -> None:
+    Image.new("RGB", (4, 2), (200, 100, 50)).save(tmp_path / name)
+    line = name if name.startswith("-") else f"{options} {name}"
+    (tmp_path / "m.mtl").write_text(f"newmtl m\nKd 0.8 0.8 0.8\nmap_Kd {line}\n")
+    (tmp_path / "m.obj").write_text(
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
+    )
+    (mesh,) = read_model(tmp_path / "m.obj", name="m").meshes
+    assert mesh.texture is not None
+    assert tuple(mesh.texture.pixels[0, 0]) == (200, 100, 50)
+
+
 def test_a_textured_glb_keeps_its_image_the_right_way_up(tmp_path: Path) -> None:
     image = Image.new("RGB", (2, 2), (255, 0, 0))
     image.putpixel((0, 1), (0, 255, 0))  # bottom left

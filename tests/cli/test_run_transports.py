@@ -23,6 +23,7 @@ def test_a_scene_is_a_node_of_ros_1_and_starts_a_master(
     ("uri", "error"),
     [
         ("nonsense", "ROS_MASTER_URI 'nonsense': expected http://HOST:PORT"),
+        ("http://[::", "ROS_MASTER_URI 'http://[::': expected http://HOST:PORT"),
         ("http://127.0.0.2:1", "The ROS master does not answer"),
     ],
 )

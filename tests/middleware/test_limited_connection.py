@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import os
+import json
 import socket
 from collections.abc import Iterator
 
@@ -13,7 +13,7 @@ from websockets.sync.client import connect
 from tests.support.waiting import until
 from uwsim.bus import Bus
 from uwsim.middleware import limited_connection
-from uwsim.middleware.limited_connection import LimitedConnection
+from uwsim.middleware.limited_connection import LARGE, ConnectionLimits, LimitedConnection
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
@@ -21,59 +21,63 @@ from uwsim.viewer.live.server import LiveServer
 
 N_WAITING = 64
 """Connections that may be open without a handshake."""
+PING = b"\x89\x80\0\0\0\0"
+"""A frame that asks a server whether it is there, masked."""
 
 
-@pytest.fixture
-def bridge() -> Iterator[WebBridge]:
+@contextlib.contextmanager
+def web_bridge() -> Iterator[WebBridge]:
     made = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
     made.step()
     yield made
     made.close()
 
 
+@pytest.fixture
+def bridge() -> Iterator[WebBridge]:
+    with web_bridge() as made:
+        yield made
+
+
+@pytest.fixture
+def impatient(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> WebBridge:
+    """A server whose clients have a small burst, and rest for a short time only."""
+    monkeypatch.setattr(limited_connection, "REST", 0.01)
+    limits = bridge._limits
+    limits.share, limits.burst, limits.work = 0.5, 0.001, None
+    return bridge
+
+
 @contextlib.contextmanager
-def served(kind: str) -> Iterator[tuple[int, str]]:
-    """A server, as its port and the address of its socket."""
+def served(kind: str) -> Iterator[tuple[int, str, ConnectionLimits]]:
+    """A server: its port, the address of its socket, and its limits."""
     if kind == "web":
-        bridge = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
-        bridge.step()
-        yield bridge.port, f"ws://127.0.0.1:{bridge.port}"
-        bridge.close()
+        with web_bridge() as bridge:
+            yield bridge.port, f"ws://127.0.0.1:{bridge.port}", bridge._limits
     else:
         server = LiveServer(lambda: "page")
         address = server.url.replace("http://", "ws://").replace("/?", "/socket?")
-        yield server.port, address
+        yield server.port, address, server._limits
         server.close()
-
-
-def n_open_sockets() -> int:
-    found = [f"/proc/self/fd/{name}" for name in os.listdir("/proc/self/fd")]
-    targets = []
-    for path in found:
-        with contextlib.suppress(OSError):  # that of the list itself
-            targets.append(os.readlink(path))
-    return sum(target.startswith("socket:") for target in targets)
 
 
 @pytest.mark.parametrize("kind", ["web", "view"])
 def test_connections_that_say_nothing_take_few_open_files(kind: str) -> None:
-    with served(kind) as (port, address), contextlib.ExitStack() as silent:
-        before, n = n_open_sockets(), 3 * N_WAITING
+    with served(kind) as (port, address, limits), contextlib.ExitStack() as silent:
+        n = 3 * N_WAITING
         made = [
             silent.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(n)
         ]
-        until(lambda: n_open_sockets() == before + n + N_WAITING)
-        broken_off = made[: n - N_WAITING]  # the oldest
-        for each in broken_off:
+        for each in made[: n - N_WAITING]:  # the oldest are broken off
             each.settimeout(60.0)
             with contextlib.suppress(ConnectionResetError):
                 assert each.recv(1) == b""
+        assert len(limits._open) <= N_WAITING
         with connect(address, open_timeout=60.0) as client:  # there is room for who asks
-            client.ping().wait(60.0)
-        assert n_open_sockets() <= before + n + N_WAITING
+            assert client.ping().wait(60.0)
 
 
-def test_pings_beyond_the_share_wait(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_pings_beyond_the_share_wait(impatient: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
     """The library answers them itself, before anything of ours sees them."""
     rests: list[float] = []
     rest = LimitedConnection.rest
@@ -84,11 +88,10 @@ def test_pings_beyond_the_share_wait(bridge: WebBridge, monkeypatch: pytest.Monk
         rests.extend([found] if found else [])
         return found
 
-    monkeypatch.setattr(limited_connection, "REST", 0.01)
     monkeypatch.setattr(LimitedConnection, "rest", property(counted))
-    with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
-        until(lambda: len(rests) > 3, lambda: client.socket.sendall(b"\x89\x80\0\0\0\0" * 1000))
-    assert any("sends faster than it is read" in line for line in bridge.log.lines)
+    with connect(f"ws://127.0.0.1:{impatient.port}", ping_interval=None) as client:
+        until(lambda: len(rests) > 3, lambda: client.socket.sendall(PING * 1000))
+    assert any("sends faster than it is read" in line for line in impatient.log.lines)
 
 
 def test_pings_within_the_share_are_answered(bridge: WebBridge) -> None:
@@ -98,8 +101,50 @@ def test_pings_within_the_share_are_answered(bridge: WebBridge) -> None:
     assert not any("sends faster" in line for line in bridge.log.lines)
 
 
-def test_who_rests_is_read_again(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(limited_connection, "REST", 0.01)
-    with connect(f"ws://127.0.0.1:{bridge.port}", ping_interval=None) as client:
-        client.socket.sendall(b"\x89\x80\0\0\0\0" * 20_000)
+def test_who_rests_is_read_again(impatient: WebBridge) -> None:
+    with connect(f"ws://127.0.0.1:{impatient.port}", ping_interval=None) as client:
+        client.socket.sendall(PING * 20_000)
         assert client.ping(b"the last").wait(60.0)
+
+
+def test_a_large_frame_counts_wholly_for_its_client_and_little_for_others(
+    bridge: WebBridge,
+) -> None:
+    limits = bridge._limits
+    with connect(f"ws://127.0.0.1:{bridge.port}") as client:
+        client.ping().wait(60.0)
+        (connection,) = limits._open
+        connection.spend(0.5)  # [s]
+        assert 15.0 < connection.rest < 26.0  # 0.5 s are 2 % of 25 s
+        assert limits.work is not None
+        assert limits.work.delay < 2.0
+
+
+def test_a_large_frame_waits_for_large_frames_of_others_alone(bridge: WebBridge) -> None:
+    """A new connection has a new budget: two that take turns took half of the time."""
+    large = json.dumps({"op": "nonsense", "id": "large", "blanks": " " * LARGE})
+    small = json.dumps({"op": "nonsense", "id": "small"})
+    address = f"ws://127.0.0.1:{bridge.port}"
+    with connect(address) as client:
+        client.send(large)
+        assert json.loads(client.recv(60.0))["id"] == "large"
+    bridge._limits.large.spend(0.3)  # [s] of another client: 15 s are to go by
+    with connect(address) as client, connect(address) as other:
+        client.send(large)
+        other.send(small)
+        assert json.loads(other.recv(60.0))["id"] == "small"
+        with pytest.raises(TimeoutError):
+            client.recv(1.0)
+        bridge._limits.large.spend(-1.0)
+        assert json.loads(client.recv(60.0))["id"] == "large"
+
+
+def test_a_large_frame_of_who_has_left_is_not_handled(bridge: WebBridge) -> None:
+    bridge._limits.large.spend(1e6)
+    with connect(f"ws://127.0.0.1:{bridge.port}") as client:
+        client.send(json.dumps({"op": "nonsense", "blanks": " " * LARGE}))
+        assert client.ping().wait(60.0)
+        (session,) = bridge._sessions
+    until(lambda: not bridge._sessions)
+    assert not any("nonsense" in line for line in bridge.log.lines)
+    assert session._has_left

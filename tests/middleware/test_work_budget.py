@@ -106,3 +106,19 @@ def test_a_frame_with_many_keys_is_refused_in_no_time() -> None:
     with pytest.raises(BadMessage, match="fields"):
         from_json(Twist, {f"k{i}": 0 for i in range(1000)})
     assert time.thread_time() - began < 0.5
+
+
+@pytest.mark.parametrize(
+    ("frame", "found"),
+    [
+        ("[" + "{}," * (5 * 2**20) + "0]", "opening brackets"),
+        ("[" + "[]," * (5 * 2**20) + "0]", "opening brackets"),
+        ("[" + "[" * 100 + '"",' * (5 * 2**20) + "0]", "quotation marks"),
+    ],
+)
+def test_a_frame_with_many_values_is_refused_in_no_time(frame: str, found: str) -> None:
+    """They took 3 to 10 s each."""
+    began = time.thread_time()
+    with pytest.raises(BadMessage, match=found):
+        read_frame(frame)
+    assert time.thread_time() - began < 1.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from websockets.asyncio.server import ServerConnection
@@ -12,8 +13,19 @@ from websockets.protocol import State
 
 from .work_budget import WorkBudget
 
-MAX_COST = 0.05
-"""The most time that one reading counts [s]."""
+MAX_COST, MAX_SHARED_COST = 1.0, 0.05
+"""The most time that one reading counts for its client, and for all together [s]: a large frame of
+one client keeps the others from being read for a moment only."""
+FRAME_COST = 5e-5
+"""Time that a frame takes, besides what is measured [s]."""
+LARGE = 2**16
+"""Length from which a frame is large [characters]."""
+LARGE_SHARE, LARGE_BURST = 0.02, 0.05
+"""Share of the wall time in which large frames of all clients are handled, and the time at once
+[s]. They wait for each other alone, and count wholly, whoever sent them: the budget of one
+connection counts too late what its first frame takes."""
+LONGEST_SLEEP = 1.0
+"""How often a client whose large frame waits is looked at: it may have left [s]."""
 REST = 0.1
 """How long a client beyond its share is not read, besides what it has taken too much [s]: each time
 that the server wakes, the simulation waits for Python's lock."""
@@ -36,6 +48,8 @@ class ConnectionLimits:
         self.share, self.burst, self.work = share, burst, work
         self._max_waiting = max_waiting
         self._open: dict[LimitedConnection, None] = {}  # the oldest first
+        self.large = WorkBudget(LARGE_SHARE, LARGE_BURST)
+        """For the large frames of all connections together."""
 
     def add(self, connection: LimitedConnection) -> None:
         """Count a new connection; where too many wait, break off the oldest of those."""
@@ -64,8 +78,7 @@ class LimitedConnection(ServerConnection):
     def __init__(self, *arguments: Any, limits: ConnectionLimits, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self._limits = limits
-        own = WorkBudget(limits.share, limits.burst)
-        self._budgets = (own,) if limits.work is None else (own, limits.work)
+        self._own = WorkBudget(limits.share, limits.burst)
         self.is_spared: Callable[[], bool] = lambda: False
         """Returns whether it may take as long as it likes."""
         self.report_rest: Callable[[], None] = lambda: None
@@ -75,13 +88,32 @@ class LimitedConnection(ServerConnection):
         """Count work for this connection [s], unless it is spared."""
         if self.is_spared():
             return
-        for budget in self._budgets:
-            budget.spend(min(seconds, MAX_COST))
+        self._own.spend(min(seconds, MAX_COST))
+        if self._limits.work is not None:
+            self._limits.work.spend(min(seconds, MAX_SHARED_COST))
+
+    async def handle(self, frame: str | bytes, by: Callable[[str | bytes], None]) -> None:
+        """Have a frame handled when it may be, then wait while the client is beyond its share."""
+        is_large = len(frame) >= LARGE and not self.is_spared()
+        while is_large and (delay := self._limits.large.delay) > 0.0:
+            await asyncio.sleep(min(delay + REST, LONGEST_SLEEP))
+            if self.state is not State.OPEN:
+                return
+        took = _time_of(partial(by, frame))
+        if is_large:
+            self._limits.large.spend(took)
+        self.spend(FRAME_COST + took)
+        if (rest := self.rest) > 0.0:  # a flood waits in the sockets, not here
+            self.report_rest()
+            await asyncio.sleep(rest)
 
     @property
     def rest(self) -> float:
         """How long it should not be read now [s]; 0: it may be."""
-        delay = 0.0 if self.is_spared() else max(budget.delay for budget in self._budgets)
+        if self.is_spared():
+            return 0.0
+        shared = 0.0 if self._limits.work is None else self._limits.work.delay
+        delay = max(self._own.delay, shared)
         return delay + REST if delay > 0.0 else 0.0
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
@@ -96,9 +128,7 @@ class LimitedConnection(ServerConnection):
 
     def data_received(self, data: bytes) -> None:
         """Read what has arrived, then nothing for a while if that took too long."""
-        began = time.thread_time()
-        super().data_received(data)
-        self.spend(time.thread_time() - began)
+        self.spend(_time_of(partial(super().data_received, data)))
         if (rest := self.rest) > 0.0:
             self.report_rest()
             self.transport.pause_reading()
@@ -108,3 +138,10 @@ class LimitedConnection(ServerConnection):
         """Read again, unless messages wait in the queue: the library reads on after those."""
         if not self.recv_messages.paused and not self.transport.is_closing():
             self.transport.resume_reading()
+
+
+def _time_of(work: Callable[[], None]) -> float:
+    """Do some work, and return the time that it took the processor [s]."""
+    began = time.thread_time()
+    work()
+    return time.thread_time() - began

@@ -61,7 +61,7 @@ def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
     """Whether a joint is coupled to another by a gear."""
     moving = [other.name for other in robot.joints if other.moves]
     is_bound = joint.mimic is not None and joint.mimic.joint in moving
-    return is_bound and "slidercrank" not in joint.name
+    return is_bound and not joint.is_crank
 
 
 def add_gear(

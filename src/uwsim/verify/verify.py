@@ -19,7 +19,7 @@ from ..base.rng import stream
 from ..errors import ResultError
 from ..results import journal
 from ..results.leaves import leaves
-from ..results.motion.motion_track import read_track
+from ..results.motion.motion_track import load_track
 from ..results.result import Result
 from ..results.result_file import dumps
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
@@ -176,9 +176,9 @@ def _check_tracks(found: Verification, directory: Path, plan: Plan) -> None:
             found.not_compared.append(f"{name}: is not there, so that the trial cannot be seen")
             continue
         try:
-            read_track(path.read_bytes())
+            load_track(path)
         except ResultError as error:
-            found.add(name, str(error))
+            found.add(name, str(error).removeprefix(f"{path}: ").removesuffix("."))
 
 
 def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:

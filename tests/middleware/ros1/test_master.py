@@ -221,6 +221,24 @@ WRONG: dict[str, tuple[str, tuple[Any, ...], str, object]] = {
     ),
     "a list for a key": ("getParam", ("/x", []), "parameter [key] must be a non-empty string", 0),
     "no value": ("setParam", ("/x", "/a", None), "parameter [value] must be specified", 0),
+    "an endless caller": (
+        "searchParam",
+        ("a/" * 1000, "x"),
+        "caller_id has more than 1000 characters",
+        0,
+    ),
+    "an endless key": (
+        "getParam",
+        ("/x", "a/" * 1000),
+        "parameter [key] has more than 1000 characters",
+        0,
+    ),
+    "an endless address": (
+        "registerService",
+        ("/x", "/a", "rosrpc://" + "a" * 1000, NODE),
+        "parameter [service_api] has more than 1000 characters",
+        0,
+    ),
     "an object": (
         "lookupNode",
         ("/x", {"a": 1}),

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from concurrent.futures import Future
 
+import pytest
+
 from uwsim.messages import header
 from uwsim.messages.simulation_control import (
     EntityState,
@@ -11,7 +13,8 @@ from uwsim.messages.simulation_control import (
     SetEntityStateResponse,
 )
 from uwsim.middleware.encodings import to_ros1
-from uwsim.middleware.ros1.services import _answer
+from uwsim.middleware.ros1.services import Wanted, _answer, call
+from uwsim.middleware.ros1.tcpros import PeerError
 from uwsim.middleware.types import service, wire_service
 
 
@@ -29,3 +32,10 @@ def test_stamps_of_a_request_are_taken_for_times_of_the_clock_of_ros() -> None:
     assert _answer(data, kind, request)[:1] == b"\x01"
     stamp = asked[0].state.header.stamp
     assert (stamp.sec, stamp.nanosec) == (0, 500_000_000)
+
+
+@pytest.mark.parametrize("place", ["127.0.0.1:99999", "[::", "127.0.0.1:abc", "", "here", ":80"])
+def test_an_address_of_nonsense_is_an_error_of_the_peer(place: str) -> None:
+    wanted = Wanted("/s", wire_service(service("simulation_interfaces/srv/SetEntityState")))
+    with pytest.raises(PeerError, match="which is no address"):
+        call(f"rosrpc://{place}", wanted, "/uwsim", SetEntityState())

@@ -14,6 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from uwsim.errors import SceneError
+from uwsim.scene.reader import check_robot
 from uwsim.scene.urdf.kinematics import joint_positions, link_poses
 from uwsim.scene.urdf.reader import read_robot, read_urdf
 from uwsim.scene.urdf.robot import RobotSpec
@@ -125,18 +126,6 @@ def test_a_prismatic_joint_without_limit_slides_from_minus_pi_to_pi(tmp_path: Pa
 def test_floating_joints_are_fixed(tmp_path: Path) -> None:
     robot = robot_of('<link name="a"/><link name="b"/>' + joint("s", kind="floating"), tmp_path)
     assert robot.movable == ()
-
-
-def test_mimics_of_mimics_are_not_followed(tmp_path: Path) -> None:
-    robot = robot_of(
-        LINKS
-        + '<link name="d"/>'
-        + joint("1", of="a b")
-        + joint("2", '<mimic joint="1" multiplier="2" offset="0.1"/>', of="a c")
-        + joint("3", '<mimic joint="2" offset="0.5"/>', of="a d"),
-        tmp_path,
-    )
-    assert joint_positions(robot, (0.3,)) == pytest.approx({"1": 0.3, "2": 0.7, "3": 0.5})
 
 
 def test_a_joint_that_mimics_nobody_is_free_and_that_is_reported(tmp_path: Path) -> None:
@@ -282,6 +271,47 @@ def chain(n: int) -> str:
 def test_a_chain_of_3000_links_is_an_error_and_no_recursion_error(tmp_path: Path) -> None:
     assert len(robot_of(chain(256), tmp_path).joints) == 256
     assert refused(chain(3000), tmp_path) == ["joint 'j256' ends a chain of more than 256 joints"]
+
+
+@pytest.mark.parametrize("order", [("p", "q", "r"), ("r", "q", "p"), ("q", "r", "p")])
+def test_a_joint_that_mimics_one_that_mimics_follows_the_first(
+    order: tuple[str, str, str], tmp_path: Path
+) -> None:
+    joints = {
+        "p": joint("p", of="a b"),
+        "q": joint("q", '<mimic joint="p" multiplier="2" offset="0.1"/>', of="b c"),
+        "r": joint("r", '<mimic joint="q" multiplier="-1" offset="0.2"/>', of="c d"),
+    }
+    robot = robot_of(LINKS + '<link name="d"/>' + "".join(joints[n] for n in order), tmp_path)
+    for value in (0.5, -0.3):
+        followed = 2.0 * value + 0.1
+        assert joint_positions(robot, (value,)) == pytest.approx(
+            {"p": value, "q": followed, "r": 0.2 - followed}
+        )
+
+
+def test_a_chain_with_a_slider_crank_is_not_followed_and_said_so(tmp_path: Path) -> None:
+    joints = (
+        joint("p", of="a b")
+        + joint("slidercrank", '<mimic joint="p" offset="0.5"/>', of="b c")
+        + joint("r", '<mimic joint="slidercrank" offset="0.2"/>', of="c d")
+    )
+    file = tmp_path / "r.urdf"
+    file.write_text(f'<robot name="r">{LINKS}<link name="d"/>{joints}</robot>')
+    (told,) = [each for each in check_robot(file) if "mimics" in each.message]
+    assert told.severity == "warning"
+    assert "joint 'r' mimics 'slidercrank'" in told.message
+    assert joint_positions(read_urdf(file), (0.4,))["r"] == 0.2
+
+
+def test_a_chain_whose_multipliers_grow_beyond_all_bounds_is_an_error(tmp_path: Path) -> None:
+    n = 8
+    links = "".join(f'<link name="{i}"/>' for i in range(n + 1))
+    mimic = '<mimic joint="j{}" multiplier="1000"/>'
+    joints = "".join(
+        joint(f"j{i}", mimic.format(i - 1) if i else "", of=f"{i} {i + 1}") for i in range(n)
+    )
+    assert "expected at most 1e+06" in refused(links + joints, tmp_path)[0]
 
 
 def test_joints_that_mimic_each_other_are_a_loop(tmp_path: Path) -> None:

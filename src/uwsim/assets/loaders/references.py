@@ -8,6 +8,7 @@ file, the mesh goes without it.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
 
@@ -17,6 +18,12 @@ from .looks import is_broken
 
 NO_IMAGES = (".mtl", ".bin", ".glb", ".gltf", ".obj")
 """Files that a mesh file names and that are no images."""
+OPTIONS = re.compile(
+    r"\A\s*(?:-(?:(?:blendu|blendv|boost|texres|clamp|cc|bm|imfchan|type)\s+\S+|mm\s+\S+\s+\S+"
+    r"|[ost](?:\s+[-+.\d][-+.\de]*){0,3})\s+)+",
+    re.IGNORECASE,
+)
+"""Options before the name of an image in an .mtl file, with their values; they are not applied."""
 
 
 class References:
@@ -65,15 +72,16 @@ class References:
         ]
 
     def _found(self, name: str) -> bytes:
-        asked = PurePosixPath(name.strip().replace("\\", "/"))
-        for place in (asked, PurePosixPath(asked.name)):
+        texts = dict.fromkeys((name, OPTIONS.sub("", name, count=1)))
+        asked = [PurePosixPath(text.strip().replace("\\", "/")) for text in texts]
+        for place in (each for full in asked for each in (full, PurePosixPath(full.name))):
             for folder in self._folders:
                 path = folder / place
                 if not place.is_absolute() and path.exists() and is_inside(path, self._within):
                     if place.suffix.lower() not in NO_IMAGES:
                         self._images[name] = path
                     return self._read(path, place)
-        if any(_exists(folder / asked) for folder in self._folders):
+        if any(_exists(folder / full) for folder in self._folders for full in asked):
             raise AssetError(
                 f"names the file {name[:200]!r}, which is outside its folder; --data-path adds one"
             )

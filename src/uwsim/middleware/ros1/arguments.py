@@ -13,6 +13,8 @@ NAME = re.compile(r"[~/A-Za-z][\w/]*")
 """A legal name in a graph of ROS 1; it has no two slashes in a row."""
 TYPE = re.compile(r"\*|[A-Za-z]\w*/[A-Za-z]\w*")
 """A message type, or any."""
+MAX_TEXT = 1000
+"""Longest name, type or address [characters]; ROS has no limit."""
 ERROR, FAILURE = -1, 0
 """Codes of answers: the caller is wrong; the call failed."""
 Check = Callable[[str, object], "str | None"]
@@ -47,6 +49,8 @@ class Method:
         caller, *given = arguments
         if not isinstance(caller, str):
             return "caller_id must be a string"
+        if (wrong := _too_long("caller_id", caller)) is not None:
+            return wrong
         n_needed = sum(not each.is_optional for each in self.parameters)
         if not n_needed <= len(given) <= len(self.parameters):
             names = ", ".join(("caller_id", *(each.name for each in self.parameters)))
@@ -71,9 +75,20 @@ def checked(method: Method, call: Callable[..., Answer]) -> Callable[..., Answer
     return answer
 
 
-def _is_name(parameter: str, value: object) -> str | None:
+def _too_long(what: str, text: str) -> str | None:
+    return f"{what} has more than {MAX_TEXT} characters" if len(text) > MAX_TEXT else None
+
+
+def _is_key(parameter: str, value: object) -> str | None:
     if not isinstance(value, str) or not value:
         return f"parameter [{parameter}] must be a non-empty string"
+    return _too_long(f"parameter [{parameter}]", value)
+
+
+def _is_name(parameter: str, value: object) -> str | None:
+    if (wrong := _is_key(parameter, value)) is not None:
+        return wrong
+    assert isinstance(value, str)
     if not NAME.fullmatch(value) or "//" in value:
         return f"parameter [{parameter}] contains illegal chars"
     return None
@@ -90,8 +105,9 @@ def _is_name_or_empty(parameter: str, value: object) -> str | None:
 
 
 def _is_type(parameter: str, value: object) -> str | None:
-    if not isinstance(value, str) or not value:
-        return f"parameter [{parameter}] must be a non-empty string"
+    if (wrong := _is_key(parameter, value)) is not None:
+        return wrong
+    assert isinstance(value, str)
     is_legal = TYPE.fullmatch(value)
     return None if is_legal else f"parameter [{parameter}] is not a valid package resource name"
 
@@ -99,17 +115,11 @@ def _is_type(parameter: str, value: object) -> str | None:
 def _is_uri(parameter: str, value: object) -> str | None:
     if not isinstance(value, str) or not value.startswith(("http://", "rosrpc://")):
         return f"parameter [{parameter}] is not an RPC URI"
-    return None
+    return _too_long(f"parameter [{parameter}]", value)
 
 
 def _is_text(parameter: str, value: object) -> str | None:
     return None if isinstance(value, str) else f"parameter [{parameter}] must be a string"
-
-
-def _is_key(parameter: str, value: object) -> str | None:
-    if not isinstance(value, str) or not value:
-        return f"parameter [{parameter}] must be a non-empty string"
-    return None
 
 
 def _is_list(parameter: str, value: object) -> str | None:

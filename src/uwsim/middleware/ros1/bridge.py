@@ -280,6 +280,8 @@ class Ros1Bridge(Bridge):
                 found = tcp_services.call(uri, wanted, self._node, request)
             except UwsimError as error:
                 future.set_exception(error)
+            except Exception as error:  # who waits for the answer must learn of it
+                future.set_exception(UwsimError(f"service /{name}: {error}"))
             else:
                 future.set_result(found)
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from dataclasses import dataclass
-from urllib.parse import urlsplit
 
 from ...bus import Bus
 from ...errors import BadSetting
 from ..log import Log
+from .address import read_address
 from .bridge import NODE, Ros1Bridge
 from .master import Master
 from .tcpros import PeerError
@@ -65,13 +65,10 @@ def connect(
     """
     log = log or Log("ros1")
     uri = options.master or os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER
-    place = urlsplit(uri)
-    try:
-        name, port = place.hostname, place.port
-    except ValueError:
-        name, port = None, None
-    if place.scheme != "http" or not name or port is None:
+    address = read_address(uri)
+    if address is None or address.scheme != "http":
         raise BadSetting(f"ROS_MASTER_URI {uri!r}: expected http://HOST:PORT, as {DEFAULT_MASTER}.")
+    _, name, port = address
     master = None
     try:
         call(uri, "getUri", options.node)

@@ -14,12 +14,12 @@ from concurrent.futures import TimeoutError as FutureTimeout
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
-from urllib.parse import urlsplit
 
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_ros1, to_ros1
 from ..stamps import inward, outward
 from ..types import WireService
+from .address import read_address
 from .tcpros import (
     PeerError,
     close,
@@ -163,10 +163,10 @@ def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
     Raises:
         PeerError: nobody answers, or with an error; or a node that may not.
     """
-    place, name = urlsplit(uri), wanted.name
-    if not place.hostname or not place.port:
-        raise PeerError(f"service {name} is at {uri}, which is no address")
-    connection = open_connection(place.hostname, place.port, CALL_TIMEOUT)
+    name, address = wanted.name, read_address(uri)
+    if address is None or not address.port:
+        raise PeerError(f"service {name} is at {uri[:100]!r}, which is no address")
+    connection = open_connection(address.host, address.port, CALL_TIMEOUT)
     try:
         fields = {"callerid": caller, "md5sum": wanted.type.md5, "service": name}
         write(connection, encode_header(fields))

@@ -7,7 +7,6 @@ import hmac
 import http
 import re
 import threading
-import time
 from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
@@ -44,12 +43,13 @@ MAX_FRAME = 16 * 2**20
 """Longest frame of a client [bytes]."""
 SMALL_FRAME, N_LARGE = 2**20, 8
 """Longest frame of clients beyond the first `N_LARGE` [bytes]: unfinished frames are kept."""
+MAX_FRAMES = 2
+"""Frames of one client that may wait; beyond it, no more are read."""
 CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
 """Share of the wall time in which frames of one client are read, and the time at once [s]."""
 ALL_SHARE, ALL_BURST = 0.04, 0.1
-"""The same of all clients together, but those that a run in lock-step waits for."""
-FRAME_COST = 5e-5
-"""Time that a frame takes, besides what is measured [s]."""
+"""The same of all clients together, but for large frames and for clients that a run in lock-step
+waits for."""
 MAX_CLIENTS = 64
 PING, PING_LIMIT = 20.0, 300.0
 """How often a client is asked whether it is there, and how long it may take to answer [s]."""
@@ -340,6 +340,7 @@ class WebBridge(Bridge):
             process_request=self._admit,
             create_connection=cast(Any, partial(LimitedConnection, limits=self._limits)),
             max_size=MAX_FRAME,
+            max_queue=MAX_FRAMES,
             ping_interval=PING,
             ping_timeout=PING_LIMIT,
             close_timeout=CLOSING,
@@ -382,12 +383,7 @@ class WebBridge(Bridge):
         try:
             await self._begun.wait()
             async for raw in connection:
-                began = time.thread_time()
-                session.handle(raw)
-                connection.spend(FRAME_COST + time.thread_time() - began)
-                if (rest := connection.rest) > 0.0:  # a flood waits in the sockets, not here
-                    connection.report_rest()
-                    await asyncio.sleep(rest)
+                await connection.handle(raw, session.handle)
         except ConnectionClosed:
             pass
         finally:

@@ -26,7 +26,8 @@ from .outgoing import COMPRESSIONS, Outgoing
 from .queue import MAX_MESSAGES, Lane, OutQueue
 
 MAX_KEYS = 200_000
-"""Fields that a frame may have, those of messages in lists counted each."""
+"""Fields that a frame may have, those of messages in lists counted each; twice as many opening
+brackets, and four times as many quotation marks."""
 MAX_NAMES = 1000
 """Topics and services that one client may use."""
 
@@ -316,8 +317,13 @@ def read_frame(raw: str | bytes) -> dict[str, Any]:
     """
     if isinstance(raw, bytes):
         raise BadMessage("A binary frame came; expected JSON text.")
-    if len(raw) > MAX_KEYS and raw.count('":') > MAX_KEYS:
-        raise BadMessage(f"A frame has more than {MAX_KEYS} fields.")
+    if len(raw) > MAX_KEYS:
+        if raw.count('":') > MAX_KEYS:
+            raise BadMessage(f"A frame has more than {MAX_KEYS} fields.")
+        if raw.count("{") + raw.count("[") > 2 * MAX_KEYS:
+            raise BadMessage(f"A frame has more than {2 * MAX_KEYS} opening brackets.")
+        if raw.count('"') > 4 * MAX_KEYS:
+            raise BadMessage(f"A frame has more than {4 * MAX_KEYS} quotation marks.")
     try:
         found = read_peer_json(raw)
     except ValueError as error:

@@ -100,6 +100,7 @@ JOINT_STATE = np.dtype(
         ("speed", _NUMBER),  # at which that moves on [rad/s or m/s]
         ("aim", _NUMBER),  # that within the limits, and for what mimics, too
         ("target", _NUMBER),  # where the target is now
+        ("step", _NUMBER),  # how far it was moved last
         ("integral", _NUMBER),  # effort over stiffness for what the servo cannot know [rad or m]
     ],
     align=True,

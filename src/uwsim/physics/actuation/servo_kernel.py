@@ -80,17 +80,22 @@ def move_on(dt: float, joints: Records, states: Records, qpos: Array) -> None:
 def pull(dt: float, joints: Records, states: Records, engine: Forces) -> None:
     """Advance the targets by ``dt`` [s] and set the controls of the position servos."""
     for i in range(len(joints)):
+        if joints[i].kind != GEARED or joints[i].leader < 0:
+            way = joints[i].max_speed * dt
+            states[i].step = min(max(states[i].aim - states[i].target, -way), way)
+            states[i].target = states[i].target + states[i].step
+    for i in range(len(joints)):
         joint, state = joints[i], states[i]
         dof = joint.dof
-        way = joint.max_speed * dt
-        step = min(max(state.aim - state.target, -way), way)
-        target = state.target + step
-        error = target - engine.qpos[joint.place]
+        if joint.kind == GEARED and joint.leader >= 0:  # as fast as the gear turns it
+            leader = states[joint.leader]
+            state.step = leader.step * joint.multiplier
+            state.target = leader.target * joint.multiplier + joint.offset
+        error = state.target - engine.qpos[joint.place]
         given = engine.given[dof]
         is_spent = abs(given) >= joint.max_effort and given * error > 0.0
         if not is_spent and abs(error) <= NEAR:
             state.integral = min(max(state.integral + INTEGRAL * dt * error, -NEAR), NEAR)
-        state.target = target
         load = engine.bias[dof] - (engine.passive[dof] - engine.spring[dof] - engine.damper[dof])
-        load += joint.damping * step / dt
-        engine.controls[joint.control] = target + load / joint.stiffness + state.integral
+        load += joint.damping * state.step / dt
+        engine.controls[joint.control] = state.target + load / joint.stiffness + state.integral

@@ -149,8 +149,8 @@ def _joint_records(moving: list[JointSpec]) -> npt.NDArray[np.void]:
         record["max_speed"] = min(joint.velocity, MAX_SPEED)
         record["kind"] = OWN
         if joint.mimic is not None:
-            record["kind"] = CRANKED if "slidercrank" in joint.name else GEARED
-            leads = [one.name for one in moving if one.mimic is None]  # chains are not followed
+            record["kind"] = CRANKED if joint.is_crank else GEARED
+            leads = [one.name for one in moving if one.mimic is None]
             leader = joint.mimic.joint
             record["leader"] = names.index(leader) if leader in leads else -1
             record["multiplier"], record["offset"] = joint.mimic.multiplier, joint.mimic.offset

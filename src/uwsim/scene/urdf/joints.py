@@ -19,6 +19,8 @@ NO_STOPS = (-math.inf, math.inf)
 
 Bounds of less than a turn hold for it, too, as in the original: its robots are written so.
 """
+MAX_RATIO = 1e6
+"""Greatest multiplier and offset with which a joint follows the first of a chain."""
 A_TURN = 0.99 * math.tau
 """Bounds this far apart leave no angle out: 3.14 on both sides is meant as pi [rad]."""
 
@@ -164,6 +166,57 @@ def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None
             turned = (*loop[i:], *loop[:i], member)[:100]
             message = " mimics ".join(repr(each) for each in turned)
             diagnostics.error(joints[member], f"joint {message[:200]}: a loop")
+
+
+def follow_chains(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> dict[str, JointSpec]:
+    r"""Let joints that mimic one that mimics follow the first of the chain.
+
+    With q_1 = m_1 q_0 + o_1 and q_2 = m_2 q_1 + o_2,
+
+    .. math:: q_2 = m_1 m_2\,q_0 + m_2 o_1 + o_2
+
+    A slider-crank moves otherwise; what mimics it stays at its offset, which is reported. There is
+    no loop (`check_mimics`).
+    """
+    resolved: dict[str, JointSpec] = {}
+    for name in joints:
+        path: list[str] = []
+        while name in joints and name not in resolved:
+            path.append(name)
+            mimic = joints[name].mimic
+            name = "" if mimic is None else mimic.joint
+        for member in reversed(path):
+            resolved[member] = _with_first(joints[member], resolved, diagnostics)
+    return {name: resolved[name] for name in joints}
+
+
+def _with_first(
+    joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
+) -> JointSpec:
+    """Return a joint that mimics one that moves by itself; ``joints`` has its leader."""
+    mimic = joint.mimic
+    leader = None if mimic is None else joints[mimic.joint]
+    if mimic is None or leader is None or leader.mimic is None:
+        return joint
+    if leader.is_crank or joint.is_crank:
+        diagnostics.warning(
+            joint,
+            f"joint {joint.name!r} mimics {mimic.joint!r}, which mimics another; a slider-crank is "
+            "not followed in such a chain: it stays at its offset",
+        )
+        return joint
+    first = leader.mimic
+    multiplier = first.multiplier * mimic.multiplier
+    offset = mimic.multiplier * first.offset + mimic.offset
+    if not max(abs(multiplier), abs(offset)) <= MAX_RATIO:
+        diagnostics.error(
+            joint,
+            f"joint {joint.name!r} mimics {first.joint!r} with the multiplier {multiplier:.3g} "
+            f"and the offset {offset:.3g}; expected at most {MAX_RATIO:g}",
+        )
+        return joint
+    whole = dataclasses.replace(mimic, joint=first.joint, multiplier=multiplier, offset=offset)
+    return dataclasses.replace(joint, mimic=whole)
 
 
 def _end(

@@ -52,9 +52,9 @@ def _motion(joint: JointSpec, value: float) -> Pose:
 
 
 def _follow(joint: JointSpec, source: float) -> float:
-    """Value of a mimicking joint; chains are not followed, as in the original."""
+    """Return the value of a mimicking joint; the reader has followed chains."""
     assert joint.mimic is not None
-    if "slidercrank" in joint.name:
+    if joint.is_crank:
         reach = joint.mimic.offset * math.sin(source)
         return -(source + math.asin(min(max(reach, -1.0), 1.0)))
     return source * joint.mimic.multiplier + joint.mimic.offset

@@ -23,7 +23,7 @@ from lxml import etree
 from ...errors import SceneError
 from ...schema import Diagnostics, source_line
 from ..xacro import parse_expanded
-from .joints import check_mimics, read_joint, with_leader
+from .joints import check_mimics, follow_chains, read_joint, with_leader
 from .links import read_link, read_materials
 from .robot import JointSpec, LinkSpec, RobotSpec
 from .values import name_of
@@ -83,6 +83,9 @@ def read_robot(
     check_mimics(joints, diagnostics)
     if not links:
         diagnostics.error(root, "the robot has no <link>")
+    if diagnostics.any:
+        return None
+    joints = follow_chains(joints, diagnostics)
     if diagnostics.any:
         return None
     robot = _tree(root, path, links, joints, diagnostics)

@@ -137,6 +137,11 @@ class JointSpec(Spec):
         """Whether it stops at `lower` and `upper`; a ``continuous`` joint may turn without end."""
         return math.isfinite(self.upper - self.lower)
 
+    @property
+    def is_crank(self) -> bool:
+        """Whether it mimics as a slider-crank does; its name says so, as in the original."""
+        return "slidercrank" in self.name
+
     def clamped(self, value: float) -> float:
         """Return a value within the limits [rad or m].
 

@@ -9,9 +9,6 @@ from typing import Any
 
 from .value import MAX_ITEMS, MAX_LENGTH, DistinctItems, ExpressionError, Value, written
 
-MAX_DISTINCT = 1000
-"""Most items of a set: each is compared with all others."""
-
 
 def power(base: Value, exponent: Value) -> int | float:
     """Return ``base ** exponent``; whole numbers stay whole as long as they are small."""
@@ -39,13 +36,6 @@ def numbers(*bounds: Any) -> list[int]:
 def zipped(*lists: Any) -> list[list[Any]]:
     """Return the first items of all lists as a list, the second ones, ..."""
     return [list(items) for items in zip(*lists, strict=False)]
-
-
-def distinct(items: Any = ()) -> DistinctItems:
-    """Return the set of some items."""
-    if len(items) > MAX_DISTINCT:
-        raise ExpressionError(f"a set of more than {MAX_DISTINCT} items")
-    return DistinctItems(items)
 
 
 def numbered(items: Any, start: int = 0) -> list[list[Any]]:
@@ -97,16 +87,8 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in ("asinh", "acosh", "atanh", "isnan", "isinf")},
     **{"abs": abs, "min": min, "max": max, "round": round, "sum": sum, "pow": power},
     **{"int": int, "float": float, "bool": bool, "str": str, "len": len, "range": numbers},
-    **{
-        "list": list,
-        "tuple": tuple,
-        "dict": dict,
-        "set": distinct,
-        "sorted": sorted,
-        "any": any,
-        "all": all,
-    },
-    **{"zip": zipped, "enumerate": numbered},
+    **{"list": list, "tuple": tuple, "dict": dict, "set": DistinctItems, "sorted": sorted},
+    **{"any": any, "all": all, "zip": zipped, "enumerate": numbered},
     **{"xacro.tokenize": tokenized, "xacro.dotify": dotified, "dotify": dotified},
 }
 """Name -> function; those of ``math`` may be written ``math.name``."""

@@ -14,6 +14,8 @@ MAX_LENGTH = 4096
 MAX_INTEGER = 2**63
 MAX_ITEMS = 10_000
 """Most values in a list or a dictionary, those in their lists and dictionaries included."""
+MAX_DISTINCT = 1000
+"""Most items of which a set is made: each is compared with all others."""
 LETTERS = 100
 """Letters of the texts in a list that count as a value."""
 MAX_NESTED = 40
@@ -32,6 +34,9 @@ class DistinctItems(list[Any]):
 
     def __init__(self, items: Iterable[Any] = ()) -> None:
         super().__init__()
+        items = list(items)
+        if len(items) > MAX_DISTINCT:
+            raise ExpressionError(f"a set of more than {MAX_DISTINCT} items")
         for item in items:
             if item not in self:
                 self.append(item)
