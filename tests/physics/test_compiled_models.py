@@ -13,8 +13,8 @@ import pytest
 from uwsim.base.geometry import Pose
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
-from uwsim.physics import compile as compile_module
 from uwsim.physics import compiled_models
+from uwsim.physics import engine_model as compile_module
 from uwsim.physics.compiled_models import NoContent, cached_model, content_digest
 from uwsim.physics.engine_model import compile_engine_model
 from uwsim.scene.object import ObjectSpec, PhysicsSpec

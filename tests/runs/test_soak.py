@@ -17,7 +17,7 @@ from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from tests.support.short_benchmark import bench_of
 from uwsim.runs.executors.executor import Job, run_and_record
-from uwsim.runs.trial.trial_cache import TrialCache
+from uwsim.runs.planning.trial_cache import TrialCache
 from uwsim.simulation import Calls
 
 folder, n_trials, n_first = Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])

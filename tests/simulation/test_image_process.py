@@ -52,7 +52,7 @@ def elsewhere(scene: str, topic: str) -> Iterator[tuple[Seen, ImageProcess, list
     process = ImageProcess(seen.simulation, said.append)
     try:
         seen.advance()
-        until(lambda: process.is_ready, process.step)
+        until(lambda: process.is_ready and process.is_idle, process.step)
         yield seen, process, said
     finally:
         process.close()

@@ -17,7 +17,7 @@ import pytest
 from tests.support.opened import open_scene
 from uwsim.model.collision import fixed_mesh as fixed_mesh_module
 from uwsim.model.collision import polygon_cache
-from uwsim.physics import compile as compile_module
+from uwsim.physics import engine_model as compile_module
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.on_floor import OnFloorSpec
 from uwsim.scene.reader import read_scene

@@ -17,8 +17,8 @@ from .bind_all import bind_all
 from .input_watch import watchable
 from .inputs_read import inputs_of, of_algorithm
 from .planning.plan import Plan
+from .planning.trial_cache import compile_plan
 from .run import Run
-from .trial.trial_cache import compile_plan
 
 
 def prepare_run(plan: Plan, out: Path) -> Run:

@@ -23,10 +23,10 @@ from ...results.seal import deny_access_to_memory
 from ...simulation import Calls, Cut
 from ..own_process.process import PROCESS_ENDED
 from ..planning.plan import Plan, Trial
+from ..planning.trial_cache import TrialCache
 from ..run import Run
 from ..sealed import sealed
 from ..trial.onlooker import Onlooker
-from ..trial.trial_cache import TrialCache
 from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]

@@ -24,7 +24,7 @@ from ...base.interrupts import is_of_user
 from ...base.terminal import ignore_casts
 from ...simulation import BEFORE, Calls, Counter, Cut, open_call
 from ..own_process.process import TOO_LONG, how
-from ..trial.trial_cache import TrialCache
+from ..planning.trial_cache import TrialCache
 from .closed_forks import ClosedForks, closes_forks
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts

@@ -28,9 +28,9 @@ from ...base.files.scratch import OWNER, scratch_folder
 from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
 from ...results import journal
 from ..planning.plan import Trial
+from ..planning.trial_cache import TrialCache
 from ..prepare import hash_inputs
 from ..run import Run
-from ..trial.trial_cache import TrialCache
 from .executor import ENVIRONMENT, Job, JobQueue
 from .worker import Event, JournalWriter, TrialEnded, TrialFailed, picklable, run_trial
 

@@ -22,11 +22,11 @@ from ...results.atomic_file import atomic_write
 from ...simulation import Calls
 from ..input_watch import Watch
 from ..planning.plan import Plan, Trial
+from ..planning.trial_cache import TrialCache
 from ..run import Run
 from ..trial.level_row import LevelRow, TrialEnd
 from ..trial.onlooker import Onlooker
 from ..trial.trial import execute
-from ..trial.trial_cache import TrialCache
 from ..trial.trial_recorder import TrialRecorder
 
 IMAGES = "pictures"

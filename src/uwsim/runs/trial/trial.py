@@ -36,6 +36,7 @@ from ...simulation import Calls, Simulation
 from ...simulation.markers import SERVICE as SPAWN_MARKER
 from ..own_process.program import Program, program_of, refused_of
 from ..planning.plan import Plan, Trial
+from ..planning.trial_cache import TrialCache, compile_plan
 from .fingerprint import Fingerprinter
 from .floor import Floor
 from .known_corners import known_corners
@@ -50,7 +51,6 @@ from .onlooker import Onlooker
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
 from .status import SIMULATION_ERROR, StatusMonitor, legible
-from .trial_cache import TrialCache, compile_plan
 from .trial_recorder import TrialRecorder
 from .triggered_measure import TriggeredMeasure, finite
 from .visibility import Fact, TargetMotion, visibility_facts

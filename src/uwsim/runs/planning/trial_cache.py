@@ -6,7 +6,7 @@ from ...model.scene_model import SceneModel
 from ...physics.compile_scene import compile_scene
 from ...simulation import RendererPool
 from ...simulation.snapshot import digest_of
-from ..planning.plan import Plan
+from .plan import Plan
 
 N_MODELS = 2
 """Models that are kept: a run and its control take turns, each with the levels of a seed."""
