@@ -22,7 +22,6 @@ from .run import run_and_report, settings_of_scene, wanted_of
 
 if TYPE_CHECKING:
     from ..middleware.recording import BagReader, Player
-    from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
 
@@ -64,6 +63,7 @@ def play(
     commands drive the vehicles.
     """
     from ..middleware.recording import BagReader
+    from ..physics.compile_scene import compile_scene
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
 
