@@ -158,6 +158,7 @@ def test_a_package_that_appears_later_is_found(tmp_path: Path) -> None:
         "model://arm/meshes/base.obj",
         " file://package://arm/meshes/base.obj\n",
         "file:///package://arm/meshes/base.obj",
+        "package:///arm/meshes/base.obj",
         "\tfile:////model://arm//meshes/base.obj",
         "file:package://arm/meshes/base.obj",
     ],
