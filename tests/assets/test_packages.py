@@ -9,6 +9,7 @@ import pytest
 
 from uwsim.assets import find, load_model, model_place_remark, package_remark, place_remark
 from uwsim.assets.bundled import bundled
+from uwsim.assets.packages import package_of
 from uwsim.errors import AssetError, AssetNotFound
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
@@ -170,6 +171,11 @@ def test_a_package_may_be_written_in_the_ways_of_ros_and_gazebo(
         package(tmp_path / name, name, declared=False)
     found = find(written, named_by=tmp_path / "hull_pkg" / "urdf" / "r.urdf")
     assert found == tmp_path / "arm" / "meshes" / "base.obj"
+
+
+@pytest.mark.parametrize("slashes", ["//", "///", "////"])
+def test_slashes_before_a_package_are_none_of_its_name(slashes: str) -> None:
+    assert package_of(f"package:{slashes}arm/meshes/base.obj") == ("arm", "meshes/base.obj")
 
 
 @pytest.mark.parametrize("slashes", ["//", "///", "/////"])
