@@ -153,9 +153,29 @@ def test_an_old_name_is_read_with_a_warning(tmp_path: Path) -> None:
 
 
 def test_of_text_split_by_comments_the_last_piece_wins(tmp_path: Path) -> None:
-    spec, _ = read_text("<thing><name>a<!-- x -->b<!-- y --> </name></thing>", tmp_path)
+    spec, said = read_text("<thing><name>a<!-- x -->b<!-- y --> </name></thing>", tmp_path)
     assert spec is not None
     assert spec.name == "b"
+    assert said == [
+        "thing.xml:1: warning: a comment splits the text of <name>; its last piece is read, 'b', "
+        "as the original does"
+    ]
+
+
+@pytest.mark.parametrize("text", ["a<!-- x -->", "<!-- x --> a", "<!-- x -->a<!-- y -->\n"])
+def test_a_comment_beside_a_text_is_none_of_it(text: str, tmp_path: Path) -> None:
+    spec, said = read_text(f"<thing><name>{text}</name></thing>", tmp_path)
+    assert spec is not None
+    assert (spec.name, said) == ("a", [])
+
+
+@pytest.mark.parametrize("version", ["0.0", "0.1", "1.0", "1.1"])
+def test_any_version_of_xml_is_read(version: str, tmp_path: Path) -> None:
+    """Robots of PyBullet have 0.0."""
+    text = f"<?xml version='{version}' ?>\n<thing><name>a</name></thing>"
+    spec, said = read_text(text, tmp_path)
+    assert spec is not None
+    assert (spec.name, said) == ("a", [])
 
 
 def test_an_empty_element_keeps_the_default(tmp_path: Path) -> None:

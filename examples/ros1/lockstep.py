@@ -265,7 +265,8 @@ class LockStep:
             return False
 
     def _next(self):
-        return min((_due(timer) for timer in self._timers), default=None)
+        times = [_due(timer) for timer in self._timers]
+        return max(0.0, min(times)) if times else None
 
     def _in(self, topic, kind, receive):
         reader = rospy.Subscriber(topic, kind, receive, queue_size=None, tcp_nodelay=True)

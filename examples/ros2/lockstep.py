@@ -147,7 +147,7 @@ class LockStep:
         """Wish for a tick at a time at the latest, whether there are messages or not."""
         times = [due(timer) for timer, _ in self._timers]
         times += [time] if self._period > 0.0 else []
-        return {"next": min(times)} if times else {}
+        return {"next": max(0.0, min(times))} if times else {}
 
     def _on_tick(self, message: String) -> None:
         tick = json.loads(message.data)

@@ -123,7 +123,8 @@ class Client:
         self._say(ACK, tick=tick["tick"], next=self._next())
 
     def _next(self) -> float | None:
-        return min((_due(timer) for timer, _ in self._timers), default=None)
+        times = [_due(timer) for timer, _ in self._timers]
+        return max(0.0, min(times)) if times else None
 
     def _say(self, topic: str, **content: Any) -> None:
         text = json.dumps({"client": self._name, **content})

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -52,6 +53,27 @@ def test_a_bundled_algorithm_is_found_by_its_name() -> None:
 def test_an_algorithm_that_is_not_there_is_a_clean_error(name: str, message: str) -> None:
     with pytest.raises(BadSetting, match=message):
         load_algorithm(name)
+
+
+@pytest.mark.parametrize(
+    ("line", "why"),
+    [
+        ("import sys; sys.exit(0)", "SystemExit: 0"),
+        ("raise SystemExit", "SystemExit"),
+        ("raise BaseException('x')", "BaseException: x"),
+        ("raise ValueError('a\\nb')", "ValueError: a b"),
+    ],
+)
+def test_a_module_that_leaves_when_it_is_imported_is_a_clean_error(
+    line: str, why: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A script without ``if __name__ == ...`` ended the benchmark without a word, with 0."""
+    (tmp_path / "leaves.py").write_text(f"{line}\nclass A: pass\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "leaves", raising=False)
+    with pytest.raises(BadSetting) as raised:
+        load_algorithm("leaves:A")
+    assert f"the module 'leaves' cannot be imported: {why}. (" in str(raised.value)
 
 
 def test_parameters_can_be_checked_before_anything_runs() -> None:

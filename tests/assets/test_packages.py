@@ -10,6 +10,7 @@ import pytest
 from tests.support.opened import open_scene
 from uwsim.assets import find, load_model, model_place_remark, package_remark, place_remark
 from uwsim.assets.bundled import bundled
+from uwsim.assets.packages import package_of
 from uwsim.errors import AssetError, AssetNotFound
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
@@ -158,6 +159,7 @@ def test_a_package_that_appears_later_is_found(tmp_path: Path) -> None:
         "model://arm/meshes/base.obj",
         " file://package://arm/meshes/base.obj\n",
         "file:///package://arm/meshes/base.obj",
+        "package:///arm/meshes/base.obj",
         "\tfile:////model://arm//meshes/base.obj",
         "file:package://arm/meshes/base.obj",
     ],
@@ -169,6 +171,11 @@ def test_a_package_may_be_written_in_the_ways_of_ros_and_gazebo(
         package(tmp_path / name, name, declared=False)
     found = find(written, named_by=tmp_path / "hull_pkg" / "urdf" / "r.urdf")
     assert found == tmp_path / "arm" / "meshes" / "base.obj"
+
+
+@pytest.mark.parametrize("slashes", ["//", "///", "////"])
+def test_slashes_before_a_package_are_none_of_its_name(slashes: str) -> None:
+    assert package_of(f"package:{slashes}arm/meshes/base.obj") == ("arm", "meshes/base.obj")
 
 
 @pytest.mark.parametrize("slashes", ["//", "///", "/////"])

@@ -31,6 +31,7 @@ from tests.support.ros2_peers import (
     until,
 )
 from tests.support.short_benchmark import BENCHMARK, write_benchmark
+from tests.support.timed_algorithm import TIMED
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
@@ -337,6 +338,15 @@ def test_the_bundled_controller_as_a_node_scores_the_rows_of_the_process(
     outside = scored_by_a_node(
         benchmark, tmp_path / "outside", "uwsim.algorithms.control:P", "20", *level, way=way
     )
+    assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}
+
+
+@of_one_version
+@pytest.mark.slow
+def test_a_class_with_a_timer_is_a_node_without_a_change(tmp_path: Path) -> None:
+    benchmark, level = short_currents(tmp_path), ("--level", "current=0.2")
+    inside = scored(benchmark, tmp_path / "inside", "--algorithm", TIMED, *level)
+    outside = scored_by_a_node(benchmark, tmp_path / "outside", TIMED, "0", *level, way="dds")
     assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping
 
+from ..base.interrupts import is_of_user
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean
 from .control import PI, P
@@ -59,10 +60,13 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
     module_name, _, class_name = name.partition(":")
     try:
         module = importlib.import_module(module_name)
-    except Exception as error:
+    except BaseException as error:  # SystemExit of a script, too
+        if is_of_user(error):
+            raise
+        why = " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
         raise BadSetting(
             f"Algorithm {name!r}: the module {module_name!r} cannot be imported: "
-            f"{type(error).__name__}: {error}. (A file in this folder is found with PYTHONPATH=.)"
+            f"{why}. (A file in this folder is found with PYTHONPATH=.)"
         ) from error
     found = getattr(module, class_name, None)
     if not isinstance(found, type):

@@ -58,11 +58,14 @@ def without_file_scheme(name: str) -> str:
 
 
 def package_of(name: str) -> tuple[str, str] | None:
-    """Split a name into its package and the path in it; None where it has no package."""
+    """Split a name into its package and the path in it; None where it has no package.
+
+    Slashes before the package (``package:///NAME``) are left out.
+    """
     name = without_file_scheme(name)
     for prefix in PREFIXES:
         if name.startswith(prefix):
-            package, _, path = name.removeprefix(prefix).partition("/")
+            package, _, path = name.removeprefix(prefix).lstrip("/").partition("/")
             return package, path.lstrip("/")
     return None
 

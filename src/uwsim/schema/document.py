@@ -21,6 +21,8 @@ MAX_DEPTH = 256
 MAX_NODES = 50_000
 """Most elements, attributes and character references that are read."""
 
+_VERSION = re.compile(rb"""^(\s*<\?xml\s+version\s*=\s*["'])0\.\d+(?=["'])""")
+"""A version of XML that there is not, as PyBullet's robots have; their readers ignore it."""
 _DECLARATION = re.compile(rb"<!(ENTITY|ATTLIST|ELEMENT|NOTATION)\b")
 _ENCODING = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
 _ENCODINGS = re.compile(r"utf-?8|us-ascii|ascii|iso-?8859-\d+|latin-?1|windows-125\d", re.I)
@@ -139,6 +141,7 @@ def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         data = data.decode("utf-16", errors="replace").encode("utf-8")
         data = re.sub(rb"^\s*<\?xml.*?\?>", b"", data, count=1, flags=re.S)
+    data = _VERSION.sub(rb"\g<1>1.0", data, count=1)
     declared = _ENCODING.match(data[:200])
     if declared and not _ENCODINGS.fullmatch(declared[1].decode("ascii")):
         name = declared[1].decode("ascii")

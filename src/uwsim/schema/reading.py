@@ -92,12 +92,17 @@ def read_choice(
 
 def text_of(node: etree._Element, diagnostics: Diagnostics) -> str:
     """The text of a leaf, trimmed; where comments split it, the last piece that is not empty."""
-    message = ""
-    for piece in (node.text, *(child.tail for child in node)):
-        message = (piece or "").strip(BLANKS) or message
+    pieces = [(piece or "").strip(BLANKS) for piece in (node.text, *(each.tail for each in node))]
+    read = [piece for piece in pieces if piece] or [""]
+    if len(read) > 1:
+        diagnostics.warning(
+            node,
+            f"a comment splits the text of {shown(node)}; its last piece is read, "
+            f"{read[-1]!r:.60}, as the original does",
+        )
     for child in _elements(node, diagnostics):
         diagnostics.error(child, f"{shown(child)} inside {shown(node)}, where only text is allowed")
-    return message
+    return read[-1]
 
 
 @functools.cache

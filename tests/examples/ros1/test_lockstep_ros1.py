@@ -15,6 +15,7 @@ import pytest
 from tests.support.byte_hashes import short_currents
 from tests.support.ros1_peers import EXAMPLES, Peers, needs_ros1, peers
 from tests.support.short_benchmark import write_benchmark
+from tests.support.timed_algorithm import TIMED
 from tests.support.waiting import LIMIT
 
 FORGETFUL = f"""
@@ -130,6 +131,19 @@ def test_a_controller_of_rospy_scores_the_currents_as_in_process(
     inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "p", *level)
     program = ("uwsim.algorithms:P", "--delay", "5")
     outside = scored_outside(graph, benchmark, tmp_path / "outside", *level, program=program)
+    assert outside["rows"] == inside["rows"]
+
+
+def test_a_class_with_a_timer_runs_in_rospy_without_a_change(
+    graph: Peers, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = graph.environment.get("PYTHONPATH", os.environ.get("PYTHONPATH", ""))
+    monkeypatch.setenv(
+        "PYTHONPATH", os.pathsep.join(filter(None, [str(EXAMPLES.parents[1]), before]))
+    )
+    benchmark, level = short_currents(tmp_path), ("--level", "current=0.2")
+    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", TIMED, *level)
+    outside = scored_outside(graph, benchmark, tmp_path / "outside", *level, program=(TIMED,))
     assert outside["rows"] == inside["rows"]
 
 

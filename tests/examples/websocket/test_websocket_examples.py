@@ -14,6 +14,7 @@ import pytest
 from tests.support.byte_hashes import short_currents
 from tests.support.keep_station import LEVELS, scored_in_process, short_benchmark
 from tests.support.short_benchmark import write_benchmark
+from tests.support.timed_algorithm import TIMED
 from tests.support.waiting import free_port, until
 from uwsim import load
 from uwsim.middleware.log import Log
@@ -94,6 +95,19 @@ def test_a_controller_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path
     outside, said = scored_outside(
         benchmark, tmp_path / "outside", [*program, "--delay", "20"], *level
     )
+    assert outside["rows"] == inside["rows"], said
+
+
+@pytest.mark.slow
+def test_a_class_with_a_timer_runs_outside_without_a_change(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Its first tick is due at the join: its join was refused."""
+    monkeypatch.setenv("PYTHONPATH", str(EXAMPLES.parents[1]))
+    benchmark, level = short_currents(tmp_path), ("--level", "current=0.2")
+    inside = scored_inside(benchmark, tmp_path / "inside", TIMED, *level)
+    program = ["run_algorithm.py", TIMED, "--name", "outside"]
+    outside, said = scored_outside(benchmark, tmp_path / "outside", program, *level)
     assert outside["rows"] == inside["rows"], said
 
 
