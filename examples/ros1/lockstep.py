@@ -20,6 +20,7 @@ import json
 import os
 import threading
 import time
+import uuid
 from xmlrpc.client import ServerProxy
 
 import rosgraph
@@ -54,6 +55,7 @@ class LockStep:
         self._timers, self._ticks, self._services = [], [], []
         self._readers, self._node, self._sent = {}, None, set()
         self._uri = ""  # of the simulation's node
+        self._id = uuid.uuid4().hex[:8]  # of two of one name one is heard
         self._error = None  # what the simulation has refused
 
     def subscribe(self, topic, kind, callback):
@@ -230,7 +232,8 @@ class LockStep:
         if tick.get("client") == self._client:
             with self._news:
                 if "error" in tick:
-                    self._error = tick["error"]
+                    if tick.get("id") == self._id:  # else another of this name is meant
+                        self._error = tick["error"]
                 else:
                     self._ticks.append(tick)
                 self._news.notify()
@@ -276,7 +279,7 @@ class LockStep:
         return rospy.Publisher(topic, kind, queue_size=DEPTH, tcp_nodelay=True)
 
     def _say(self, out, **content):
-        out.publish(String(data=json.dumps({"client": self._client, **content})))
+        out.publish(String(data=json.dumps({"client": self._client, "id": self._id, **content})))
 
 
 def _due(timer):

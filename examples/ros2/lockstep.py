@@ -153,7 +153,8 @@ class LockStep:
         tick = json.loads(message.data)
         if tick.get("client") != self._client:
             return
-        if "error" in tick and tick["run"] == self.run:
+        is_meant = tick.get("id") == self._who["id"]  # else another of this name is
+        if "error" in tick and tick["run"] == self.run and is_meant:
             raise SystemExit(f"{self._client}: {tick['error']}")
         if tick.get("tick") == 0:  # a simulation invites
             self.next_run = tick["run"]

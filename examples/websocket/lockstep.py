@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import secrets
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
@@ -40,6 +41,7 @@ class Client:
         self, socket: ClientConnection, name: str, before_ack: Callable[[], None] = lambda: None
     ) -> None:
         self._socket, self._name, self._before_ack = socket, name, before_ack
+        self._id = secrets.token_hex(4)  # of two of one name one is heard
         self._callbacks: dict[str, list[Callable[[Any], None]]] = {}
         self._handlers: dict[str, Callable[[Any], Any]] = {}
         self._waiting: list[tuple[str, Any]] = []  # messages that came before their tick
@@ -109,7 +111,9 @@ class Client:
     def _tick(self, tick: dict[str, Any]) -> None:
         """Do what is due: messages in their order, then timers; then let time go on."""
         if "error" in tick:
-            raise SystemExit(f"{self._name}: {tick['error']}")
+            if tick.get("id") == self._id:  # else another of this name is meant
+                raise SystemExit(f"{self._name}: {tick['error']}")
+            return
         self.now = tick["time"]
         while self._waiting:
             topic, message = self._waiting.pop(0)
@@ -127,7 +131,7 @@ class Client:
         return max(0.0, min(times)) if times else None
 
     def _say(self, topic: str, **content: Any) -> None:
-        text = json.dumps({"client": self._name, **content})
+        text = json.dumps({"client": self._name, "id": self._id, **content})
         self._send(op="publish", topic=topic, msg={"data": text})
 
     def _send(self, **frame: Any) -> None:

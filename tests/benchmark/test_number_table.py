@@ -18,7 +18,7 @@ def benchmark(folder: Path, text: str) -> str:
 
 
 def test_the_points_of_a_file_are_its_columns_in_any_order(tmp_path: Path) -> None:
-    file = benchmark(tmp_path, "z [m],note,x [m],y\n4,,1,2\n\n5,7,1.5,-2e0\n")
+    file = benchmark(tmp_path, "z [m],note,x [m],y\n4,,1,2\n\n5,image7.png,1.5,-2e0\n")
     points = ReferencePathSpec(file="t.csv").read(file)
     np.testing.assert_array_equal(points, [[1.0, 2.0, 4.0], [1.5, -2.0, 5.0]])
     message = path_message(points)
@@ -32,7 +32,8 @@ def test_the_points_of_a_file_are_its_columns_in_any_order(tmp_path: Path) -> No
         ("x,y,zz\n1,2,3\n", r"Did you mean 'zz'"),
         ("x,y,z\n1,2\n", r"t\.csv:2: has 2 cells; expected 3"),
         ("x,y,z\n1,two,3\n", r"t\.csv:2: 'two' is no finite number"),
-        ("x,y,z\n1,inf,3\n", r"t\.csv:2: 'inf' is no finite number"),
+        ("x,y,z\n1,inf,3\n", r"t\.csv:2: 'inf' is no finite number \(column y\)"),
+        ("x,y,z\n1,2,3\n1,-,a\n1,b,3\n", r"t\.csv:3: '-' is no finite number \(column y\)"),
         ("x,y,z\n1,,3\n", r"expected finite numbers up to 1e\+06 m"),
         ("x,y,z\n1,1e9,3\n", r"expected finite numbers"),
         ("x,y,z\n", r"has no point"),

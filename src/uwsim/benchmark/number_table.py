@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,10 +31,16 @@ class NumberTable:
     header: tuple[str, ...]
     """Names of the columns, without units."""
     rows: Array
-    """The numbers, (n, columns); NaN in empty cells."""
+    """The numbers, (n, columns); NaN in empty cells and for what is no finite number."""
+    wrong: Mapping[int, str]
+    """Number of a column -> where its first cell is that is no finite number, and what it holds."""
 
     def columns(self, names: Sequence[str]) -> Array:
-        """Return some columns, (n, len(names)); AssetError names the nearest of a missing one."""
+        """Return some columns, (n, len(names)).
+
+        Raises:
+            AssetError: one is missing, or has something other than finite numbers and empty cells.
+        """
         for name in names:
             if name not in self.header:
                 near = did_you_mean(name, self.header)
@@ -42,7 +48,11 @@ class NumberTable:
                     f"{self.name}: has no column {name!r}; it has {', '.join(self.header)}.{near}",
                     name=self.name,
                 )
-        return self.rows[:, [self.header.index(name) for name in names]]
+        chosen = [self.header.index(name) for name in names]
+        for index in chosen:
+            if index in self.wrong:
+                raise AssetError(self.wrong[index], name=self.name)
+        return self.rows[:, chosen]
 
 
 def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
@@ -68,30 +78,30 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
         if not header or len(header) > MAX_COLUMNS or len(set(header)) < len(header):
             raise AssetError(f"{name}:1: expected a line of different names.", name=name)
         rows: list[list[float]] = []
+        wrong: dict[int, str] = {}
         for number, line in enumerate(lines, start=2):
             if not line:
                 continue
             if len(rows) >= at_most:
                 raise AssetError(f"{name}: has more than {at_most} lines.", name=name)
-            rows.append(_numbers(name, number, line, len(header)))
+            if len(line) != len(header):
+                raise AssetError(
+                    f"{name}:{number}: has {len(line)} cells; expected {len(header)}.", name=name
+                )
+            rows.append([_number(cell) for cell in line])
+            for index in (i for i, value in enumerate(rows[-1]) if math.isinf(value)):
+                rows[-1][index] = math.nan
+                cell = f"{line[index][:40]!r} is no finite number"
+                wrong.setdefault(index, f"{name}:{number}: {cell} (column {header[index]}).")
     except csv.Error as error:
         raise AssetError(f"{name}: is no CSV file: {error}.", name=name) from None
-    return NumberTable(
-        name, tuple(header), np.array(rows, dtype=np.float64).reshape(-1, len(header))
-    )
+    numbers = np.array(rows, dtype=np.float64).reshape(-1, len(header))
+    return NumberTable(name, tuple(header), numbers, wrong)
 
 
-def _numbers(name: str, line: int, cells: Sequence[str], n: int) -> list[float]:
-    """Return the numbers of a line; NaN for empty cells."""
-    if len(cells) != n:
-        raise AssetError(f"{name}:{line}: has {len(cells)} cells; expected {n}.", name=name)
-    numbers = []
-    for cell in cells:
-        try:
-            number = float(cell) if cell.strip() else math.nan
-        except ValueError:
-            number = math.inf
-        if math.isinf(number):
-            raise AssetError(f"{name}:{line}: {cell[:40]!r} is no finite number.", name=name)
-        numbers.append(number)
-    return numbers
+def _number(cell: str) -> float:
+    """Return the number of a cell; NaN for an empty one, infinite for what is none."""
+    try:
+        return float(cell) if cell.strip() else math.nan
+    except ValueError:
+        return math.inf

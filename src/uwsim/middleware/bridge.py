@@ -200,6 +200,13 @@ class Bridge(ABC):
         for message, by in waiting.take() if waiting is not None else ():
             receive(message, by)
 
+    def send_to(self, by: str, topic: str, message: object) -> None:
+        """Send a message to one program outside, or to all where a transport cannot. Any thread.
+
+        ``by`` is how the messages of the program name it.
+        """
+        self.send(topic, message)
+
     def tell(self, by: str, text: str) -> None:  # noqa: B027 - not every transport can
         """Tell a program outside what is wrong with what it sent, where there is a way. Any thread.
 

@@ -35,6 +35,7 @@ class Outside(Bridge):
         super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
         self.ticks: list[dict[str, Any]] = []
         self.told: list[tuple[str, str]] = []
+        self.alone: list[tuple[str, dict[str, Any]]] = []
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         pass
@@ -57,6 +58,10 @@ class Outside(Bridge):
 
     def says(self, topic: str, *, by: str, **content: Any) -> None:
         self.put(topic, String(data=json.dumps({"client": "a", **content})), by)
+
+    def send_to(self, by: str, topic: str, message: object) -> None:
+        assert (topic, type(message)) == (TICK, String)
+        self.alone.append((by, json.loads(message.data)))
 
     def tell(self, by: str, text: str) -> None:
         self.told.append((by, text))
@@ -183,6 +188,21 @@ def test_a_join_that_cannot_be_read_is_none(text: str) -> None:
     run.start()
     run.step()
     assert [message.data for message in run.estimates.take()] == [1.0]
+
+
+@pytest.mark.parametrize(
+    "join", [{"topics": ["/depth"]}, {"topics": 5, "secret": "opensesame"}, {"topics": []}]
+)
+def test_a_join_that_is_refused_is_told_to_who_sent_it_alone(join: dict[str, Any]) -> None:
+    """The program that is waited for read that its own was refused, and ended."""
+    run = Run(secret="opensesame")
+    run.outside.says(JOIN, by=OTHER, id="others", next=0.0, **join)
+    run.outside.says(JOIN, by=ITS, id="its", topics=["/depth"], secret="opensesame", next=0.0)
+    run.start()
+    ((by, said),) = run.outside.alone
+    assert (by, said["client"], said["id"]) == (OTHER, "a", "others")
+    assert "its join was refused" in said["error"]
+    assert not any("error" in tick for tick in run.outside.ticks)
 
 
 def test_with_a_secret_nobody_else_can_join() -> None:

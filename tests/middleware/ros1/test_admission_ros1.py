@@ -17,6 +17,7 @@ from uwsim.messages import (
     Float32MultiArray,
     GTpublish,
     GTpublishResponse,
+    String,
     floats,
 )
 from uwsim.middleware.admission import Joined
@@ -113,3 +114,22 @@ def test_another_node_is_not_given_the_ground_truth(
     until(lambda: answers, other.step)
     assert (answers == [GTpublishResponse()], len(asked)) == (is_taken, int(is_taken))
     assert is_taken or "/stranger does not take part" in str(answers[0])
+
+
+def test_a_message_to_one_node_reaches_no_other(graph: Graph, sim: Ros1Bridge) -> None:
+    sim.bus.publisher("tick", String)
+    inboxes = [graph.node(name).bus.inbox("tick", String) for name in ("/stranger", "/tracker")]
+    graph.ready()
+    until(lambda: sim.n_connected("/tick") == 2, graph.step)
+    heard: list[list[str]] = [[], []]
+
+    def send() -> None:
+        sim.send_to(OTHER, "tick", String(data="no"))
+        sim.send("tick", String(data="all"))
+        graph.step()
+        for texts, inbox in zip(heard, inboxes, strict=True):
+            texts.extend(message.data for message in inbox.take())
+
+    until(lambda: all("all" in texts for texts in heard), send)
+    assert "no" in heard[0]
+    assert "no" not in heard[1]

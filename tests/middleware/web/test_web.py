@@ -482,3 +482,16 @@ def test_a_service_of_a_client_that_does_not_answer_holds_up_who_calls_it_alone(
 
     setting.step_until(is_answered)
     assert answered[0]["result"] is False
+
+
+def test_a_message_to_one_client_reaches_no_other(setting: Setting) -> None:
+    setting.bus.publisher("tick", String)
+    clients = [setting.client() for _ in range(2)]
+    for client in clients:
+        send(client, op="subscribe", topic="/tick", id="t")
+    setting.step_until(lambda: len(setting.bridge._readers.get("tick", ())) == 2)
+    name = f"client 127.0.0.1:{clients[0].local_address[1]}"
+    setting.bridge.send_to(name, "tick", String(data="no"))
+    setting.bridge.send("tick", String(data="all"))
+    heard = [json.loads(client.recv(LIMIT))["msg"]["data"] for client in clients]
+    assert heard == ["no", "all"]

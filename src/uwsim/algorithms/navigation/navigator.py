@@ -24,7 +24,8 @@ class Navigator:
     """Feeds a `NavigationFilter` from the topics of an IMU, a DVL and a depth sensor.
 
     The IMU has the axes of the base; of the DVL the velocity in the axes of the ship is used. Any
-    algorithm can have one: ``Navigator(node)`` in its `start`.
+    algorithm can have one, made in its `start`. Without a spec, the DVL is taken to be at the base:
+    give ``NavigationSpec(dvl_place=...)`` where it is elsewhere, or the estimate drifts.
     """
 
     def __init__(

@@ -18,7 +18,7 @@ from ...errors import AssetError
 from ..collada_asset import ColladaAsset, read_collada_asset
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
-from . import collada_limits, gltf_limits, mesh_cache
+from . import collada_limits, gltf_limits, gltf_plain, mesh_cache
 from .looks import Looks, check_size
 from .obj_lines import wrong_line
 from .references import References
@@ -197,6 +197,8 @@ def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[t
     """The pose and the geometry of each node."""
     import trimesh
 
+    if suffix in (".gltf", ".glb"):
+        data = gltf_plain.plain(data, suffix, references.get)
     resolver: Any = references
     scene = trimesh.load_scene(
         io.BytesIO(in_utf8(data, suffix)),

@@ -61,7 +61,7 @@ class Looks:
     """The materials of one file; parts of one material share its texture."""
 
     def __init__(self, path: Path) -> None:
-        self._path = path
+        self._path, self._is_gltf = path, path.suffix.lower() in (".gltf", ".glb")
         self._n_pixels = 0
         self.has_broken_image = False
         """Whether an image could not be decoded."""
@@ -87,7 +87,7 @@ class Looks:
     def _look(self, material: Any) -> Look:
         image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
         texture = None if image is None else self._texture(image)
-        if texture is not None:
+        if texture is not None and not self._is_gltf:
             # A file's diffuse factor beside an image is usually an exporter's default: not used.
             return (1.0, 1.0, 1.0), texture
         factor = getattr(material, "baseColorFactor", None)
@@ -96,7 +96,7 @@ class Looks:
         numbers = np.asarray(factor if factor is not None else (255, 255, 255), dtype=np.float64)
         numbers = numbers[:3] / (255.0 if numbers.max() > 1.0 else 1.0)
         red, green, blue = np.clip(numbers, 0.0, 1.0).tolist()
-        return (red, green, blue), None
+        return (red, green, blue), texture
 
     def _texture(self, image: Any) -> Texture | None:
         """Decode an image, which was only opened; None if it is broken."""

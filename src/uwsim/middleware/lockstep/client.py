@@ -30,6 +30,8 @@ MAX_WAITING = 100
 """Joins and answers that wait; of more, the newest."""
 MAX_TEXT = 2**20
 """Letters of one."""
+MAX_ID = 100
+"""Letters of an ``id`` that are repeated in a refusal."""
 WRONG_SECRET = "secret is missing or another; expected that of UWSIM_CLIENT_SECRET"
 MAX_ROUNDS = 1000
 """Ticks of one step: a client that answers its own messages without end goes no further."""
@@ -112,18 +114,24 @@ class LockStepClient:
                     if self._is_other(other, its):
                         self._turn_away(JOIN, other, its)
                 return said
-            self._refuse("join", wrong, by)
+            self._refuse("join", wrong, by, said.get("id"))
         raise NeverStarted(
             f"No client {self._name!r} has joined within {self._limit:g} s of wall time "
             f"(--client-limit){f'; its join was refused: {wrong}' if wrong else ''}."
         )
 
-    def _refuse(self, what: str, wrong: str, by: str) -> None:
-        """Tell the client, and the log, that what it said is not heard."""
+    def _refuse(self, what: str, wrong: str, by: str, its: object) -> None:
+        """Tell who said something, and the log, that it is not heard.
+
+        The program that is waited for may read it, too: it tells by its ``id`` that another is
+        meant, where the transport does not send to one alone.
+        """
         text = f"its {what} was refused: {wrong}"
         self._bridge.log.say(f"client {self._name!r}{f' ({by})' if by else ''}: {text}")
         who = {"client": self._name, "run": self._run}
-        self._bridge.send(TICK, String(data=json.dumps({**who, "error": text})))
+        if isinstance(its, str):
+            who["id"] = its[:MAX_ID]
+        self._bridge.send_to(by, TICK, String(data=json.dumps({**who, "error": text})))
         self._bridge.tell(by, f"client {self._name!r}: {text}")
 
     def _connect(self, joined: dict[str, Any]) -> None:
@@ -177,7 +185,7 @@ class LockStepClient:
             self._turn_away(topic, content, by)
         elif topic == JOIN:
             if not content.get("left") and not self._has_secret(content):
-                self._refuse("join", WRONG_SECRET, by)
+                self._refuse("join", WRONG_SECRET, by, content.get("id"))
             elif not self._takes_part or content.get("left"):
                 self._joins.append((content, by))
         elif not self._has_joined:
@@ -316,7 +324,7 @@ class LockStepClient:
     def _check(self, wrong: str | None, what: str) -> None:
         """Refuse an answer in which something is wrong; raises ClientLost."""
         if wrong is not None:
-            self._refuse(what, wrong, self._by)
+            self._refuse(what, wrong, self._by, self._id)
             raise ClientLost(
                 f"Client {self._name!r}: at {self._node.now:g} s its {what} was refused: {wrong}: "
                 "the run is invalid."

@@ -175,6 +175,12 @@ class Ros1Bridge(Bridge):
         if publication is not None:
             publication.send(message)
 
+    def send_to(self, by: str, topic: str, message: object) -> None:
+        """Hand a message to the subscribers of one node."""
+        publication = self._publications.get(f"/{topic}")
+        if publication is not None:
+            publication.send(message, only=by)
+
     def _publish_clock(self) -> None:
         """Publish the time, if anybody reads it."""
         if self._clock_is_read():

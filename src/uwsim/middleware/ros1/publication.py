@@ -14,7 +14,7 @@ from ..log import Log
 from ..queues import LatestQueue
 from ..stamps import outward
 from ..types import WireType
-from .tcpros import PeerError, encode_header, framed, has_left, write
+from .tcpros import PeerError, encode_header, framed, has_left, node_of, write
 
 QUEUE_LENGTH = 100
 """Messages that wait for a slow subscriber; the oldest are dropped."""
@@ -77,17 +77,18 @@ class Publication:
         self._encode, self._is_latched = encode, is_latched
         self._newest: Outgoing | None = None
         self._lock = threading.Lock()
-        self._queues: list[LatestQueue[Outgoing]] = []
+        self._queues: list[tuple[str, LatestQueue[Outgoing]]] = []  # of each node
         self._n_sent = 0
         self._is_closed = False
 
-    def send(self, message: object) -> None:
-        """Hand a message to all subscribers, without waiting."""
+    def send(self, message: object, only: str = "") -> None:
+        """Hand a message to all subscribers, or to those of one node, without waiting."""
         self._n_sent += 1
         outgoing = Outgoing(message, self._n_sent, self._encode)
         with self._lock:
-            queues = list(self._queues)
-            self._newest = outgoing if self._is_latched else None
+            queues = [queue for node, queue in self._queues if only in ("", node)]
+            if not only:
+                self._newest = outgoing if self._is_latched else None
         for queue in queues:
             if queue.put(outgoing, outgoing.size):
                 self._log.say(
@@ -127,11 +128,12 @@ class Publication:
             PeerError: the subscriber broke off, or does not read.
         """
         queue: LatestQueue[Outgoing] = LatestQueue(QUEUE_LENGTH, QUEUE_BYTES)
+        mine = node_of(header), queue
         connection.settimeout(self._send_timeout)
         with self._lock:
             if self._is_closed:
                 return
-            self._queues.append(queue)  # before the header: who has it misses no message
+            self._queues.append(mine)  # before the header: who has it misses no message
             if self._newest is not None:
                 queue.put(self._newest, self._newest.size)
         count(1)
@@ -141,7 +143,7 @@ class Publication:
         finally:
             count(-1)
             with self._lock:
-                self._queues.remove(queue)
+                self._queues.remove(mine)
             queue.close()
 
     def _header(self) -> dict[str, str]:
@@ -175,5 +177,5 @@ class Publication:
         with self._lock:
             self._is_closed = True
             queues = list(self._queues)
-        for queue in queues:
+        for _, queue in queues:
             queue.close()

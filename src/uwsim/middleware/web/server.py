@@ -139,6 +139,13 @@ class WebBridge(Bridge):
                 else:
                     self._post(request.topic, Outgoing(request.topic, frames, size_of(frames)))
 
+    def send_to(self, by: str, topic: str, message: object) -> None:
+        """Give a message to one client, if it reads the topic."""
+        outgoing = Outgoing(topic, message, size_of(message))
+        for session, subscription in self._readers.get(topic, ()):
+            if session.name == by:
+                session.post(subscription, outgoing)
+
     def _post(self, topic: str, outgoing: Outgoing) -> None:
         """Give what is sent on a topic to its readers."""
         for session, subscription in self._readers.get(topic, ()):
