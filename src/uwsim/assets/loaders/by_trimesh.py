@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import io
 import logging
+import re
 import warnings
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
@@ -36,6 +37,9 @@ MAX_TEXT_BYTES = 64 * 2**20
 
 STL_HEADER = 80
 """Length [bytes] of what a binary STL file says of itself."""
+
+TAIL = re.compile(rb"^([ \t]*(?:v[nt]?|[flp])[ \t][^#\n]*)#[^\n]*", re.M)
+"""A line of numbers of an OBJ file with a comment behind it."""
 
 MAX_COORDINATE = 1e6
 """Vertices farther out than this [m] are taken for a broken file."""
@@ -199,9 +203,12 @@ def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[t
 
     if suffix in (".gltf", ".glb"):
         data = gltf_plain.plain(data, suffix, references.get)
+    data = in_utf8(data, suffix)
+    if suffix == ".obj":
+        data = TAIL.sub(rb"\g<1>", data)
     resolver: Any = references
     scene = trimesh.load_scene(
-        io.BytesIO(in_utf8(data, suffix)),
+        io.BytesIO(data),
         file_type=suffix.lstrip("."),
         resolver=resolver,
         process=False,

@@ -137,6 +137,8 @@ class _Rewriting:
         self._set_coordinates(primitive, attributes)
         if "COLOR_0" in attributes and "material" in primitive:
             self._set_colour(primitive, attributes.pop("COLOR_0"))
+        elif "COLOR_0" in attributes and not self._is_plain(attributes["COLOR_0"]):
+            attributes["COLOR_0"] = self._floats(attributes["COLOR_0"])
         if primitive.get("mode") == FAN:
             self._set_fan(primitive)
         elif "indices" in primitive and "sparse" in self._accessor(primitive["indices"]):
