@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import io
 import logging
-import re
 import warnings
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
@@ -19,7 +18,7 @@ from ...errors import AssetError
 from ..collada_asset import ColladaAsset, read_collada_asset
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
-from . import collada_limits, gltf_limits, gltf_plain, mesh_cache
+from . import collada_limits, gltf_limits, gltf_plain, mesh_cache, obj_plain
 from .looks import Looks, check_size
 from .obj_lines import wrong_line
 from .references import References
@@ -37,9 +36,6 @@ MAX_TEXT_BYTES = 64 * 2**20
 
 STL_HEADER = 80
 """Length [bytes] of what a binary STL file says of itself."""
-
-TAIL = re.compile(rb"^([ \t]*(?:v[nt]?|[flp])[ \t][^#\n]*)#[^\n]*", re.M)
-"""A line of numbers of an OBJ file with a comment behind it."""
 
 MAX_COORDINATE = 1e6
 """Vertices farther out than this [m] are taken for a broken file."""
@@ -205,7 +201,7 @@ def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[t
         data = gltf_plain.plain(data, suffix, references.get)
     data = in_utf8(data, suffix)
     if suffix == ".obj":
-        data = TAIL.sub(rb"\g<1>", data)
+        data = obj_plain.plain(data)
     resolver: Any = references
     scene = trimesh.load_scene(
         io.BytesIO(data),
