@@ -158,7 +158,9 @@ def test_numbers_of_an_obj_file_count_from_the_vertices_before_the_face(tmp_path
     assert area_of(mesh.vertices, mesh.triangles) == pytest.approx(1.5)
 
 
-@pytest.mark.parametrize("face", ["f -3 -2 -4", "f 1 2 3 4 5 9", "f 1 2 x 4", "f 1 2 3 99999999999999999999"])
+@pytest.mark.parametrize(
+    "face", ["f -3 -2 -4", "f 1 2 3 4 5 9", "f 1 2 x 4", "f 1 2 3 99999999999999999999"]
+)
 def test_a_corner_that_is_not_there_is_named(face: str, tmp_path: Path) -> None:
     path = tmp_path / "m.obj"
     path.write_text(f"v 0 0 0\nv 1 0 0\nv 0 1 0\n{face}\n")
