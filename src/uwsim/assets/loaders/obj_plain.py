@@ -12,7 +12,7 @@ from bisect import bisect_left
 
 import numpy as np
 
-from .polygons import cut, not_convex
+from .polygons import ears, not_convex
 
 COMMENT = re.compile(rb"^([ \t]*(?:v[nt]?|[flp])[ \t][^#\n]*)#[^\n]*", re.M)
 """A line of numbers with a comment behind it."""
@@ -84,7 +84,7 @@ def _with_triangles(data: bytes) -> bytes:
     pieces, end = [], 0
     for i in sorted(not_convex(points, starts, n)):
         words = data[spans[2 * i] : spans[2 * i + 1]].split()[1:]
-        triangles = cut(points[starts[i] : starts[i] + n[i]], n[i : i + 1])
+        triangles = ears(points[starts[i] : starts[i] + n[i]])
         pieces.append(data[end : spans[2 * i]])
         pieces += [b"f " + b" ".join(words[k] for k in each) + b"\n" for each in triangles]
         end = spans[2 * i + 1]
