@@ -37,6 +37,7 @@ from ..errors import (
     PluginError,
     RunFailed,
     UwsimError,
+    type_and_text,
 )
 from ..world import Stage
 from .measures import Measure, MeasureSpec
@@ -159,7 +160,7 @@ def raised(error: BaseException) -> str:
     """Return what was raised as one line, whatever its message holds."""
     if isinstance(error, ContractViolation):
         return str(error)
-    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
+    return type_and_text(error)
 
 
 @contextmanager
