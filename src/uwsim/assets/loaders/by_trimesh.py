@@ -1,4 +1,4 @@
-"""GLB, OBJ, STL, PLY and DAE files, read by trimesh, with their images."""
+"""GLB, OBJ, STL, PLY and DAE files as trimesh has them, with their images."""
 
 from __future__ import annotations
 
@@ -184,6 +184,10 @@ def _parts(
                 from .collada_file import read_parts
 
                 found, remarks = read_parts(data, references)
+            elif suffix == ".ply":
+                from . import ply_file
+
+                found, remarks = ply_file.read_parts(in_utf8(data, suffix), references), ()
             else:
                 found, remarks = _read_by_trimesh(data, suffix, references), ()
         finally:

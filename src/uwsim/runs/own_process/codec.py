@@ -87,7 +87,7 @@ def _tagged(value: Any, arrays: list[bytes], depth: int = 0) -> object:
     if cls is dict:
         pairs = [(_tagged(k, arrays, inner), _tagged(v, arrays, inner)) for k, v in value.items()]
         return {"d": [list(pair) for pair in pairs]}
-    if dataclasses.is_dataclass(cls) and message_class(name := _name(cls)) is cls:
+    if hasattr(cls, "__dataclass_fields__") and message_class(name := _name(cls)) is cls:
         fields = [getattr(value, field) for field in _names(cls)]
         tagged = (v if v.__class__ in _PLAIN else _tagged(v, arrays, inner) for v in fields)
         return {"m": [name, *tagged]}
