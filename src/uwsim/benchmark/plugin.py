@@ -164,12 +164,18 @@ def raised(error: BaseException) -> str:
 
 
 @contextmanager
-def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[None]:
+def attribute_errors_to(
+    plugins: Sequence[Plugin], *, when: Callable[[], str] | None = None
+) -> Iterator[None]:
     """Add the line of the plugin to exceptions that its code raises.
+
+    Args:
+        plugins: those that are in use.
+        when: says at which moment of a running benchmark; None while files are read.
 
     Raises:
         PluginError: what a plugin raised while files were read.
-        RunFailed: ... while the benchmark was running (``is_running``).
+        RunFailed: ... while the benchmark was running.
     """
     try:
         yield
@@ -184,8 +190,8 @@ def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) 
                 line = _line_of_answer(error, plugin)
             if line is not None:
                 message = raised(error)
-                if is_running:
-                    raise RunFailed(f"{plugin.path}:{line}: {message}") from error
+                if when is not None:
+                    raise RunFailed(f"{plugin.path}:{line}: {message} ({when()})") from error
                 raise plugin.diagnostic(message, line) from error
         raise
 
