@@ -2,10 +2,11 @@
 
 Run ``python benchmarks/floods.py``. The scene of `currents` runs as fast as it can with its port
 open: with no client, and beside a program that floods it with 6 400 small frames a second, with
-calls of a service, with frames of 700 000 keys, or with frames of 15 MB by 20 connections. The program is a process of its own, which has
-its share of the last core; a process that computes and does not connect takes a whole core, for
-comparison. Runs with a flood and without take turns; medians are compared, by wall time and by CPU
-time of uwsim's own process, which other programs on the computer change less.
+calls of a service, with frames of 700 000 keys, or with frames of 15 MB by 20 connections. The
+program is a process of its own, which has its share of the last core; a process that computes and
+does not connect takes a whole core, for comparison. Runs with a flood and without take turns;
+medians are compared, by wall time and by CPU time of uwsim's own process, which other programs on
+the computer change less.
 
 Targets: 0.98 of the rate of the quiet run, and no more than 0.25 s of wall time between two
 messages on ``/clock``. One JSON on stdout.

@@ -169,9 +169,9 @@ def test_a_comment_beside_a_text_is_none_of_it(text: str, tmp_path: Path) -> Non
     assert (spec.name, said) == ("a", [])
 
 
-@pytest.mark.parametrize("version", ["0.0", "0.1", "1.0", "1.1"])
+@pytest.mark.parametrize("version", ["0.0", "0.1", "1.0", "1.1", "2.0", "10.0"])
 def test_any_version_of_xml_is_read(version: str, tmp_path: Path) -> None:
-    """Robots of PyBullet have 0.0."""
+    """Robots of PyBullet have 0.0, those of SMaRC 2.0."""
     text = f"<?xml version='{version}' ?>\n<thing><name>a</name></thing>"
     spec, said = read_text(text, tmp_path)
     assert spec is not None

@@ -219,6 +219,11 @@ def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
     return f"{meant} Nearest of {len(names)}: {', '.join(near)}"
 
 
+def type_and_text(error: BaseException) -> str:
+    """Return the type and the text of an exception of foreign code as one line."""
+    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """Return " Did you mean 'x'?" for the nearest known name, or nothing, as for a long text."""
     if len(name) > MAX_NAME:

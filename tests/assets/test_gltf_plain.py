@@ -215,6 +215,31 @@ def test_a_texture_is_times_its_factor(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("dtype", ["float32", "uint8", "uint16"])
+@pytest.mark.parametrize("n", [3, 4])
+def test_a_colour_of_vertices_is_read_without_a_material(
+    dtype: str, n: int, tmp_path: Path
+) -> None:
+    file = File()
+    del file.primitive["material"]
+    largest = 1.0 if dtype == "float32" else float(np.iinfo(dtype).max)
+    colours = (np.array([[0.5, 0.25, 0.0, 1.0]] * 4)[:, :n] * largest).astype(dtype)
+    stride = 4 if dtype == "uint8" else 0 if dtype == "float32" else 8
+    file.attributes["COLOR_0"] = file.add(colours, stride, normalized=dtype != "float32")
+    np.testing.assert_allclose(file.read(tmp_path).colour, [0.5, 0.25, 0.0], atol=1.5 / 255)
+
+
+@pytest.mark.parametrize("written", ["a%20plate.bin", "a plate.bin"])
+def test_the_name_of_a_file_may_have_escapes(written: str, plate: Mesh, tmp_path: Path) -> None:
+    file = File()
+    file.read(tmp_path)
+    (tmp_path / "plate.bin").rename(tmp_path / "a plate.bin")
+    path = tmp_path / "plate.gltf"
+    path.write_text(path.read_text().replace('"plate.bin"', f'"{written}"'))
+    (found,) = load_model(str(path)).meshes
+    assert_same(found, plate)
+
+
+@pytest.mark.parametrize("dtype", ["float32", "uint8", "uint16"])
 @pytest.mark.parametrize("factor", [None, [0.5, 1.0, 1.0, 1.0]])
 def test_a_colour_of_vertices_is_times_that_of_the_material(
     dtype: str, factor: list[float] | None, tmp_path: Path

@@ -207,6 +207,13 @@ def test_a_comment_in_latin_1_does_not_spoil_a_mesh(
     assert read_model(file, name="m").box.upper == (1.0, 1.0, 0.0)
 
 
+def test_comments_behind_numbers_are_none_of_them(tmp_path: Path) -> None:
+    file = tmp_path / "mesh.obj"
+    lines = ["v 0 0 0 # a", "v 1 0 0#b", "v 0 1 0\t# c # d", "# whole", "f 1 2 3 # face"]
+    file.write_text("\n".join(lines) + "\n")
+    assert read_model(file, name="m").box.upper == (1.0, 1.0, 0.0)
+
+
 def test_a_binary_mesh_with_a_header_in_latin_1_is_read(tmp_path: Path) -> None:
     file = written(tmp_path, ".stl")
     data = file.read_bytes()

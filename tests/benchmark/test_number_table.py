@@ -28,6 +28,8 @@ def test_the_points_of_a_file_are_its_columns_in_any_order(tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("text", "said"),
     [
+        ("x [m],y [m],z [mm]\n1,2,3\n", r"the column 'z' is in 'mm'; expected \[m\]"),
+        ("x[km],y,z\n1,2,3\n", r"the column 'x' is in 'km'; expected \[m\]"),
         ("x,y\n1,2\n", r"no column 'z'; it has x, y"),
         ("x,y,zz\n1,2,3\n", r"Did you mean 'zz'"),
         ("x,y,z\n1,2\n", r"t\.csv:2: has 2 cells; expected 3"),
@@ -101,6 +103,7 @@ def test_a_recorded_truth_is_linear_between_whole_lines(
         ("time,u\n0,1\n0,2\n", "does not rise"),
         ("time,u\n,1\n", "does not rise"),
         ("time,u\n", "no line of numbers"),
+        ("time [ms],u\n0,1\n", r"'time' is in 'ms'; expected \[s\]"),
         ("time\n0\n", "no line of numbers"),
     ],
 )

@@ -85,6 +85,12 @@ def shown(node: etree._Element) -> str:
             "<b>1</b><b>2</b><b>3</b>",
         ),
         (
+            '<xacro:macro name="m" params="x:=^false y:=^"><b>${x}</b></xacro:macro>'
+            '<xacro:property name="y" value="4"/><xacro:m/>'
+            '<xacro:property name="x" value="2"/><xacro:m/><xacro:m x="3"/>',
+            "<b>False</b><b>2</b><b>3</b>",
+        ),
+        (
             '<xacro:macro name="count" params="n"><b>${n}</b>'
             '<xacro:if value="${n > 1}"><xacro:count n="${n - 1}"/></xacro:if></xacro:macro>'
             '<xacro:count n="3"/>',

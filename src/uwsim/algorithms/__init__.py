@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from ..base.interrupts import is_of_user
 from ..bus import Algorithm
-from ..errors import BadSetting, did_you_mean
+from ..errors import BadSetting, did_you_mean, type_and_text
 from .control import PI, P
 from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
@@ -63,10 +63,9 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
     except BaseException as error:  # SystemExit of a script, too
         if is_of_user(error):
             raise
-        why = " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
         raise BadSetting(
             f"Algorithm {name!r}: the module {module_name!r} cannot be imported: "
-            f"{why}. (A file in this folder is found with PYTHONPATH=.)"
+            f"{type_and_text(error)}. (A file in this folder is found with PYTHONPATH=.)"
         ) from error
     found = getattr(module, class_name, None)
     if not isinstance(found, type):

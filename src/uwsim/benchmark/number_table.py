@@ -30,16 +30,23 @@ class NumberTable:
     """What the benchmark calls the file."""
     header: tuple[str, ...]
     """Names of the columns, without units."""
+    units: tuple[str, ...]
+    """Units of the columns, as ``m`` of ``x [m]``; empty where the file names none."""
     rows: Array
     """The numbers, (n, columns); NaN in empty cells and for what is no finite number."""
     wrong: Mapping[int, str]
     """Number of a column -> where its first cell is that is no finite number, and what it holds."""
 
-    def columns(self, names: Sequence[str]) -> Array:
+    def columns(self, names: Sequence[str], unit: str = "") -> Array:
         """Return some columns, (n, len(names)).
 
+        Args:
+            names: of the columns.
+            unit: the one that they have to be in; empty: any.
+
         Raises:
-            AssetError: one is missing, or has something other than finite numbers and empty cells.
+            AssetError: one is missing, in another unit, or has something other than finite numbers
+                and empty cells.
         """
         for name in names:
             if name not in self.header:
@@ -50,6 +57,12 @@ class NumberTable:
                 )
         chosen = [self.header.index(name) for name in names]
         for index in chosen:
+            if unit and self.units[index] not in ("", unit):
+                raise AssetError(
+                    f"{self.name}: the column {self.header[index]!r} is in "
+                    f"{self.units[index][:20]!r}; expected [{unit}].",
+                    name=self.name,
+                )
             if index in self.wrong:
                 raise AssetError(self.wrong[index], name=self.name)
         return self.rows[:, chosen]
@@ -74,7 +87,9 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
     text = read_bytes(path, name=name, at_most=MAX_BYTES).decode("utf-8-sig", errors="replace")
     lines = csv.reader(io.StringIO(text))
     try:
-        header = [cell.partition("[")[0].strip() for cell in next(lines, [])]
+        titles = [cell.partition("[") for cell in next(lines, [])]
+        header = [title.strip() for title, _, _ in titles]
+        units = tuple(unit.partition("]")[0].strip() for _, _, unit in titles)
         if not header or len(header) > MAX_COLUMNS or len(set(header)) < len(header):
             raise AssetError(f"{name}:1: expected a line of different names.", name=name)
         rows: list[list[float]] = []
@@ -96,7 +111,7 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
     except csv.Error as error:
         raise AssetError(f"{name}: is no CSV file: {error}.", name=name) from None
     numbers = np.array(rows, dtype=np.float64).reshape(-1, len(header))
-    return NumberTable(name, tuple(header), numbers, wrong)
+    return NumberTable(name, tuple(header), units, numbers, wrong)
 
 
 def _number(cell: str) -> float:

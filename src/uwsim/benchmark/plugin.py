@@ -37,6 +37,7 @@ from ..errors import (
     PluginError,
     RunFailed,
     UwsimError,
+    type_and_text,
 )
 from ..world import Stage
 from .measures import Measure, MeasureSpec
@@ -159,16 +160,22 @@ def raised(error: BaseException) -> str:
     """Return what was raised as one line, whatever its message holds."""
     if isinstance(error, ContractViolation):
         return str(error)
-    return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
+    return type_and_text(error)
 
 
 @contextmanager
-def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) -> Iterator[None]:
+def attribute_errors_to(
+    plugins: Sequence[Plugin], *, when: Callable[[], str] | None = None
+) -> Iterator[None]:
     """Add the line of the plugin to exceptions that its code raises.
+
+    Args:
+        plugins: those that are in use.
+        when: says at which moment of a running benchmark; None while files are read.
 
     Raises:
         PluginError: what a plugin raised while files were read.
-        RunFailed: ... while the benchmark was running (``is_running``).
+        RunFailed: ... while the benchmark was running.
     """
     try:
         yield
@@ -183,8 +190,8 @@ def attribute_errors_to(plugins: Sequence[Plugin], *, is_running: bool = False) 
                 line = _line_of_answer(error, plugin)
             if line is not None:
                 message = raised(error)
-                if is_running:
-                    raise RunFailed(f"{plugin.path}:{line}: {message}") from error
+                if when is not None:
+                    raise RunFailed(f"{plugin.path}:{line}: {message} ({when()})") from error
                 raise plugin.diagnostic(message, line) from error
         raise
 

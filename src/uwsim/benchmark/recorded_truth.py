@@ -47,7 +47,7 @@ class RecordedTruthSpec(Spec):
         """
         table = read_numbers(self.file, benchmark, at_most=MAX_LINES)
         names: Sequence[str] = self.columns.split() or [n for n in table.header if n != TIME]
-        times, values = table.columns([TIME])[:, 0], table.columns(names)
+        times, values = table.columns([TIME], "s")[:, 0], table.columns(names)
         if not len(times) or not names:
             raise AssetError(f"{self.file}: has no line of numbers.", name=self.file)
         if not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):

@@ -36,7 +36,8 @@ class ReferencePathSpec(Spec):
     points: Numbers = element(namespaced=True, default=())
     """x, y and z of each point, one after the other [m]."""
     file: str | None = element(namespaced=True, default=None)
-    """A CSV file with the columns x, y and z [m], instead of the points."""
+    """A CSV file with the columns x, y and z [m], instead of the points. A header may state the
+    unit (`x [m]`); another one is an error."""
 
     def errors(self) -> Sequence[str]:
         """Return what is wrong with the points, or with the choice between points and file."""
@@ -64,7 +65,7 @@ class ReferencePathSpec(Spec):
         if self.file is None:
             return np.array(self.points, dtype=np.float64).reshape(-1, 3)
         table = read_numbers(self.file, benchmark, at_most=MAX_POINTS)
-        points = table.columns(COLUMNS)
+        points = table.columns(COLUMNS, "m")
         if not len(points):
             raise AssetError(f"{self.file}: has no point.", name=self.file)
         if not (np.abs(points) <= FARTHEST).all():

@@ -21,8 +21,8 @@ MAX_DEPTH = 256
 MAX_NODES = 50_000
 """Most elements, attributes and character references that are read."""
 
-_VERSION = re.compile(rb"""^(\s*<\?xml\s+version\s*=\s*["'])0\.\d+(?=["'])""")
-"""A version of XML that there is not, as PyBullet's robots have; their readers ignore it."""
+_VERSION = re.compile(rb"""^(\s*<\?xml\s+version\s*=\s*["'])(?!1\.)\d+\.\d+(?=["'])""")
+"""A version of XML that there is not, as robots of PyBullet have; their readers ignore it."""
 _DECLARATION = re.compile(rb"<!(ENTITY|ATTLIST|ELEMENT|NOTATION)\b")
 _ENCODING = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
 _ENCODINGS = re.compile(r"utf-?8|us-ascii|ascii|iso-?8859-\d+|latin-?1|windows-125\d", re.I)

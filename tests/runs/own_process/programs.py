@@ -165,6 +165,10 @@ class ReportsRubbish(Does):
     parameters: ClassVar[dict[str, object]] = {"gain": [1]}
 
 
+class ReportsAnObject(Does):
+    parameters: ClassVar[dict[object, object]] = {"mode": 1.0, 5: object}
+
+
 class RefusesToStart:
     def start(self, node: Node) -> None:
         raise BadSetting("gain: not today")

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from uwsim.messages import Image, Odometry, Pose, String
-from uwsim.runs.own_process.codec import FrameError, decode, encode
+from uwsim.runs.own_process.codec import MAX_DEPTH, FrameError, decode, encode
 
 VALUES = st.recursive(
     st.none() | st.booleans() | st.integers(-(2**70), 2**70) | st.floats() | st.text(),
@@ -64,6 +64,28 @@ def test_a_value_that_cannot_leave_is_shown_as_it_was() -> None:
     read = decode(encode({"a": {1, 2}}))["a"]
     assert repr(read) == "{1, 2}"
     assert type(read).__name__ == "set"
+
+
+def test_an_object_of_no_class_cannot_leave_either() -> None:
+    value = object()
+    assert repr(decode(encode([value]))[0]) == repr(value)
+
+
+@pytest.mark.parametrize(("depth", "left"), [(50, 50), (10_000, MAX_DEPTH + 1)])
+def test_a_value_that_is_nested_too_deep_is_cut_off(depth: int, left: int) -> None:
+    value: list[object] = []
+    for _ in range(depth):
+        value = [value]
+    read, n = decode(encode(value)), 0
+    while isinstance(read, list) and read:
+        read, n = read[0], n + 1
+    assert n == left
+
+
+def test_a_dict_that_holds_itself_is_cut_off() -> None:
+    value: dict[str, object] = {}
+    value["in"] = value
+    assert "{...}" in repr(decode(encode(value)))
 
 
 def frame(head: object, tail: bytes = b"") -> bytes:

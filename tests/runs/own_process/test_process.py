@@ -127,6 +127,7 @@ def test_what_is_reported_as_parameters_is_the_same(tmp_path: Path) -> None:
     ("algorithm", "error"),
     [
         (programs.ReportsRubbish, RunFailed),
+        (programs.ReportsAnObject, RunFailed),
         (programs.RefusesToStart, BadSetting),
         (programs.CannotBeMade, NeverStarted),
     ],

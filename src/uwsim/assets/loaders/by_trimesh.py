@@ -1,4 +1,4 @@
-"""GLB, OBJ, STL, PLY and DAE files, read by trimesh, with their images."""
+"""GLB, OBJ, STL, PLY and DAE files as trimesh has them, with their images."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ...errors import AssetError
 from ..collada_asset import ColladaAsset, read_collada_asset
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
-from . import collada_limits, gltf_limits, gltf_plain, mesh_cache
+from . import collada_limits, gltf_limits, gltf_plain, mesh_cache, obj_plain
 from .looks import Looks, check_size
 from .obj_lines import wrong_line
 from .references import References
@@ -184,6 +184,10 @@ def _parts(
                 from .collada_file import read_parts
 
                 found, remarks = read_parts(data, references)
+            elif suffix == ".ply":
+                from . import ply_file
+
+                found, remarks = ply_file.read_parts(in_utf8(data, suffix), references), ()
             else:
                 found, remarks = _read_by_trimesh(data, suffix, references), ()
         finally:
@@ -199,9 +203,12 @@ def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[t
 
     if suffix in (".gltf", ".glb"):
         data = gltf_plain.plain(data, suffix, references.get)
+    data = in_utf8(data, suffix)
+    if suffix == ".obj":
+        data = obj_plain.plain(data)
     resolver: Any = references
     scene = trimesh.load_scene(
-        io.BytesIO(in_utf8(data, suffix)),
+        io.BytesIO(data),
         file_type=suffix.lstrip("."),
         resolver=resolver,
         process=False,

@@ -25,6 +25,7 @@ from PIL import Image
 
 from ...base.numerics.linear import product
 from ...errors import AssetError
+from .polygons import cut
 from .references import References
 
 GREY = (0.7, 0.7, 0.7, 1.0)
@@ -238,7 +239,7 @@ def _parts_of(
 def _mesh_of(primitive: Any, symbols: dict[str, Any]) -> trimesh.Trimesh | None:
     """Return the triangles of a primitive; None of lines and of what has no vertices."""
     if isinstance(primitive, collada.polylist.Polylist):
-        primitive = primitive.triangleset()
+        primitive = _triangles_of(primitive)
     if not isinstance(primitive, collada.triangleset.TriangleSet) or primitive.vertex is None:
         return None
     corners = primitive.vertex[primitive.vertex_index].reshape(-1, 3)
@@ -254,6 +255,17 @@ def _mesh_of(primitive: Any, symbols: dict[str, Any]) -> trimesh.Trimesh | None:
         vertex_normals=_normals_of(primitive),
         vertex_colors=colours,
         visual=visual,
+    )
+
+
+def _triangles_of(primitive: Any) -> Any:
+    """Return the polygons of a primitive as triangles; pycollada's fans cover what is notched."""
+    if primitive.vertex is None or not len(primitive.index):
+        return primitive.triangleset()
+    triangles = cut(primitive.vertex[primitive.vertex_index], primitive.vcounts)
+    corners = primitive.index[triangles.ravel()].ravel()
+    return collada.triangleset.TriangleSet(
+        primitive.sources, primitive.material, corners, primitive.xmlnode
     )
 
 

@@ -137,6 +137,8 @@ class _Rewriting:
         self._set_coordinates(primitive, attributes)
         if "COLOR_0" in attributes and "material" in primitive:
             self._set_colour(primitive, attributes.pop("COLOR_0"))
+        elif "COLOR_0" in attributes and not self._is_plain(attributes["COLOR_0"]):
+            attributes["COLOR_0"] = self._floats(attributes["COLOR_0"])
         if primitive.get("mode") == FAN:
             self._set_fan(primitive)
         elif "indices" in primitive and "sparse" in self._accessor(primitive["indices"]):
@@ -279,7 +281,9 @@ def _transformed(uv: Numbers, transform: Tree) -> Numbers:
     """Scaled, turned and moved texture coordinates (KHR_texture_transform), (n, 2)."""
     angle = float(transform.get("rotation", 0.0))
     cos, sin = math.cos(angle), math.sin(angle)
-    rotation = np.array([[cos, sin], [-sin, cos]])
     scale, offset = transform.get("scale", [1.0, 1.0]), transform.get("offset", [0.0, 0.0])
-    moved: Numbers = (uv * np.array(scale)) @ rotation.T + np.array(offset)
+    u, v = uv[:, 0] * scale[0], uv[:, 1] * scale[1]
+    moved: Numbers = np.stack(
+        [cos * u + sin * v + offset[0], cos * v - sin * u + offset[1]], axis=-1
+    )
     return moved

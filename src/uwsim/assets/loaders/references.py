@@ -11,6 +11,7 @@ import os
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
 
 from ...base.files.input_files import is_inside
 from ...errors import AssetError
@@ -72,7 +73,7 @@ class References:
         ]
 
     def _found(self, name: str) -> bytes:
-        texts = dict.fromkeys((name, OPTIONS.sub("", name, count=1)))
+        texts = dict.fromkeys((name, OPTIONS.sub("", name, count=1), unquote(name)))
         asked = [PurePosixPath(text.strip().replace("\\", "/")) for text in texts]
         for place in (each for full in asked for each in (full, PurePosixPath(full.name))):
             for folder in self._folders:

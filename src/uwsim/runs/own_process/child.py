@@ -145,14 +145,15 @@ class Child:
         """Do what a frame says, and answer it."""
         try:
             value = getattr(self, f"_{kind}")(*arguments)
+            frame = encode(["done", self._node.published(), value, self._node.broken])
         except BaseException as error:
             message = str(error) if isinstance(error, UwsimError) else ""
             trace = error.__traceback__
             error.__traceback__ = trace and trace.tb_next  # the first is that of this function
             text = what_was_raised(error, self._class)
-            self._send(["raised", self._node.published(), type(error).__name__, message, text])
-        else:
-            self._send(["done", self._node.published(), value, self._node.broken])
+            raised = (type(error).__name__, message, text)
+            frame = encode(["raised", self._node.published(), *raised])
+        self._send(frame)
 
     def _make(self, path: list[str], sources: list[list[Any]], module: str, name: str) -> None:
         """Import the class as the simulation did, and make the algorithm."""
@@ -186,7 +187,7 @@ class Child:
 
     def _ask(self, method: str, *arguments: object) -> Any:
         """Ask the simulation for something; calls that come in between are answered."""
-        self._send(["ask", self._node.published(), method, *arguments])
+        self._send(encode(["ask", self._node.published(), method, *arguments]))
         while True:
             kind, *rest = self._receive()
             if kind == "given":
@@ -195,9 +196,9 @@ class Child:
                 _raise(*rest)
             self._run(kind, *rest)
 
-    def _send(self, frame: list[object]) -> None:
+    def _send(self, frame: bytes) -> None:
         try:
-            self._pipe.send_bytes(encode(frame))
+            self._pipe.send_bytes(frame)
         except OSError:
             os._exit(1)  # the simulation has gone
 

@@ -27,6 +27,8 @@ _ARRAYS = (np.ndarray, np.generic)
 _BASES: tuple[Any, ...] = (bool, int, float, str, list, tuple, dict)
 _PLAIN = frozenset((type(None), bool, int, float, str))
 _MOST_NAMES = 10_000
+MAX_DEPTH = 100
+"""Values that are nested deeper do not leave the process: one may hold itself."""
 
 
 class FrameError(Exception):
@@ -70,20 +72,25 @@ def decode(frame: bytes) -> Any:
     return value
 
 
-def _tagged(value: Any, arrays: list[bytes]) -> object:
+def _tagged(value: Any, arrays: list[bytes], depth: int = 0) -> object:
     """Return JSON of a value; what JSON has no form for is an object with one key."""
     cls: Any = value.__class__
     if cls in _PLAIN:
         return value
+    if depth > MAX_DEPTH:
+        return {"o": [cls.__name__, _shown(value)]}
+    inner = depth + 1
     if cls is list:
-        return [_tagged(item, arrays) for item in value]
+        return [_tagged(item, arrays, inner) for item in value]
     if cls is tuple:
-        return {"t": [_tagged(item, arrays) for item in value]}
+        return {"t": [_tagged(item, arrays, inner) for item in value]}
     if cls is dict:
-        return {"d": [[_tagged(k, arrays), _tagged(v, arrays)] for k, v in value.items()]}
-    if cls is not np.ndarray and message_class(name := _name(cls)) is cls:
+        pairs = [(_tagged(k, arrays, inner), _tagged(v, arrays, inner)) for k, v in value.items()]
+        return {"d": [list(pair) for pair in pairs]}
+    if hasattr(cls, "__dataclass_fields__") and message_class(name := _name(cls)) is cls:
         fields = [getattr(value, field) for field in _names(cls)]
-        return {"m": [name, *(v if v.__class__ in _PLAIN else _tagged(v, arrays) for v in fields)]}
+        tagged = (v if v.__class__ in _PLAIN else _tagged(v, arrays, inner) for v in fields)
+        return {"m": [name, *tagged]}
     if isinstance(value, _ARRAYS) and value.dtype.kind in "biufSU":
         arrays.append(value.tobytes())
         key = "a" if isinstance(value, np.ndarray) else "s"
@@ -95,7 +102,7 @@ def _tagged(value: Any, arrays: list[bytes]) -> object:
         return {"c": _name(value)}
     derived = next((plain for plain in _BASES if isinstance(value, plain)), None)
     if derived is not None:
-        return _tagged(derived(value), arrays)
+        return _tagged(derived(value), arrays, inner)
     return {"o": [cls.__name__, _shown(value)]}
 
 

@@ -96,12 +96,17 @@ def execute(
         try:
             with (
                 nullcontext() if recorder is None else recorder.recording(simulation, trial),
-                attribute_errors_to(plan.plugins, is_running=True),
+                attribute_errors_to(plan.plugins, when=partial(_moment, simulation, trial)),
                 closing(_Execution(plan, trial, simulation, program, calls, onlooker)) as running,
+                attribute_errors_to(plan.plugins, when=running.moment),
             ):
                 yield from running.rows()
         finally:
             simulation.close()
+
+
+def _moment(simulation: Simulation, trial: Trial) -> str:
+    return f"seed {trial.seed}, at {simulation.time:g} s"
 
 
 class _Execution:
@@ -153,10 +158,16 @@ class _Execution:
         self._facts: dict[str, Fact] = {}
         self._target_motion: TargetMotion | None = None
         self._floor: Floor | None = None
+        self._level: Level | None = None  # the last one
         self._level_began: int | None = None  # step in which the level began that runs
         self._n_measured = 0  # steps of the levels so far
         has_images = trial.index == 0 and not plan.is_blind
         self._moments = Moments(simulation) if has_images else None
+
+    def moment(self) -> str:
+        """``level fog=0.4, seed 7, at 3.02 s``."""
+        level = f"level {self._level}, " if self._level else ""
+        return level + _moment(self._simulation, self._trial)
 
     def rows(self) -> Iterator[LevelRow | TrialEnd]:
         """Run the levels."""
@@ -199,6 +210,7 @@ class _Execution:
         floor = self._floor
         before: Level | None = None
         for level in self._trial.levels:
+            self._level = level
             if self._trial.is_alone:
                 if floor is not None:
                     floor.start()

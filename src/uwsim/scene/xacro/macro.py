@@ -24,7 +24,10 @@ COMMAS = re.compile(r"\s*\w+\s*(,\s*\w+\s*)+")
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
-    """A parameter of a macro: ``name``, ``name:=default``, ``name:=^|default``, ``*block``."""
+    """A parameter of a macro: ``name``, ``name:=default``, ``name:=^|default``, ``*block``.
+
+    The bar may be missing.
+    """
 
     name: str
     default: str | None = None
@@ -106,7 +109,7 @@ def parameters_of(text: str) -> tuple[Parameter, ...]:
         if default and default[0] == default[-1] and default[0] in "'\"":
             default = default[1:-1]
         is_from_outside = found["outer"] is not None
-        has_default = found["colon"] is not None and found["outer"] != "^"
+        has_default = found["colon"] is not None and bool(default or found["outer"] != "^")
         parameters[name] = Parameter(
             name=name,
             default=(default or "") if has_default else None,

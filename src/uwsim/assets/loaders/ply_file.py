@@ -1,0 +1,353 @@
+"""PLY files, as text or binary, with polygons of any number of corners.
+
+Format: Greg Turk, "The PLY Polygon File Format", 1994; texture coordinates as MeshLab and Blender
+write them: a list ``texcoord`` of each face, or two properties of each vertex.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+import trimesh
+from PIL import Image
+
+from .polygons import cut
+from .references import References
+
+Array = npt.NDArray[Any]
+
+TYPES = {
+    "char": "i1", "uchar": "u1", "short": "i2", "ushort": "u2", "int": "i4", "uint": "u4",
+    "float": "f4", "double": "f8",
+    "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
+    "int64": "i8", "uint64": "u8", "float32": "f4", "float64": "f8",
+}  # fmt: skip
+"""The words for numbers, of 1994 and of today."""
+MAX_RECORDS = 24_000_000
+"""Most records of a kind, and most numbers in all of its lists."""
+FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+CORNERS = ("vertex_indices", "vertex_index")
+COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
+COLOURS = ("red", "green", "blue")
+
+
+@dataclass
+class Property:
+    """A number of each record, or a list of numbers, with their types as NumPy names them."""
+
+    name: str
+    kind: str
+    count: str | None = None
+    """The type of a list's length."""
+
+
+@dataclass
+class Element:
+    """Records of one kind."""
+
+    name: str
+    length: int
+    properties: list[Property] = field(default_factory=list)
+
+
+@dataclass
+class Lists:
+    """A list of each record, one after the other."""
+
+    counts: Array
+    values: Array
+
+
+Columns = dict[str, Array | Lists]
+"""The numbers of all records, by the names of their properties."""
+
+
+def read_parts(
+    data: bytes, references: References
+) -> list[tuple[npt.NDArray[np.float64], trimesh.Trimesh]]:
+    """Return the triangles of a file, a mesh for each of its images, with the identity as pose.
+
+    Args:
+        data: the file.
+        references: reads its images.
+
+    Raises:
+        ValueError: it is no such file, ends too early, or names a vertex that is not there.
+    """
+    elements, body, images = _header(data)
+    columns: dict[str, Columns] = {"vertex": {}, "face": {}} | body.read(elements)
+    vertices, faces = columns["vertex"], columns["face"]
+    polygons = _polygons(faces)
+    if polygons is None or not set("xyz") <= vertices.keys():
+        return []
+    points = np.stack([_numbers(vertices[axis]) for axis in "xyz"], axis=-1).astype(np.float64)
+    corners, counts = polygons.values.astype(np.int64), polygons.counts
+    if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
+        raise ValueError("a face names a vertex that is not there")
+    triangles = cut(points[corners], counts)
+    face = np.repeat(np.arange(len(counts)), np.maximum(counts - 2, 0))
+    uvs = _uvs(vertices, faces, corners, counts)
+    image = np.zeros(len(face), dtype=np.int64)
+    if uvs is not None and len(images) > 1 and "texnumber" in faces:
+        image = _numbers(faces["texnumber"])[face].astype(np.int64)
+    visuals: Any = trimesh.visual
+    parts = []
+    for number in np.unique(image):
+        chosen = triangles[image == number].ravel()
+        mesh = trimesh.Trimesh(
+            vertices=points[corners[chosen]],
+            faces=np.arange(len(chosen)).reshape(-1, 3),
+            process=False,
+        )
+        name = images[number] if 0 <= number < len(images) else None
+        picture = None if name is None or uvs is None else _picture(name, references)
+        if picture is not None and uvs is not None:
+            material = visuals.material.PBRMaterial(baseColorTexture=picture)
+            mesh.visual = visuals.TextureVisuals(uv=uvs[chosen], material=material)
+        elif (colours := _colours(vertices, corners[chosen])) is not None:
+            mesh.visual = visuals.ColorVisuals(mesh, vertex_colors=colours)
+        elif (colours := _colours(faces, face[image == number])) is not None:
+            mesh.visual = visuals.ColorVisuals(mesh, face_colors=colours)
+        parts.append((np.eye(4), mesh))
+    return parts
+
+
+def _polygons(faces: Columns) -> Lists | None:
+    """Return the vertices of each face; a list of another name is that if it is the only one."""
+    lists = {name: column for name, column in faces.items() if isinstance(column, Lists)}
+    named = next((lists[name] for name in CORNERS if name in lists), None)
+    return next(iter(lists.values())) if named is None and len(lists) == 1 else named
+
+
+def _numbers(column: Array | Lists) -> Array:
+    if isinstance(column, Lists):
+        raise ValueError("it has lists where numbers are expected")
+    return column
+
+
+def _uvs(vertices: Columns, faces: Columns, corners: Array, counts: Array) -> Array | None:
+    """Return the texture coordinates of the corners, (n, 2); 0 for faces without; None of none."""
+    of_faces = faces.get("texcoord")
+    if isinstance(of_faces, Lists):
+        has_them = of_faces.counts == 2 * counts
+        uvs = np.zeros((len(corners), 2))
+        given = of_faces.values[np.repeat(has_them, of_faces.counts)]
+        uvs[np.repeat(has_them, counts)] = given.reshape(-1, 2)
+        return uvs
+    for names in COORDINATES:
+        if set(names) <= vertices.keys():
+            return np.stack([_numbers(vertices[name])[corners] for name in names], axis=-1)
+    return None
+
+
+def _picture(name: str, references: References) -> Image.Image | None:
+    try:
+        return Image.open(io.BytesIO(references.get(name)))
+    except Exception:  # without the image; what was refused is kept in the references
+        return None
+
+
+def _colours(columns: Columns, rows: Array) -> npt.NDArray[np.uint8] | None:
+    """Return the colours of records, (n, 3); None where they have none."""
+    if not set(COLOURS) <= columns.keys():
+        return None
+    given = np.stack([_numbers(columns[name])[rows] for name in COLOURS], axis=-1)
+    if given.dtype.kind == "f":
+        given = given * 255.0
+    elif given.dtype == np.uint16:
+        given = given / 257.0
+    colours: npt.NDArray[np.uint8] = np.clip(np.nan_to_num(given), 0, 255).astype(np.uint8)
+    return colours
+
+
+def _header(data: bytes) -> tuple[list[Element], _Body, list[str]]:
+    """Return the kinds of records, what stands behind the header, and the names of images."""
+    elements: list[Element] = []
+    images: list[str] = []
+    order = None
+    for line, end in _lines(data):
+        match line.split():
+            case ["format", word, *_] if word in FORMATS:
+                order = FORMATS[word]
+            case ["element", name, length] if length.isdecimal():
+                elements.append(Element(name, int(length)))
+            case ["property", "list", count, kind, name] if (
+                elements and kind in TYPES and TYPES.get(count, "f")[0] in "iu"
+            ):
+                elements[-1].properties.append(Property(name, TYPES[kind], TYPES[count]))
+            case ["property", kind, name] if elements and kind in TYPES:
+                elements[-1].properties.append(Property(name, TYPES[kind]))
+            case ["comment", word, *_] if word.lower() == "texturefile":
+                images.append(line.split(word, 1)[1].strip())
+            case ["end_header"] if order is not None:
+                return elements, _Binary(data, end, order) if order else _Text(data[end:]), images
+            case ["format" | "element" | "property" | "end_header", *_]:
+                raise ValueError(f"its header has the line {line[:80]!r}")
+    raise ValueError("its header has no end")
+
+
+def _lines(data: bytes) -> Iterator[tuple[str, int]]:
+    """Give the lines of the header behind the first, each with the place behind it."""
+    if data[:3] != b"ply" or not data[3:4].isspace():
+        raise ValueError("it does not begin with the word ply")
+    newline = b"\r" if data[3:4] == b"\r" and data[4:5] != b"\n" else b"\n"
+    at = data.find(newline) + 1
+    while at and (end := data.find(newline, at)) >= 0:
+        yield data[at:end].decode("utf-8").strip(), end + 1
+        at = end + 1
+
+
+class _Body:
+    """What stands behind the header; its places count bytes, or the numbers of a text."""
+
+    start: int
+    end: int
+
+    def size(self, kind: str) -> int:
+        """Return how many places a number takes."""
+        raise NotImplementedError
+
+    def at(self, places: Array, kind: str) -> Array:
+        """Return the numbers at places."""
+        raise NotImplementedError
+
+    def length_at(self, place: int, kind: str) -> int:
+        """Return the length of the list that stands at a place; ValueError if it is none."""
+        return int(self.lengths_at(np.array([place]), kind)[0])
+
+    def lengths_at(self, places: Array, kind: str) -> Array:
+        """Return the lengths of lists that stand at places; ValueError if one is none."""
+        found = self.at(places, kind).astype(np.int64)
+        if len(found) and found.min() < 0:
+            raise ValueError(f"a list of {found.min()} numbers")
+        return found
+
+    def read(self, elements: list[Element]) -> dict[str, Columns]:
+        """Return the records of each kind.
+
+        Raises:
+            ValueError: there are fewer than the header says, or too many.
+        """
+        found: dict[str, Columns] = {}
+        place = self.start
+        for element in elements:
+            least = sum(self.size(each.count or each.kind) for each in element.properties)
+            if place + least * element.length > self.end:
+                raise ValueError(f"it ends before its {element.length} records {element.name!r}")
+            if element.length > MAX_RECORDS:
+                raise ValueError(f"{element.length} records; at most {MAX_RECORDS} are read")
+            if element.length and least:
+                found[element.name], place = self._columns(element, place)
+        return found
+
+    def _columns(self, element: Element, place: int) -> tuple[Columns, int]:
+        """Return records and the place behind them; walks from one to the next if it has to."""
+        n, length = element.length, self._after(element, place) - place
+        if place + n * length <= self.end:
+            columns = self._at_places(element, place + length * np.arange(n), is_equal=True)
+            if columns is not None:
+                return columns, place + n * length
+        places = np.empty(n, dtype=np.int64)
+        for i in range(n):
+            places[i] = place
+            place = self._after(element, place)
+        return self._at_places(element, places) or {}, place
+
+    def _after(self, element: Element, place: int) -> int:
+        """Return the place behind the record that begins at a place."""
+        for each in element.properties:
+            if each.count is not None and place + self.size(each.count) <= self.end:
+                length = self.length_at(place, each.count)
+                place += self.size(each.count) + length * self.size(each.kind)
+            else:
+                place += self.size(each.count or each.kind)
+        if place > self.end:
+            raise ValueError(f"it ends before the last of its records {element.name!r}")
+        return place
+
+    def _at_places(
+        self, element: Element, places: Array, *, is_equal: bool = False
+    ) -> Columns | None:
+        """Return the records that begin at places; None if their lists have to be equally long."""
+        columns: Columns = {}
+        for each in element.properties:
+            if each.count is None:
+                columns[each.name] = self.at(places, each.kind)
+                places = places + self.size(each.kind)
+                continue
+            counts = self.lengths_at(places, each.count)
+            if is_equal and (counts != counts[0]).any():
+                return None
+            if (total := int(counts.sum())) > MAX_RECORDS:
+                raise ValueError(f"lists of {total} numbers; at most {MAX_RECORDS} are read")
+            places = places + self.size(each.count)
+            within = np.arange(total) - np.repeat(np.cumsum(counts) - counts, counts)
+            of_values = np.repeat(places, counts) + within * self.size(each.kind)
+            columns[each.name] = Lists(counts, self.at(of_values, each.kind))
+            places = places + counts * self.size(each.kind)
+        return columns
+
+
+class _Text(_Body):
+    """Numbers; a line for each record may have more of them than the header says."""
+
+    def __init__(self, text: bytes) -> None:
+        self._values: Array = np.fromstring(text, sep=" ")
+        self.start, self.end = 0, len(self._values)
+        per_line = [n for line in text.splitlines() if (n := len(line.split()))]
+        self._lines: Array = np.concatenate([[0], np.cumsum(per_line)]).astype(np.int64)
+
+    def read(self, elements: list[Element]) -> dict[str, Columns]:
+        first = 0
+        lengths = [element.length for element in elements]
+        if sum(lengths) != len(self._lines) - 1 or self._lines[-1] != self.end:
+            return super().read(elements)
+        found: dict[str, Columns] = {}
+        for element in elements:
+            places = self._lines[first : first + element.length]
+            found[element.name] = self._at_places(element, places) or {}
+            first += element.length
+        return found
+
+    def size(self, kind: str) -> int:
+        return 1
+
+    def at(self, places: Array, kind: str) -> Array:
+        if len(places) and places.max() >= self.end:
+            raise ValueError("it ends before the last of its records")
+        return self._values[places].astype(kind)
+
+    def lengths_at(self, places: Array, kind: str) -> Array:
+        given = self.at(places, "f8")
+        if not ((given >= 0) & (given <= self.end) & (given == np.floor(given))).all():
+            raise ValueError("the length of a list that is none")
+        return given.astype(np.int64)
+
+
+class _Binary(_Body):
+    def __init__(self, data: bytes, start: int, order: str) -> None:
+        self._data, self._bytes = data, np.frombuffer(data, dtype=np.uint8)
+        self._order = order
+        self._endian: Literal["little", "big"] = "little" if order == "<" else "big"
+        self.start, self.end = start, len(data)
+
+    def size(self, kind: str) -> int:
+        return int(kind[1:])
+
+    def at(self, places: Array, kind: str) -> Array:
+        raw = np.empty((len(places), self.size(kind)), dtype=np.uint8)
+        for i in range(raw.shape[1]):
+            raw[:, i] = self._bytes[places + i]
+        return raw.view(self._order + kind)[:, 0].astype(kind)
+
+    def length_at(self, place: int, kind: str) -> int:
+        raw = self._data[place : place + self.size(kind)]
+        found = int.from_bytes(raw, self._endian, signed=kind[0] == "i")
+        if found < 0:
+            raise ValueError(f"a list of {found} numbers")
+        return found
