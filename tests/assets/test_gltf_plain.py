@@ -228,6 +228,15 @@ def test_a_colour_of_vertices_is_read_without_a_material(
     np.testing.assert_allclose(file.read(tmp_path).colour, [0.5, 0.25, 0.0], atol=1.5 / 255)
 
 
+@pytest.mark.parametrize("has_uvs", [True, False])
+def test_without_a_material_it_is_white(has_uvs: bool, tmp_path: Path) -> None:
+    file = File()
+    del file.primitive["material"]
+    if not has_uvs:
+        del file.attributes["TEXCOORD_0"]
+    assert file.read(tmp_path, ".glb").colour == (1.0, 1.0, 1.0)
+
+
 @pytest.mark.parametrize("written", ["a%20plate.bin", "a plate.bin"])
 def test_the_name_of_a_file_may_have_escapes(written: str, plate: Mesh, tmp_path: Path) -> None:
     file = File()

@@ -54,6 +54,11 @@ def is_broken(path: Path, *, is_decoded: bool) -> bool:
     return False
 
 
+GREY = (0.7, 0.7, 0.7)
+"""The colour of what has none."""
+WHITE = (1.0, 1.0, 1.0)
+"""The same by the specification of glTF 2.0 (3.7.2.1, "default material")."""
+
 Look = tuple[tuple[float, float, float], Texture | None]
 
 
@@ -76,7 +81,7 @@ class Looks:
         material = getattr(visual, "material", None)
         if material is None:
             if getattr(visual, "kind", None) not in ("face", "vertex"):
-                return (0.7, 0.7, 0.7), None
+                return (WHITE if self._is_gltf else GREY), None
             colours = np.asarray(visual.face_colors, dtype=np.float64)
             red, green, blue = (colours[:, :3].mean(axis=0) / 255.0).tolist()
             return (red, green, blue), None
