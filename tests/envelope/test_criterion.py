@@ -6,17 +6,16 @@ from typing import Any
 
 import pytest
 
+from tests.support.stored_rows import stored_row
 from uwsim.base.expression import ScoreError
 from uwsim.envelope import parse_criterion
 from uwsim.envelope.criterion import Judgement, reasons
+from uwsim.results.stored.stored_row import StoredRow
 
 
-def row(status: str = "ok", total: float | None = 2.0, **measures: float | None) -> dict[str, Any]:
-    return {
-        "status": status,
-        "total": total,
-        "measures": {name: [value, "px"] for name, value in measures.items()},
-    }
+def row(status: str = "ok", total: float | None = 2.0, **measures: float | None) -> StoredRow:
+    found = {name: [value, "px"] for name, value in measures.items()}
+    return stored_row(status=status, total=total, measures=found)
 
 
 def judge(text: str, **given: Any) -> tuple[bool, str]:

@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+from tests.support.stored_rows import stored_row
 from uwsim.envelope import Asked, Envelope, Evaluation, Range, parse_criterion, search
 from uwsim.envelope.plot import draw
 from uwsim.results.inputs import Inputs
@@ -27,11 +28,11 @@ def envelope(
     def ask(wanted: Any) -> list[bool]:
         for seed, level in wanted:
             error = law(seed, level)
-            row: dict[str, Any] = {
-                "status": "ok" if error is not None else status,
-                "total": error,
-                "measures": {"corners": [error, "px"]},
-            }
+            row = stored_row(
+                status="ok" if error is not None else status,
+                total=error,
+                measures={"corners": [error, "px"]},
+            )
             judged = CRITERION.judge(row)
             made[seed, level] = Evaluation(seed=seed, level=level, judgement=judged, row=row)
         return [made[key].judgement.is_broken for key in wanted]

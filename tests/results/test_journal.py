@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.stored_rows import stored_end, stored_row
+from tests.support.stored_rows import end_record, row_record, stored_end, stored_row
 from uwsim.errors import ReplayDiffers, ResultError
 from uwsim.results.journal import Journal, Stored, path_of, read
 
@@ -61,14 +61,14 @@ def test_rows_of_another_run_are_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("line", "now", "said"),
     [
-        (1, {"row": stored_row()}, "expected an object with 'unit'"),
+        (1, {"row": row_record()}, "expected an object with 'unit'"),
         (1, {"unit": {"seed": "x"}}, "unit.seed is 'x'; expected a whole number from 0"),
         (2, 7, "found 7; expected an object with 'row' or 'end'"),
         (2, {"row": {}}, "expected 'values' among its keys"),
-        (2, {"row": stored_row(total="x")}, "row.total is 'x'; expected a finite number"),
-        (2, {"row": stored_row(measures={"a": 1})}, "row.measures.a is 1; expected a list of 2"),
-        (2, {"row": stored_row(logs={"a": [["x"]]})}, "expected numbers and nulls"),
-        (3, {"end": stored_end(streams=[["/a", 1]])}, r"end.streams\[0\] is .* a list of 3"),
+        (2, {"row": row_record(total="x")}, "row.total is 'x'; expected a finite number"),
+        (2, {"row": row_record(measures={"a": 1})}, "row.measures.a is 1; expected a list of 2"),
+        (2, {"row": row_record(logs={"a": [["x"]]})}, "expected numbers and nulls"),
+        (3, {"end": end_record(streams=[["/a", 1]])}, r"end.streams\[0\] is .* a list of 3"),
     ],
 )
 def test_a_line_that_is_damaged_is_named_with_what_was_expected(

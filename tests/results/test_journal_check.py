@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from tests.support.compared_results import made
-from tests.support.stored_rows import stored_end, stored_row
+from tests.support.stored_rows import end_record, row_record
 from uwsim.analysis.comparison import read_entries, remarks
 from uwsim.analysis.report import write_report
 from uwsim.cli import main
@@ -33,7 +33,7 @@ def written(directory: Path, algorithm: str = "esm", found: Found = FOUND) -> Pa
         lines: list[dict[str, Any]] = [{"unit": {"run": {"seed": 0}, "seed": seed}}]
         for fog, values in found.items():
             value = values[seed]
-            row = stored_row(
+            row = row_record(
                 values=[fog],
                 measures={"corners": [value, "px"]},
                 total=value,
@@ -42,7 +42,7 @@ def written(directory: Path, algorithm: str = "esm", found: Found = FOUND) -> Pa
                 duration=2.0,
             )
             lines.append({"row": row})
-        lines.append({"end": stored_end()})
+        lines.append({"end": end_record()})
         file = directory / "units" / f"{seed:05d}.jsonl"
         file.parent.mkdir(exist_ok=True)
         file.write_text("".join(json.dumps(line) + "\n" for line in lines))

@@ -10,25 +10,21 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.stored_rows import stored_end, stored_row
 from tests.support.waiting import until
 from uwsim.errors import ResultError
 from uwsim.results import journal
 from uwsim.results.seal import Keeper, Seal
 
 HEAD = {"inputs": {}, "run": {}, "seed": 7, "levels": [[0.5]]}
-ROW = {
-    "values": [0.5],
-    "measures": {"corners": [1.25, "px"]},
-    "details": {},
-    "total": 1.25,
-    "status": "ok",
-    "missing": {},
-    "duration": 2.0,
-    "logs": {"corners": [[0.5, 17.125]]},
-    "log_headers": {"corners": ["total [px]"]},
-    "pictures": [],
-}
-END: journal.Record = {"facts": {}, "parameters": {}, "streams": [], "notes": []}
+ROW = stored_row(
+    values=[0.5],
+    measures={"corners": [1.25, "px"]},
+    total=1.25,
+    logs={"corners": [[0.5, 17.125]]},
+    log_headers={"corners": ["total [px]"]},
+)
+END = stored_end()
 
 
 def written(folder: Path, seal: Seal | None, index: int = 0, *, ends: bool = True) -> Path:

@@ -1,12 +1,14 @@
-"""Rows and ends as a unit's file has them, with chosen values (no module under test)."""
+"""Rows and ends as a trial's journal has them, with chosen values."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from uwsim.results.stored.stored_row import StoredEnd, StoredRow
 
-def stored_row(**given: Any) -> dict[str, Any]:
-    """A row of one level; ``given`` stands in it as it is."""
+
+def row_record(**given: Any) -> dict[str, Any]:
+    """A row of one level as it is written; ``given`` stands in it as it is."""
     return {
         "values": [0.0],
         "measures": {"corners": [1.5, "px"]},
@@ -22,6 +24,16 @@ def stored_row(**given: Any) -> dict[str, Any]:
     }
 
 
-def stored_end(**given: Any) -> dict[str, Any]:
-    """The end of a unit; ``given`` stands in it as it is."""
+def end_record(**given: Any) -> dict[str, Any]:
+    """The end of a trial as it is written; ``given`` stands in it as it is."""
     return {"facts": {}, "parameters": {}, "streams": [], "notes": [], **given}
+
+
+def stored_row(**given: Any) -> StoredRow:
+    """A row of one level; ``given`` are values as they are written."""
+    return StoredRow.of(row_record(**given))
+
+
+def stored_end(**given: Any) -> StoredEnd:
+    """The end of a trial; ``given`` are values as they are written."""
+    return StoredEnd.of(end_record(**given))

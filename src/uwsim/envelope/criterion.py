@@ -17,7 +17,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 
 from ..base import expression as expressions
-from ..results.journal import Record
+from ..results.stored.stored_row import StoredRow
 
 STATUSES = {
     "ok": 0.0,
@@ -63,14 +63,14 @@ class Criterion:
         """As it was written."""
         return self.expression.text
 
-    def judge(self, row: Record) -> Judgement:
+    def judge(self, row: StoredRow) -> Judgement:
         """Evaluate a run from its stored row."""
-        status = str(row["status"])
+        status = row.status
         if status != "ok" and not self.asks_status:
             return Judgement(is_broken=True, why=status)
         values: dict[str, float | None] = dict(NAMES)
-        values |= {STATUS: STATUSES[status], TOTAL: row["total"]}
-        values |= {name: value for name, (value, _) in row["measures"].items()}
+        values |= {STATUS: STATUSES[status], TOTAL: row.total}
+        values |= {name: value for name, (value, _) in row.measures.items()}
         found = self.expression.score(values)
         if found.value is None:
             return Judgement(is_broken=True, why="no value")

@@ -237,9 +237,9 @@ def _evaluation_record(evaluation: Evaluation) -> dict[str, object]:
         "level": evaluation.level,
         "broken": evaluation.judgement.is_broken,
         "why": evaluation.judgement.why,
-        "status": row["status"],
-        "total": row["total"],
-        "measures": {name: value for name, (value, _) in row["measures"].items()},
+        "status": row.status,
+        "total": row.total,
+        "measures": {name: value for name, (value, _) in row.measures.items()},
     }
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from ..benchmark.updaters import Level
 from ..results import journal
-from ..results.journal import Record
+from ..results.stored.stored_row import Record, StoredRow
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
 from ..runs.planning.plan import Plan, Trial
 from ..runs.run import Run
@@ -35,7 +35,7 @@ class Evaluation:
     """Value of the updater that is searched over."""
     judgement: Judgement
     """Whether it is broken, and why."""
-    row: Record
+    row: StoredRow
     """As it is stored."""
 
 

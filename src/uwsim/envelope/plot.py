@@ -49,10 +49,10 @@ def draw(envelope: Envelope, directory: Path) -> Path:
 def _draw_measure(axes: Axes, envelope: Envelope) -> None:
     """Draw the criterion's first measure over the level; runs without a value are at the top."""
     rows = [e.row for e in envelope.evaluations]
-    names = list(rows[0]["measures"]) if rows else []
+    names = list(rows[0].measures) if rows else []
     criterion = parse_criterion(envelope.asked.until, names)
     name = (criterion.measures or ("total",))[0]
-    units = {m: unit for row in rows for m, (_, unit) in row["measures"].items()}
+    units = {m: unit for row in rows for m, (_, unit) in row.measures.items()}
     unit = units.get(name, "1")
     for is_broken, colour, marker, word in (
         (False, HOLDS, "o", "holds"),
@@ -126,7 +126,7 @@ def _draw_found(axes: Axes, envelope: Envelope) -> None:
 
 def _value(evaluation: Evaluation, name: str) -> float | None:
     row = evaluation.row
-    value = row["total"] if name == "total" else row["measures"][name][0]
+    value = row.total if name == "total" else row.measures[name][0]
     return None if value is None or not math.isfinite(value) else float(value)
 
 

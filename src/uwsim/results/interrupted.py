@@ -14,9 +14,10 @@ from ..errors import ResultError
 from .command import bench_words
 from .directory import CONTROL
 from .inputs import Inputs
-from .journal import FOLDER, Record, head_of
+from .journal import FOLDER, head_of
 from .provenance import load_provenance
 from .run_info import RunInfo
+from .stored.stored_row import Record
 from .stored.stored_shapes import HEAD
 
 ENVELOPE = "envelope.json"

@@ -11,13 +11,13 @@ import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from ..errors import ReplayDiffers, ResultError, names_file
 from .chosen_code import other_code
 from .inputs import Inputs, differing
 from .provenance import codes_of, load_provenance
 from .seal import SEALED, Seal
+from .stored.stored_row import Record, StoredEnd, StoredRow
 from .stored.stored_shapes import END, HEAD, ROW
 
 FOLDER = "units"
@@ -33,17 +33,16 @@ MAX_LINE_LENGTH = 200
 """Greatest number of letters printed of one difference."""
 MAX_LINES = 6
 """Greatest number of differences printed."""
-Record = dict[str, Any]
 
 
 @dataclass(frozen=True)
 class Stored:
     """The content of a journal."""
 
-    rows: tuple[Record, ...]
+    rows: tuple[StoredRow, ...]
     """Rows finished, in order."""
-    end: Record | None
-    """The end record of a finished trial; None while it is not finished."""
+    end: StoredEnd | None
+    """The end of a finished trial; None while it is not finished."""
 
 
 NOTHING = Stored((), None)
@@ -127,7 +126,8 @@ def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, Store
     if not found["unit"]:
         return None, NOTHING
     ends = found["end"]
-    return found["unit"][0], Stored(tuple(found["row"]), ends[0] if ends else None)
+    rows = tuple(map(StoredRow.of, found["row"]))
+    return found["unit"][0], Stored(rows, StoredEnd.of(ends[0]) if ends else None)
 
 
 def head_of(path: Path) -> Record:
@@ -194,29 +194,29 @@ class Journal:
         self._stream = self._path.with_suffix(".part").open("w", encoding="utf-8", newline="\n")
         self._write({"unit": head})
         for row in self._stored.rows:
-            self._write({"row": row})
+            self._write({"row": row.record()})
         self._publish()
 
-    def add(self, row: Record) -> bool:
+    def add(self, row: StoredRow) -> bool:
         """Add a row, or compare it with the stored one; returns whether it is new."""
-        row = json.loads(_text(row))
+        again = _as_read(row)
         is_new = self._n_rows >= len(self._stored.rows)
         if not is_new:
-            before = self._stored.rows[self._n_rows]
-            if _text(_own(before)) != _text(_own(row)):
+            before = _as_read(self._stored.rows[self._n_rows])
+            if _text(_own(before)) != _text(_own(again)):
                 raise ReplayDiffers(
                     f"{self._path}: row {self._n_rows}, repeated, differs from the stored one "
-                    f"in {_difference(before, row)}. The run is not repeatable here: "
+                    f"in {_difference(before, again)}. The run is not repeatable here: "
                     f"{self._why_not()} Start anew with --overwrite."
                 )
         else:
-            self._write({"row": row})
+            self._write({"row": again})
         self._n_rows += 1
         return is_new
 
-    def finish(self, end: Record) -> None:
-        """Write the end record."""
-        self._write({"end": end})
+    def finish(self, end: StoredEnd) -> None:
+        """Write the end of the trial."""
+        self._write({"end": end.record()})
         self._is_finished = True
         self.close()
 
@@ -263,6 +263,12 @@ def _other_run(found: Record, head: Record) -> str:
         if before.get(name) != now.get(name)
     ]
     return "; ".join(line[:MAX_LINE_LENGTH] for line in messages[:MAX_LINES])
+
+
+def _as_read(row: StoredRow) -> Record:
+    """Return the record of a row as it would be read again."""
+    record: Record = json.loads(_text(row.record()))
+    return record
 
 
 def _own(row: Record) -> Record:

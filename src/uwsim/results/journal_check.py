@@ -7,14 +7,15 @@ checked.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ResultError
-from .journal import FOLDER, Record, read_any
+from .journal import FOLDER, read_any
 from .leaves import leaves
 from .result import Cell, Column, Result
+from .stored.stored_row import Measured, StoredRow
 
 Key = tuple[Cell, ...]
 """The seed of a row, then its levels."""
@@ -26,8 +27,8 @@ SHOWN = 3
 class Journals:
     """The journals of all trials of a result."""
 
-    rows: dict[Key, Record]
-    """What is stored of each level; ``elapsed`` is the time since its seed began [s]."""
+    rows: dict[Key, tuple[StoredRow, float]]
+    """What is stored of each level, and the time since its seed began [s]."""
     ended: tuple[Key, ...]
     """Those of finished trials."""
     n_ended: int
@@ -69,10 +70,11 @@ def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
     keys = tuple(_keys(result))
     messages, without = [], 0
     for row, key in enumerate(keys):
-        record = journals.rows.get(key)
-        if record is not None:
+        stored = journals.rows.get(key)
+        if stored is not None:
             counts_time = len(journals.rows) == len(result.rows)
-            messages += [f"row {row}, {what}" for what in _apart(result, row, record, counts_time)]
+            apart = _apart(result, row, *stored, counts_time=counts_time)
+            messages += [f"row {row}, {what}" for what in apart]
         elif journals.n_ended >= n_ended:
             messages.append(f"row {row}: {FOLDER}/ has no such level")
         else:
@@ -86,7 +88,7 @@ def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
 
 def read_journals(directory: Path) -> Journals:
     """Read the journals of all trials, in their order."""
-    rows: dict[Key, Record] = {}
+    rows: dict[Key, tuple[StoredRow, float]] = {}
     ended: list[Key] = []
     elapsed: dict[Cell, float] = {}
     n_ended = 0
@@ -94,10 +96,10 @@ def read_journals(directory: Path) -> Journals:
         head, stored = read_any(path)
         n_ended += stored.end is not None
         seed = None if head is None else head.get("seed")
-        for record in stored.rows:
-            elapsed[seed] = elapsed.get(seed, 0.0) + record["duration"]
-            key = (seed, *record["values"])
-            rows[key] = {**record, "elapsed": elapsed[seed]}
+        for row in stored.rows:
+            elapsed[seed] = elapsed.get(seed, 0.0) + row.duration
+            key = (seed, *row.values)
+            rows[key] = row, elapsed[seed]
             if stored.end is not None:
                 ended.append(key)
     return Journals(rows, tuple(ended), n_ended)
@@ -116,43 +118,52 @@ def _keys(result: Result) -> Iterator[Key]:
         yield (seed if isinstance(seed, int) else None, *(row[i] for i in levels))
 
 
-def _apart(result: Result, row: int, record: Record, counts_time: bool) -> Iterator[str]:
-    """Return the cells and reasons of a row that differ from its record."""
+def _apart(
+    result: Result, row: int, stored: StoredRow, elapsed: float, *, counts_time: bool
+) -> Iterator[str]:
+    """Give the cells and reasons of a row that differ from what is stored of it."""
+    is_independent = result.run.mode == "independent"
     for column, cell in zip(result.columns, result.rows[row], strict=True):
         if column.kind in ("run", "level") or (column.kind == "time" and not counts_time):
             continue
-        stored = _stored(record, column, is_independent=result.run.mode == "independent")
-        if column.kind == "time" and leaves(cell) == leaves(record["elapsed"]):
+        known = _cell(stored, column, stored.duration if is_independent else elapsed)
+        if column.kind == "time" and leaves(cell) == leaves(elapsed):
             continue  # of independent levels, too, in results of earlier versions
-        if leaves(cell) != leaves(stored):
-            yield f"column {column.name}: {cell!r} there, {stored!r} by {FOLDER}/"
-        unit = _unit(record, column)
+        if leaves(cell) != leaves(known):
+            yield f"column {column.name}: {cell!r} there, {known!r} by {FOLDER}/"
+        unit = _unit(stored, column)
         if unit is not None and unit != (column.unit or "1"):
             yield f"column {column.name}: in {column.unit or '1'} there, in {unit} by {FOLDER}/"
     names = [column.name for column in result.columns]
-    for name in (*record["measures"], *record["details"], "total"):
+    for name in (*stored.measures, *stored.details, "total"):
         if name not in names:
             yield f"there is no column {name}"
     reasons = {note.column: note.why for note in result.missing if note.row == row}
-    for name in dict.fromkeys([*reasons, *record["missing"]]):
-        before, after = reasons.get(name), record["missing"].get(name)
+    for name in dict.fromkeys([*reasons, *stored.missing]):
+        before, after = reasons.get(name), stored.missing.get(name)
         if before != after:
             yield f"why {name} is missing: {before!r} there, {after!r} by {FOLDER}/"
 
 
-def _stored(record: Record, column: Column, *, is_independent: bool) -> object:
+def _cell(stored: StoredRow, column: Column, ended_at: float) -> Cell:
     match column.kind:
         case "measure" | "detail":
-            value, _ = record[f"{column.kind}s"].get(column.name, (None, ""))
+            value, _ = _measured(stored, column.kind).get(column.name, (None, ""))
             return value
-        case "score" | "status":
-            return record["total" if column.kind == "score" else "status"]
-    return record["duration" if is_independent else "elapsed"]
+        case "score":
+            return stored.total
+        case "status":
+            return stored.status
+    return ended_at
 
 
-def _unit(record: Record, column: Column) -> str | None:
-    """The unit of a value that is there; of none it need not be known."""
+def _unit(stored: StoredRow, column: Column) -> str | None:
+    """Return the unit of a value that is there; of none it need not be known."""
     if column.kind not in ("measure", "detail"):
         return None
-    value, unit = record[f"{column.kind}s"].get(column.name, (None, None))
-    return None if value is None else str(unit)
+    value, unit = _measured(stored, column.kind).get(column.name, (None, None))
+    return None if value is None else unit
+
+
+def _measured(stored: StoredRow, kind: str) -> Mapping[str, Measured]:
+    return stored.measures if kind == "measure" else stored.details

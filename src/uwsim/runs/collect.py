@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from ..benchmark.updaters import chain, swept_parameters
 from ..results.inputs import Inputs
-from ..results.journal import REFUSED, Record, Stored
+from ..results.journal import Stored
 from ..results.log import TIME, Log
 from ..results.result import (
     Cell,
@@ -21,6 +21,7 @@ from ..results.result import (
     Variation,
 )
 from ..results.run_info import RunInfo
+from ..results.stored.stored_row import Measured, StoredEnd, StoredPicture, StoredRow
 from .planning.plan import Plan, Trial
 from .trial.floor import largest
 
@@ -39,78 +40,79 @@ def collect(
     Returns:
         The result, its logs, and the length of all levels together [s].
     """
-    records = [(trial, record) for trial, found in stored for record in found.rows]
-    columns = _columns(plan, [record for _, record in records])
-    began, simulated_s = _times(records)
+    rows = [(trial, row) for trial, found in stored for row in found.rows]
+    columns = _columns(plan, [row for _, row in rows])
+    began, simulated_s = _times(rows)
     ended = [
-        record["duration"] + (0.0 if trial.is_alone else before)
-        for (trial, record), before in zip(records, began, strict=True)
+        row.duration + (0.0 if trial.is_alone else before)
+        for (trial, row), before in zip(rows, began, strict=True)
     ]
     ends = [(trial, found.end) for trial, found in stored if found.end is not None]
-    first = ends[0][1] if ends else {"facts": {}, "parameters": dict(plan.algorithm.parameters)}
+    facts = ends[0][1].facts if ends else {}
+    parameters = ends[0][1].parameters if ends else dict(plan.algorithm.parameters)
     result = Result(
         inputs=inputs,
         run=replace(
             info,
-            parameters=first["parameters"],
+            parameters=parameters,
             units=(len(ends), len(stored)),
-            notes=tuple(dict.fromkeys(note for _, end in ends for note in end["notes"])),
+            notes=tuple(dict.fromkeys(note for _, end in ends for note in end.notes)),
         ),
         columns=tuple(columns),
         rows=tuple(
-            _row(_lead(plan, trial, record), record, end, columns)
-            for (trial, record), end in zip(records, ended, strict=True)
+            _row(_lead(plan, trial, row), row, end, columns)
+            for (trial, row), end in zip(rows, ended, strict=True)
         ),
         missing=tuple(
-            Missing(row=row, column=name, why=why)
-            for row, (_, record) in enumerate(records)
-            for name, why in record["missing"].items()
+            Missing(row=number, column=name, why=why)
+            for number, (_, row) in enumerate(rows)
+            for name, why in row.missing.items()
         ),
-        facts={**first["facts"], **largest(end["facts"] for _, end in ends)},
+        facts={**facts, **largest(end.facts for _, end in ends)},
         variations=variations_of(plan),
         image_streams=tuple(each for trial, end in ends for each in _streams(trial, end)),
         images=tuple(
-            _image(row, image)
-            for row, (_, record) in enumerate(records)
-            for image in record["pictures"]
+            _image(number, picture)
+            for number, (_, row) in enumerate(rows)
+            for picture in row.pictures
         ),
         refused=tuple(
-            Refused(row=row, by=by, what=what, n=n)
-            for row, (_, record) in enumerate(records)
-            for by, what, n in record.get(REFUSED, ())
+            Refused(row=number, by=by, what=what, n=n)
+            for number, (_, row) in enumerate(rows)
+            for by, what, n in row.refused
         ),
         remarks=tuple(
-            Remark(row=row, text=text)
-            for row, (_, record) in enumerate(records)
-            for text in record.get("remarks", ())
+            Remark(row=number, text=text)
+            for number, (_, row) in enumerate(rows)
+            for text in row.remarks
         ),
     )
-    return result, _logs(plan, columns, records, began), simulated_s
+    return result, _logs(plan, columns, rows, began), simulated_s
 
 
-def _times(records: Sequence[tuple[Trial, Record]]) -> tuple[list[float], float]:
+def _times(rows: Sequence[tuple[Trial, StoredRow]]) -> tuple[list[float], float]:
     """Return when each level began, counted from its repeat's beginning, and the sum [s]."""
     elapsed: dict[int, float] = {}
     began = []
-    for trial, record in records:
+    for trial, row in rows:
         began.append(elapsed.get(trial.repeat, 0.0))
-        elapsed[trial.repeat] = began[-1] + record["duration"]
+        elapsed[trial.repeat] = began[-1] + row.duration
     return began, sum(elapsed.values())
 
 
-def _lead(plan: Plan, trial: Trial, record: Record) -> list[float | int]:
+def _lead(plan: Plan, trial: Trial, row: StoredRow) -> list[float | int]:
     """Cells of repeat, seed and level, with which rows and samples begin."""
-    return [*([trial.repeat, trial.seed] if plan.repeats > 1 else []), *record["values"]]
+    return [*([trial.repeat, trial.seed] if plan.repeats > 1 else []), *row.values]
 
 
 def _row(
-    lead: Sequence[float | int], record: Record, ended_at: float, columns: Sequence[Column]
+    lead: Sequence[float | int], row: StoredRow, ended_at: float, columns: Sequence[Column]
 ) -> tuple[Cell, ...]:
     cells: dict[str, Cell] = {
-        **{name: value for name, (value, _) in record["measures"].items()},
-        **{name: value for name, (value, _) in record["details"].items()},
-        "total": record["total"],
-        "status": record["status"],
+        **{name: value for name, (value, _) in row.measures.items()},
+        **{name: value for name, (value, _) in row.details.items()},
+        "total": row.total,
+        "status": row.status,
         "ended_at": ended_at,
     }
     return (*lead, *(cells.get(column.name) for column in columns[len(lead) :]))
@@ -119,22 +121,22 @@ def _row(
 def _logs(
     plan: Plan,
     columns: Sequence[Column],
-    records: Sequence[tuple[Trial, Record]],
+    rows: Sequence[tuple[Trial, StoredRow]],
     began: Sequence[float],
 ) -> list[Log]:
     """Return the log of every measure that has one; none before the first row."""
-    if not records:
+    if not rows:
         return []
     levels = [column.label for column in columns if column.kind in ("run", "level")]
-    headers = records[0][1]["log_headers"]
+    headers = rows[0][1].log_headers
     return [
         Log(
             measure=spec.name,
             header=(*levels, TIME, *headers[spec.name]),
             samples=tuple(
-                (*_lead(plan, trial, record), before + sample[0], *sample[1:])
-                for (trial, record), before in zip(records, began, strict=True)
-                for sample in record["logs"].get(spec.name, ())
+                (*_lead(plan, trial, row), before + sample[0], *sample[1:])
+                for (trial, row), before in zip(rows, began, strict=True)
+                for sample in row.logs.get(spec.name, ())
             ),
         )
         for spec in plan.benchmark.measures
@@ -142,11 +144,11 @@ def _logs(
     ]
 
 
-def _streams(trial: Trial, end: Record) -> list[ImageStream]:
+def _streams(trial: Trial, end: StoredEnd) -> list[ImageStream]:
     level = tuple(value for _, value in trial.levels[0].values) if trial.is_alone else None
     return [
         ImageStream(seed=trial.seed, level=level, topic=topic, frames=frames, sha256=sha256)
-        for topic, frames, sha256 in end["streams"]
+        for topic, frames, sha256 in end.streams
     ]
 
 
@@ -165,7 +167,7 @@ def variations_of(plan: Plan) -> tuple[Variation, ...]:
     )
 
 
-def _columns(plan: Plan, records: list[Record]) -> list[Column]:
+def _columns(plan: Plan, rows: Sequence[StoredRow]) -> list[Column]:
     """Name the columns; before the first row only those that are known without running.
 
     A measure's details are those of all rows together, and units those of the first row that has a
@@ -177,8 +179,8 @@ def _columns(plan: Plan, records: list[Record]) -> list[Column]:
         Column(name=name, kind="level", unit=_unit(spec.parameter_unit))
         for name, spec in zip(swept_parameters(updater), chain(updater), strict=True)
     ]
-    measures = _units(records, "measures")
-    details = _units(records, "details")
+    measures = _units(row.measures for row in rows)
+    details = _units(row.details for row in rows)
     for measure, unit in measures.items():
         columns.append(Column(name=measure, kind="measure", unit=_unit(unit)))
         columns += [
@@ -194,29 +196,24 @@ def _columns(plan: Plan, records: list[Record]) -> list[Column]:
     ]
 
 
-def _units(records: list[Record], kind: str) -> dict[str, str]:
-    """Name -> unit of what all rows have of a kind, in the order of its first row."""
+def _units(measured: Iterable[Mapping[str, Measured]]) -> dict[str, str]:
+    """Return name -> unit of what all rows have of a kind, in the order of its first row."""
     first: dict[str, tuple[bool, str]] = {}
-    for record in records:
-        for name, (value, unit) in record[kind].items():
+    for row in measured:
+        for name, (value, unit) in row.items():
             if name not in first or (value is not None and not first[name][0]):
                 first[name] = (value is not None, unit)
     return {name: unit for name, (_, unit) in first.items()}
 
 
-def _image(row: int, stored: Record) -> SavedImage:
-    """An image of a row as the result has it."""
+def _image(row: int, picture: StoredPicture) -> SavedImage:
     return SavedImage(
         row=row,
-        camera=stored["camera"],
-        file=stored["file"],
-        truth=_corners(stored["truth"]),
-        estimate=_corners(stored["estimate"]),
+        camera=picture.camera,
+        file=picture.file,
+        truth=picture.truth,
+        estimate=picture.estimate,
     )
-
-
-def _corners(stored: Sequence[float] | None) -> tuple[float, ...] | None:
-    return None if stored is None else tuple(stored)
 
 
 def _unit(unit: str) -> str | None:

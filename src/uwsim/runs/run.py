@@ -24,6 +24,7 @@ from ..results.result import Result
 from ..results.result_file import save
 from ..results.run_info import RunInfo
 from ..results.seal import Seal
+from ..results.stored.stored_row import Record
 from ..results.summary import save_summary
 from .collect import collect
 from .described import described
@@ -85,7 +86,7 @@ class Run:
             stored = self.stored(trial)
             is_to_go = ended_its_process if stored.end is not None else was_stopped
             for n, row in enumerate(stored.rows):
-                if is_to_go(name, row["missing"].get("total")):
+                if is_to_go(name, row.missing.get("total")):
                     journal.cut_back(self.out, trial.index, n)
                     break
 
@@ -102,7 +103,7 @@ class Run:
             stored = self.stored(trial)
             if stored.end is None or _has_motion(self.out, trial):
                 continue
-            whys = [row["missing"].get("total") for row in stored.rows]
+            whys = [row.missing.get("total") for row in stored.rows]
             if is_piloted or is_free or any(was_stopped(plan.algorithm.name, why) for why in whys):
                 warn(
                     f"{journal.track_path(self.out, trial.index)} is lost or damaged, and its "
@@ -129,7 +130,7 @@ class Run:
         """Count the levels of one trial that are on disk."""
         return len(self.stored(trial).rows)
 
-    def head(self, trial: Trial) -> journal.Record:
+    def head(self, trial: Trial) -> Record:
         """Return the identity of a trial: equal heads mean that its rows must be equal."""
         return {
             "inputs": _as_stored(self.inputs.stored()),

@@ -12,8 +12,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ..results.journal import Record, Stored
+from ..results.journal import Stored
 from ..results.leaves import leaves
+from ..results.stored.stored_row import Record
 from ..runs.trial.fingerprint import Checkpoints, divergence
 
 
@@ -116,13 +117,13 @@ class FingerprintComparison:
 
 def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> FingerprintComparison:
     """Compare the fingerprints of two executions of one trial."""
-    ends = [record.end or {} for record in (stored, again)]
-    one, other = (Checkpoints.of(end.get("trace")) for end in ends)
+    traces = [None if each.end is None else each.end.trace for each in (stored, again)]
+    one, other = (Checkpoints.of(trace) for trace in traces)
     if one is None or other is None:
         return FingerprintComparison(message=None, is_known=False)
     found = divergence(one, other)
     if found is None:
-        fingerprints = [[row.get("fingerprint") for row in each.rows] for each in (stored, again)]
+        fingerprints = [[row.fingerprint for row in each.rows] for each in (stored, again)]
         differs = [
             n for n, pair in enumerate(zip(*fingerprints, strict=False)) if pair[0] != pair[1]
         ]

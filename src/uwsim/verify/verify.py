@@ -22,6 +22,7 @@ from ..results.leaves import leaves
 from ..results.motion.motion_track import load_track
 from ..results.result import Result
 from ..results.result_file import dumps
+from ..results.stored.stored_row import Record
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel, SerialExecutor
 from ..runs.executors.worker import IMAGES
 from ..runs.planning.plan import Plan, Trial
@@ -196,7 +197,7 @@ def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
     return gone
 
 
-def _head(result: Result, replayed: journal.Record) -> journal.Record:
+def _head(result: Result, replayed: Record) -> Record:
     """The head that a trial should have, according to result.json.
 
     The parameters of a head are those given; result.json says those that the algorithm ran with.
@@ -208,9 +209,7 @@ def _head(result: Result, replayed: journal.Record) -> journal.Record:
     return {**replayed, "inputs": json.loads(json.dumps(result.inputs.stored())), "run": run}
 
 
-def _check_head(
-    found: Verification, where: str, head: journal.Record, expected: journal.Record
-) -> None:
+def _check_head(found: Verification, where: str, head: Record, expected: Record) -> None:
     """Compare the head of a trial with result.json, a line for each value."""
     seen: set[tuple[str | int, ...]] = set()
     for path, before, after in differences.apart(head, expected):
@@ -249,10 +248,10 @@ def _check_trial(found: Verification, directory: Path, again: Run, trial: Trial)
     name = f"trial {trial.index} (seed {trial.seed})"
     before = len(found.differences)
     for n, level in enumerate(trial.levels):
-        rows = [each.rows[n] if n < len(each.rows) else {} for each in (stored, replayed)]
+        rows = [each.rows[n].record() if n < len(each.rows) else {} for each in (stored, replayed)]
         for message in differences.of_row(*rows):
             found.add(f"{name}, level {level}", message)
-    for message in differences.of_end(stored.end or {}, replayed.end or {}):
+    for message in differences.of_end(*(_end(each) for each in (stored, replayed))):
         found.add(name, message)
     motion = differences.of_checkpoints(stored, replayed, again.plan.timestep)
     if len(found.differences) > before or motion.message is not None:
@@ -263,6 +262,10 @@ def _check_trial(found: Verification, directory: Path, again: Run, trial: Trial)
         found.is_steady = False
         found.parts += [part for part in motion.parts if part not in found.parts]
         found.differences.insert(before, Difference(where=name, what=motion.message))
+
+
+def _end(stored: journal.Stored) -> Record:
+    return {} if stored.end is None else stored.end.record()
 
 
 def _check_rows(found: Verification, result: Result, again: Run) -> None:

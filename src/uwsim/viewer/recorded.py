@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ..results import journal
 from ..results.motion import MotionTrack, TrackLevel, load_track
 from ..results.result import Result
 from ..results.result_file import load
+from ..results.stored.stored_row import StoredRow
 from ..runs.planning.make_plan import OF_ALGORITHM
 from ..scene.reader import read_scene
 from ..scene.settings import apply_setting, xacro_arguments
@@ -191,10 +193,10 @@ def levels_without_motion(
         _level(
             row,
             TrackLevel(
-                values=dict(zip(names, row["values"], strict=False)),
-                began=row["ended_at"] - row["duration"],
-                duration=row["duration"],
-                status=str(row["status"]),
+                values=dict(zip(names, row.values, strict=False)),
+                began=(row.ended_at or 0.0) - row.duration,
+                duration=row.duration,
+                status=row.status,
             ),
         )
         for row in stored.rows
@@ -222,47 +224,45 @@ def _ranges(numbers: tuple[int, ...]) -> str:
     return ", ".join(map(str, numbers))
 
 
-def _level(row: journal.Record, began: TrackLevel) -> RecordedLevel:
+def _level(row: StoredRow, began: TrackLevel) -> RecordedLevel:
     label = ", ".join(f"{name} {value:g}" for name, value in began.values.items())
     return RecordedLevel(
         label=label,
-        status=str(row["status"]),
-        why=str(row["missing"].get("total", "")),
+        status=row.status,
+        why=row.missing.get("total", ""),
         began=began.began,
         ended=began.began + began.duration,
         swept=began.values,
-        values={name: value for name, (value, _) in row["measures"].items()},
+        values={name: value for name, (value, _) in row.measures.items()},
         curves=tuple(
-            _curve(name, row["measures"][name][1], samples, began.began)
-            for name, samples in row["logs"].items()
+            _curve(name, row.measures[name][1], samples, began.began)
+            for name, samples in row.logs.items()
             if samples
         ),
         details=tuple(
             _detail(row, name, (column, place), began.began)
-            for name, columns in row["log_headers"].items()
+            for name, columns in row.log_headers.items()
             for place, column in enumerate(columns[1:], start=2)
-            if row["logs"].get(name)
+            if row.logs.get(name)
         ),
     )
 
 
-def _detail(row: journal.Record, measure: str, column: tuple[str, int], began: float) -> Curve:
+def _detail(row: StoredRow, measure: str, column: tuple[str, int], began: float) -> Curve:
     """The curve of a further column of a log: its heading, as ``height [m]``, and its place."""
     name, _, unit = column[0].partition(" [")
-    curve = _curve(f"{measure}.{name}", unit.rstrip("]"), row["logs"][measure], began, column[1])
+    curve = _curve(f"{measure}.{name}", unit.rstrip("]"), row.logs[measure], began, column[1])
     return replace(curve, names=_phases(row, measure)) if name == PHASE else curve
 
 
-def _phases(row: journal.Record, measure: str) -> tuple[str, ...]:
+def _phases(row: StoredRow, measure: str) -> tuple[str, ...]:
     """Names of the phases of a measure, in order: it has the time in each of them."""
     start = f"{measure}.{TIME_IN}"
-    return tuple(
-        name.removeprefix(start) for name in row.get("details", {}) if name.startswith(start)
-    )
+    return tuple(name.removeprefix(start) for name in row.details if name.startswith(start))
 
 
 def _curve(
-    name: str, unit: str, samples: list[list[float | None]], began: float, place: int = 1
+    name: str, unit: str, samples: Sequence[Sequence[Any]], began: float, place: int = 1
 ) -> Curve:
     """The curve of one place in the samples; place 0 is the time in the level [s]."""
     chosen = [(sample[0], sample[place]) for sample in samples]

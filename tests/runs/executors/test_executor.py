@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -155,7 +156,7 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     file = Journal(bench.out, trial.index, bench.head(trial))
     broken = stored_row(missing={"total": f"esm was stopped at 0.3 s: {why}"})
     for row in (stored_row(), broken, broken):
-        file.add(row | {"ended_at": 2.0, "fingerprint": ""})
+        file.add(replace(row, ended_at=2.0, fingerprint=""))
     if is_finished:
         file.finish(stored_end(trace={}))
     file.close()

@@ -26,7 +26,7 @@ from typing import Any
 from ...base.environment import environment, not_chosen
 from ...base.files.scratch import OWNER, scratch_folder
 from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
-from ...results import journal
+from ...results.stored.stored_row import Record
 from ..planning.plan import Trial
 from ..planning.trial_cache import TrialCache
 from ..prepare import hash_inputs
@@ -211,11 +211,9 @@ class RayWorker:
     def __init__(self) -> None:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # for its employer alone
         self._cache = TrialCache()
-        self._known: list[journal.Record] = []
+        self._known: list[Record] = []
 
-    def execute(
-        self, run: Run, trial: Trial, head: journal.Record
-    ) -> Iterator[Event | TrialFailed]:
+    def execute(self, run: Run, trial: Trial, head: Record) -> Iterator[Event | TrialFailed]:
         """Run a trial, if this machine is equivalent to the driver's; yields its events."""
         try:
             self._check(run, trial, head)
@@ -223,7 +221,7 @@ class RayWorker:
         except Exception as error:
             yield TrialFailed(picklable(error))
 
-    def _check(self, run: Run, trial: Trial, head: journal.Record) -> None:
+    def _check(self, run: Run, trial: Trial, head: Record) -> None:
         """Check that the trial would be the same on the driver's machine.
 
         Args:

@@ -19,6 +19,7 @@ from ...base.files.file_names import file_names
 from ...errors import RunFailed
 from ...results import journal
 from ...results.atomic_file import atomic_write
+from ...results.stored.stored_row import StoredEnd, StoredPicture, StoredRow
 from ...simulation import Calls
 from ..input_watch import Watch
 from ..planning.plan import Plan, Trial
@@ -36,7 +37,7 @@ IMAGES = "pictures"
 class LevelEnded:
     """A level is over: its row as it is stored, and its images."""
 
-    record: journal.Record
+    row: StoredRow
     """The row."""
     images: tuple[tuple[str, bytes], ...]
     """Name in the result directory, and PNG."""
@@ -46,8 +47,8 @@ class LevelEnded:
 class TrialEnded:
     """A trial is over."""
 
-    record: journal.Record
-    """The record of its end."""
+    end: StoredEnd
+    """Its end."""
     motion: bytes = b""
     """The file of its motion track."""
     inputs: bytes = b""
@@ -89,13 +90,13 @@ def run_trial(
     outcomes = execute(plan, trial, cache=cache, calls=calls, onlooker=onlooker, recorder=recorder)
     for n, outcome in enumerate(outcomes):
         if isinstance(outcome, TrialEnd):
-            yield TrialEnded(record=_end(outcome), motion=outcome.motion, inputs=outcome.inputs)
+            yield TrialEnded(end=_end(outcome), motion=outcome.motion, inputs=outcome.inputs)
         else:
             row = trial.index * len(trial.levels) + n
             files = file_names(snapshot.camera for snapshot in outcome.snapshots)
             images = {camera: f"{IMAGES}/{row:05d}-{file}.png" for camera, file in files.items()}
             yield LevelEnded(
-                record=_record(outcome, images),
+                row=_row(outcome, images),
                 images=tuple(
                     (images[snapshot.camera], _png(snapshot.pixels))
                     for snapshot in outcome.snapshots
@@ -127,13 +128,13 @@ class JournalWriter:
             if event.inputs:
                 with atomic_write(self._track.with_suffix(journal.INPUTS)) as draft:
                     draft.write_bytes(self._sealed(event.inputs))
-            self._file.finish(event.record)
+            self._file.finish(event.end)
             return False
         for name, png in event.images:
             (self._out / IMAGES).mkdir(exist_ok=True)
             with atomic_write(self._out / name) as draft:
                 draft.write_bytes(png)
-        return self._file.add(event.record)
+        return self._file.add(event.row)
 
     def close(self) -> None:
         """Close the trial's file; what was kept is on disk."""
@@ -163,38 +164,38 @@ def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
     return bytes(png.tobytes())
 
 
-def _record(row: LevelRow, images: dict[str, str]) -> journal.Record:
-    return {
-        "values": [value for _, value in row.values],
-        "measures": row.measures,
-        "details": row.details,
-        "total": row.total,
-        "status": row.status,
-        "missing": row.missing,
-        "ended_at": row.ended_at,
-        "duration": row.duration,
-        "logs": row.logs,
-        "log_headers": row.log_headers,
-        "pictures": [
-            {
-                "camera": snapshot.camera,
-                "file": images[snapshot.camera],
-                "truth": snapshot.truth,
-                "estimate": snapshot.estimate,
-            }
+def _row(row: LevelRow, images: dict[str, str]) -> StoredRow:
+    return StoredRow(
+        values=tuple(value for _, value in row.values),
+        measures=row.measures,
+        details=row.details,
+        total=row.total,
+        status=row.status,
+        missing=row.missing,
+        ended_at=row.ended_at,
+        duration=row.duration,
+        logs=row.logs,
+        log_headers=row.log_headers,
+        pictures=tuple(
+            StoredPicture(
+                camera=snapshot.camera,
+                file=images[snapshot.camera],
+                truth=snapshot.truth,
+                estimate=snapshot.estimate,
+            )
             for snapshot in row.snapshots
-        ],
-        "fingerprint": row.fingerprint,
-        **({"refused": [list(each) for each in row.refused]} if row.refused else {}),
-        **({"remarks": list(row.remarks)} if row.remarks else {}),
-    }
+        ),
+        fingerprint=row.fingerprint,
+        refused=row.refused,
+        remarks=row.remarks,
+    )
 
 
-def _end(end: TrialEnd) -> journal.Record:
-    return {
-        "facts": {name: list(fact) for name, fact in end.facts.items()},
-        "parameters": end.parameters,
-        "streams": [list(stream) for stream in end.streams],
-        "notes": list(end.notes),
-        "trace": end.checkpoints.plain(),
-    }
+def _end(end: TrialEnd) -> StoredEnd:
+    return StoredEnd(
+        facts=end.facts,
+        parameters=end.parameters,
+        streams=end.streams,
+        notes=end.notes,
+        trace=end.checkpoints.plain(),
+    )

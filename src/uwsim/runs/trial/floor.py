@@ -12,7 +12,6 @@ noise, the pixels' grid, and what of the quad is not on the face.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any
 
 import numpy as np
 from numpy.linalg import LinAlgError
@@ -22,6 +21,7 @@ from ...base.numerics.linear import length, product, solve
 from ...benchmark.ground_truth import CornersFromCameraSpec, FaceCorners, GroundTruth
 from ...benchmark.measures import EuclideanNormSpec
 from ...results.result import FLOOR
+from ...results.stored.stored_row import StoredFact
 from ...simulation import Simulation
 from ..planning.plan import Plan
 from .visibility import Fact
@@ -111,9 +111,9 @@ def _corners_of(spec: EuclideanNormSpec) -> CornersFromCameraSpec | None:
     return truth if starts and isinstance(truth, CornersFromCameraSpec) else None
 
 
-def largest(facts: Iterable[Mapping[str, list[Any]]]) -> dict[str, list[Any]]:
+def largest(facts: Iterable[Mapping[str, StoredFact]]) -> dict[str, StoredFact]:
     """Put together the floors of several trials: the largest of each."""
-    found: dict[str, list[Any]] = {}
+    found: dict[str, StoredFact] = {}
     for each in facts:
         for name, fact in each.items():
             if name.startswith(FLOOR) and (name not in found or fact[0] > found[name][0]):
