@@ -119,7 +119,7 @@ def test_the_file_is_json_with_a_run_a_line_and_the_plot_is_drawn(tmp_path: Path
     assert len([line for line in text.splitlines() if '"seed"' in line and '"level"' in line]) == (
         len(found.evaluations)
     )
-    assert document["broken_by"] == {"lost": sum(e.row["status"] == "lost" for e in
+    assert document["broken_by"] == {"lost": sum(e.row.status == "lost" for e in
                                                  found.evaluations)}  # fmt: skip
     one = draw(found, tmp_path).read_bytes()
     assert one == draw(found, tmp_path).read_bytes()
