@@ -18,6 +18,7 @@ median path of the vehicles above 2 m.
 
 from __future__ import annotations
 
+import copy
 import sys
 import time
 from dataclasses import replace
@@ -31,10 +32,7 @@ import steps
 from measure import main
 from mujoco import batch
 
-from uwsim.model.collision.scene_shapes import simulated_shapes
-from uwsim.model.dynamics import read_dynamics
-from uwsim.model.robots import read_robots
-from uwsim.physics.compile import compile_scene
+from uwsim.physics.compile_scene import compile_scene
 from uwsim.physics.hydrodynamics import callback, prepare
 from uwsim.physics.hydrodynamics.columns import WATER_COLUMNS
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
@@ -168,11 +166,7 @@ def in_the_tank() -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
     tank = replace(tank, physics=PhysicsSpec(mass=0.0, collision_shape_type="trimesh"))
     box = replace(box, orientation=(0.0, 0.0, 0.0), physics=PhysicsSpec(mass=10.0))
     scene = replace(scene, objects=(tank, box))
-    robots = read_robots(scene, ())
-    dynamics = read_dynamics(scene, robots)
-    model = compile_scene(
-        scene, robots, dynamics, 0.002, simulated_shapes(scene, robots, dynamics, ())
-    )
+    model = copy.copy(compile_scene(scene).engine_model)
     water, data = install(model), mujoco.MjData(model)
     water.set_current(data, (0.1, 0.2, 0.0))
     water.step(data, 300)

@@ -39,9 +39,9 @@ sys.path.insert(0, sys.argv[2])
 import steps
 import uwsim
 from uwsim.scene.reader import read_scene
-uwsim.Simulation
+uwsim.load
 began = time.process_time()
-simulation = uwsim.Simulation(read_scene(sys.argv[1]).nominal)
+simulation = uwsim.load(read_scene(sys.argv[1]).nominal)
 opened = time.process_time() - began
 steps.drive(simulation, 1, 50)
 batches = sorted(steps.drive(simulation, 1, 40) for _ in range(9))

@@ -11,8 +11,7 @@ from tempfile import TemporaryDirectory
 
 from measure import main, milliseconds
 
-from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
+import uwsim
 
 SCENE = """
 <UWSimScene xmlns:u="urn:uwsim:1">
@@ -47,7 +46,7 @@ def measure() -> dict[str, object]:
     with TemporaryDirectory() as folder:
         scene = Path(folder) / "scene.xml"
         scene.write_text(SCENE.format(sonars=sonars))
-        with Simulation(read_scene(scene), is_blind=True) as simulation:
+        with uwsim.load(scene, is_blind=True) as simulation:
             world = simulation.world
             multibeam = world.sensor("multibeam", ("multibeamSensor",))
             n_beams = len(multibeam.sample(0.0).ranges)  # type: ignore[attr-defined]

@@ -42,7 +42,7 @@ scene = read_scene(sys.argv[1])
 mark("read the scene")
 uwsim.Simulation
 mark("import the simulation")
-simulation = uwsim.Simulation(scene)
+simulation = uwsim.load(scene)
 mark("bind and compile the scene")
 simulation.advance(0.002)
 mark("first step")

@@ -19,6 +19,7 @@ import mujoco
 import numpy as np
 from measure import main
 
+import uwsim
 from uwsim.messages import Header, Time, Twist, TwistStamped, Vector3
 from uwsim.physics.hydrodynamics import callback
 from uwsim.scene.reader import read_scene
@@ -196,7 +197,7 @@ def row(name: str) -> dict[str, object]:
         path = written(name, Path(folder))
         began = time.process_time()
         scene = read_scene(path).nominal
-        simulation = Simulation(scene)
+        simulation = uwsim.load(scene)
         built = time.process_time() - began
         drive(simulation, n_vehicles, 2)
         spent, n = 0.0, 10

@@ -22,6 +22,7 @@ from measure import main, milliseconds
 from visibility import UWSIM, run
 
 from uwsim.assets.find import find
+from uwsim.physics.compile_scene import compile_scene
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import RendererPool, Simulation
@@ -62,7 +63,7 @@ def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> floa
 
 def begin_and_end(scene: SceneSpec, pool: RendererPool | None) -> None:
     """Do what every unit does once: make the scene live, draw with noise and without, close."""
-    simulation = Simulation(scene, pool=pool)
+    simulation = Simulation(compile_scene(scene), pool=pool)
     simulation.start()
     camera = simulation.world.camera(CAMERA)
     camera.capture()

@@ -20,15 +20,15 @@ TIMES_REAL_TIME = 5.0
 UWSIM = [sys.executable, "-m", "uwsim"]
 TWO_CAMERAS = """
 import dataclasses
+import uwsim
 from uwsim.assets.find import find
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 scene = read_scene(find("visibility-scene.xml"))
 vehicle = scene.vehicles[0]
 first = vehicle.parts[0]
 both = (first, dataclasses.replace(first, name="second"))
 vehicle = dataclasses.replace(vehicle, parts=both)
-simulation = Simulation(dataclasses.replace(scene, vehicles=(vehicle,)))
+simulation = uwsim.load(dataclasses.replace(scene, vehicles=(vehicle,)))
 simulation.start()
 for _ in range(500):
     simulation.advance()

@@ -23,6 +23,7 @@ from paper.figures import image_with_inset
 from paper.station_figures import Line, over_current, over_time
 from paper.station_keeping import Loop, Station, Swing, Track, measured, predicted, steady, track
 from uwsim.analysis.plots import save_plot
+from uwsim.api import load as load_scene
 from uwsim.assets.bundled import benchmark_file
 from uwsim.assets.find import find
 from uwsim.base.geometry import Array, Intrinsics, Pose
@@ -31,8 +32,6 @@ from uwsim.errors import ResultError
 from uwsim.results.log import load_log
 from uwsim.results.result import Result
 from uwsim.results.result_file import load
-from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 BENCHMARK, SCENE, CAMERA, SEED = "currents-figures.xml", "currents-scene.xml", "bowtech1", 1
 FOVY = math.radians(50.0)
@@ -62,7 +61,7 @@ def main() -> None:
 def scene_figure(folder: Path) -> None:
     path = find(SCENE)
     assert path is not None
-    simulation = Simulation(read_scene(path), seed=SEED)
+    simulation = load_scene(path, seed=SEED)
     viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
     eye = looking(EYE, TARGET)
     try:

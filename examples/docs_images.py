@@ -29,12 +29,11 @@ from PIL import Image, ImageDraw, ImageFont
 
 from uwsim.analysis.plots import compare_plot, save_plot
 from uwsim.analysis.report.overlay import overlay
+from uwsim.api import load as load_scene
 from uwsim.assets.find import find
 from uwsim.cli import main as uwsim
 from uwsim.results.result import Result
 from uwsim.results.result_file import load
-from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 from uwsim.simulation.views import view_from
 
 PAGE = Path(__file__).parent.parent / "docs" / "first-benchmark.md"
@@ -66,7 +65,7 @@ def view() -> Image.Image:
     """The tank, the vehicle and the box, seen from next to the vehicle's bow."""
     path = find(SCENE)
     assert path is not None
-    simulation = Simulation(read_scene(path), seed=SEED)
+    simulation = load_scene(path, seed=SEED)
     try:
         width, height = SIZE
         eye, target = np.array(EYE), np.array(TARGET)

@@ -27,6 +27,7 @@ from paper.figures import (
 )
 from uwsim.analysis.plots import save_plot, value_plot
 from uwsim.analysis.report.overlay import overlay
+from uwsim.api import load as load_scene
 from uwsim.assets.find import find
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.base.geometry import Intrinsics, Pose
@@ -35,8 +36,6 @@ from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 from uwsim.results.result import Result
 from uwsim.results.result_file import load
-from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SCENE, CAMERA, SEED = "visibility-scene.xml", "bowtech1", 1
 EYE, TARGET = (-1.8, 3.8, -2.0), (0.1, 1.9, -3.3)  # of the viewer, in W [m]
@@ -66,7 +65,7 @@ def main() -> None:
 def scene_figures(folder: Path) -> None:
     path = find(SCENE)
     assert path is not None
-    simulation = Simulation(read_scene(path), seed=SEED)
+    simulation = load_scene(path, seed=SEED)
     viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
     try:
         camera = simulation.world.camera(CAMERA)

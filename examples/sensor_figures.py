@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
+import uwsim
 from uwsim.analysis.plots import PALETTE, save_plot, styled_figure
 from uwsim.assets.bundled import bundled
 from uwsim.devices.battery import BatterySpec
@@ -27,7 +28,6 @@ from uwsim.scene.spec import SceneSpec
 from uwsim.sensors.drift import DriftSpec
 from uwsim.sensors.dvl_sensor import DvlSensorSpec
 from uwsim.sensors.imu import ImuSpec
-from uwsim.simulation import Simulation
 from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from uwsim.topics.sensor_topic import BatteryToROSSpec, ForceSensorROSSpec, MotorCurrentsToROSSpec
 
@@ -95,7 +95,7 @@ def noisy(part: object) -> object:
 def survey() -> Survey:
     """Swim, and read everything."""
     times, depths, twists = [], [], []
-    with Simulation(scene(), seed=1, is_blind=True) as simulation:
+    with uwsim.load(scene(), seed=1, is_blind=True) as simulation:
         simulation.start()
         inboxes = {each: simulation.bus.inbox(f"/{NAME}/{each}", object) for each in TOPICS}
         phases = [(*phase, 0.0) for phase in PHASES] + [(ARM[0], 0.0, 0.0, ARM[1])]

@@ -16,6 +16,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
+import uwsim
 from uwsim.analysis.plots import PALETTE, save_plot, styled_figure
 from uwsim.assets.bundled import bundled
 from uwsim.base.geodesy import Geodetic
@@ -24,7 +25,6 @@ from uwsim.scene.reader import read_scene
 from uwsim.sensors.drift import DriftSpec
 from uwsim.sensors.gps_sensor import GpsSensorSpec
 from uwsim.sensors.imu import ImuSpec
-from uwsim.simulation import Simulation
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
 from uwsim.topics.sensor_topic import GPSSensorToROSSpec
 
@@ -47,7 +47,7 @@ def still() -> tuple[np.ndarray, np.ndarray]:
     vehicle = replace(scene.vehicles[0], parts=(imu,), dynamics=None)
     scene = replace(scene, vehicles=(vehicle,), ros_interfaces=())
     rates, forces = np.empty((2, N_SAMPLES, 3))
-    with Simulation(scene, seed=1, is_blind=True) as simulation:
+    with uwsim.load(scene, seed=1, is_blind=True) as simulation:
         sensor = simulation.world.sensor("imu", ("imu",))
         for k in range(N_SAMPLES):
             message = sensor.sample((k + 1) / RATE)
@@ -102,7 +102,7 @@ def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     fixes = GPSSensorToROSSpec(name="gps", topic="/gps", rate=5)
     scene = replace(scene, vehicles=(vehicle,), ros_interfaces=(twist, fixes))
     times, places = [], []
-    with Simulation(scene, seed=1, is_blind=True) as simulation:
+    with uwsim.load(scene, seed=1, is_blind=True) as simulation:
         simulation.start()
         inbox = simulation.bus.inbox("/gps", NavSatFix)
 

@@ -16,8 +16,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from PIL import Image
 
+import uwsim
 from uwsim.messages import Point, Pose, pixels_of
-from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 
 PAGE = Path(__file__).parent.parent / "docs" / "sonar.md"
@@ -35,7 +35,7 @@ def main() -> None:
     with TemporaryDirectory() as scratch:
         scene = Path(scratch) / "wreck-sonar.xml"
         scene.write_text(found[1])
-        with Simulation(read_scene(scene), seed=1, is_blind=True) as simulation:
+        with uwsim.load(scene, seed=1, is_blind=True) as simulation:
             save(newest(simulation, "/rov/fls_image"), folder / "sonar-fan.png")
             save(waterfall(simulation), folder / "sonar-waterfall.png")
 

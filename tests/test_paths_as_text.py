@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets.bundled import benchmark_file, scene_file
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, FileError, UwsimError
@@ -16,7 +17,6 @@ from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.reader import read_urdf
-from uwsim.simulation import Simulation
 
 READERS: list[Callable[[str], object]] = [
     read_scene, read_benchmark, read_urdf, read_vehicle, load, load_log,
@@ -53,10 +53,10 @@ def test_a_file_of_the_wrong_kind_is_reported_with_its_kind() -> None:
 @pytest.mark.parametrize("scene", ["scene.xml", Path("scene.xml"), None, "x" * 10_000])
 def test_a_simulation_of_something_else_than_a_scene_says_what_it_takes(scene: object) -> None:
     with pytest.raises(BadSetting, match="what read_scene returns, not of a ") as caught:
-        Simulation(scene)  # type: ignore[arg-type]
+        open_scene(scene)  # type: ignore[arg-type]
     assert len(str(caught.value)) < 200
 
 
 def test_folders_of_data_may_be_text(tmp_path: Path) -> None:
     scene = read_scene(scene_file("currents-scene"))
-    Simulation(scene, data_path=(str(tmp_path),), is_blind=True).close()  # type: ignore[arg-type]
+    open_scene(scene, data_path=(str(tmp_path),), is_blind=True).close()  # type: ignore[arg-type]

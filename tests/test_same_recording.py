@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled
 from uwsim.middleware.recording import Recorder
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.sensors.imu import ImuSpec
-from uwsim.simulation import Simulation
 from uwsim.topics.sensor_topic import ImuToROSImuSpec
 
 SCENES = bundled("scenes")
@@ -28,7 +28,7 @@ NOTHING = hashlib.sha256().hexdigest()
 
 def recording(scene: SceneSpec, file: Path) -> str:
     """Record a short run and return the hash of the file."""
-    with Simulation(scene, seed=3) as simulation, Recorder(simulation.bus, file) as recorder:
+    with open_scene(scene, seed=3) as simulation, Recorder(simulation.bus, file) as recorder:
         recorder.start(lambda: simulation.time)
         simulation.advance(SECONDS)
         assert recorder.n_messages
@@ -69,7 +69,7 @@ def pieces(value: Any) -> Iterator[bytes]:
 def heard(scene: SceneSpec) -> dict[str, str]:
     """Topic -> hash of all its messages; /tf, which names the sensors, is left out."""
     digests: dict[str, Any] = {}
-    with Simulation(scene, seed=3) as simulation:
+    with open_scene(scene, seed=3) as simulation:
 
         def listen(topic: str) -> None:
             digest = digests[topic] = hashlib.sha256()

@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from tests.support.whole_scene import SceneRun, run_scene
 from uwsim.assets.bundled import bundled
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.sonar.message import amplitudes
-from uwsim.simulation import Simulation
 from uwsim.simulation.views import viewer_view
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
@@ -58,7 +58,7 @@ def test_each_topic_of_a_bundled_scene_for_five_seconds(name: str) -> None:
 def test_what_looks_down_sees_the_bottom_and_not_its_vehicle(
     name: str, sensors: tuple[str, ...]
 ) -> None:
-    with Simulation(read_scene(SCENES[name]), is_blind=True) as simulation:
+    with open_scene(read_scene(SCENES[name]), is_blind=True) as simulation:
         for sensor in sensors:
             kinds = ("multibeamSensor", "rangeSensor")
             message: Any = simulation.world.sensor(sensor, kinds).sample(0.0)
@@ -68,7 +68,7 @@ def test_what_looks_down_sees_the_bottom_and_not_its_vehicle(
 
 @pytest.mark.slow
 def test_the_side_scan_of_the_survey_hears_no_echo_of_its_vehicle() -> None:
-    with Simulation(read_scene(SCENES["survey-scene"]), is_blind=True) as simulation:
+    with open_scene(read_scene(SCENES["survey-scene"]), is_blind=True) as simulation:
         message: Any = simulation.world.sensor("sidescan", ("u:sideScanSonar",)).sample(0.0)
         echoes = amplitudes(message)
         near = np.asarray(message.ranges) < 2.0
@@ -88,7 +88,7 @@ def test_each_topic_of_an_original_scene_for_ten_seconds(name: str) -> None:
 def test_the_first_view_of_a_bundled_scene_has_the_whole_vehicle_and_what_it_is_about(
     name: str, shape: tuple[int, int]
 ) -> None:
-    with Simulation(read_scene(SCENES[name]), is_blind=True) as simulation:
+    with open_scene(read_scene(SCENES[name]), is_blind=True) as simulation:
         world = simulation.world
         camera = world.scene.camera
         assert camera is not None

@@ -37,6 +37,7 @@ def load(
     settings: Mapping[str, Setting] | None = None,
     data_path: Sequence[str | Path] = (),
     udp_address: str | None = None,
+    is_blind: bool = False,
 ) -> Simulation:
     """Open a scene at step 0; its first messages go out with the first `advance`.
 
@@ -49,14 +50,17 @@ def load(
         data_path: more folders in which files are looked for.
         udp_address: of this computer, at which vehicles with ``<fdm>`` take UDP packets, for
             example ``127.0.0.1``; without it they take none, and the run can be repeated.
+        is_blind: images on topics are black, and nothing is drawn for them.
 
     Raises:
         UwsimError: a file, a name or a setting is wrong; names all errors of the file.
     """
     from .assets.bundled import scene_file
+    from .physics.compile_scene import compile_scene
     from .scene.reader import read_scene
     from .scene.settings import apply_setting, xacro_arguments
     from .simulation import Simulation
+    from .simulation.access.arguments import checked_seed
 
     folders = tuple(Path(folder) for folder in data_path)
     settings = _checked_settings(settings)
@@ -66,9 +70,10 @@ def load(
         scene = read_scene(path_of_scene, data_path=folders, arguments=arguments)
     for path, value in settings.items():
         scene = apply_setting(scene, path, str(value))
-    return Simulation(
-        scene, seed=seed, timestep=timestep, data_path=folders, udp_address=udp_address
+    model = compile_scene(
+        scene, seed=checked_seed(seed, "load"), timestep=timestep, data_path=folders
     )
+    return Simulation(model, udp_address=udp_address, is_blind=is_blind)
 
 
 def bench(

@@ -10,11 +10,11 @@ import pytest
 import trimesh
 from PIL import Image
 
+from tests.support.opened import open_scene
 from uwsim.assets import load_model, why_unreadable
 from uwsim.errors import AssetError
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SOURCE = """<source id="{0}-p"><float_array id="{0}-a" count="9">0 0 0 2 0 0 0 3 0</float_array>
 <technique_common>{1}</technique_common></source>
@@ -199,7 +199,7 @@ def test_check_and_run_warn_of_a_broken_material(tmp_path: Path) -> None:
     for file in (robot, scene):
         found = [each for each in diagnostics_of(file) if "material 'bad'" in each.message]
         assert [each.severity for each in found] == ["warning"]
-    with Simulation(read_scene(scene)) as simulation:
+    with open_scene(read_scene(scene)) as simulation:
         warnings = [str(each) for each in simulation.world.warnings]
     assert len([each for each in warnings if "material 'bad'" in each]) == 1
     scene.write_text("<UWSimScene><object><name>o</name><file>x.dae</file></object></UWSimScene>")

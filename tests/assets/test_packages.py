@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets import find, load_model, model_place_remark, package_remark, place_remark
 from uwsim.assets.bundled import bundled
 from uwsim.assets.packages import package_of
 from uwsim.errors import AssetError, AssetNotFound
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SIZES = {"hull_pkg": 2.0, "tool-desc": 0.2, "arm": 0.7}
 """Package -> edge of its cube [m]."""
@@ -335,7 +335,7 @@ def test_a_scene_and_a_robot_use_the_meshes_of_two_packages(tmp_path: Path) -> N
     scene.write_text(SCENE.format("package://hull_pkg/urdf/r.urdf"))
     folders = (tmp_path / "ws",)
     assert diagnostics_of(scene, data_path=folders) == []
-    with Simulation(read_scene(scene, data_path=folders), data_path=folders) as simulation:
+    with open_scene(read_scene(scene, data_path=folders), data_path=folders) as simulation:
         edges = [part.model.box.upper[0] for part in simulation.world.scenery.parts]
         assert simulation.world.warnings == ()
     assert edges == pytest.approx([2.0, 0.2])
@@ -354,7 +354,7 @@ def test_check_and_run_report_a_package_that_is_not_found(has_mesh: bool, tmp_pa
         ]
         assert len(messages) == 1
         assert "package 'tool_of_nobody' is not found" in messages[0]
-    with Simulation(read_scene(scene)) as simulation:
+    with open_scene(read_scene(scene)) as simulation:
         warnings = [str(each) for each in simulation.world.warnings]
     assert len([each for each in warnings if "package 'tool_of_nobody' is not found" in each]) == 1
 
@@ -395,7 +395,7 @@ def test_check_and_run_report_a_mesh_that_is_nowhere(name: str, place: str, tmp_
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format("r.urdf"))
     found = [str(each) for each in diagnostics_of(scene)]
-    with Simulation(read_scene(scene)) as simulation:
+    with open_scene(read_scene(scene)) as simulation:
         told = [str(each) for each in simulation.world.warnings]
     for messages in (found, told):
         assert len([each for each in messages if "none.stl" in each and "r.urdf:1" in each]) == 1

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets import find, load_model, place_remark
 from uwsim.errors import AssetError
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 ROOTS = ["/home/someone/ws/src/", "file:///opt/a/b/", "~nobody/data/", "C:\\Users\\me\\", "D:/x/y/"]
@@ -95,7 +95,7 @@ def test_check_and_run_warn_and_use_the_file(tmp_path: Path) -> None:
         "rock.obj",
         "hull.obj",
     ]
-    with Simulation(read_scene(scene)) as simulation:
+    with open_scene(read_scene(scene)) as simulation:
         warnings = [str(each) for each in simulation.world.warnings]
         sources = {part.model.source for part in simulation.world.scenery.parts}
     assert sum("is a path of another computer" in each for each in warnings) == 3

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled
 from uwsim.cli import main
 from uwsim.scene.reader import read_scene
 from uwsim.scene.unsupported import UNSUPPORTED
-from uwsim.simulation import Simulation
 
 
 def said(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -126,7 +126,7 @@ def test_every_topic_that_a_run_has_is_listed(
     file.write_text(ALL_KINDS_OF_TOPICS)
     found = json.loads(said(capsys, str(file), "--json"))["topics"]
     assert all(each["type"] for each in found)
-    with Simulation(read_scene(file), is_blind=True) as simulation:
+    with open_scene(read_scene(file), is_blind=True) as simulation:
         assert {each["topic"] for each in found} == {f"/{name}" for name in simulation.bus.topics}
 
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.devices.dredge_tool import DredgeToolSpec
 from uwsim.scene.object import ObjectSpec
@@ -73,7 +74,7 @@ def below(simulation: Simulation) -> float:
 
 
 def test_a_tool_uncovers_an_object_for_rays_and_cameras(tmp_path: Path) -> None:
-    with Simulation(scene(tmp_path, 1.0)) as buried, Simulation(scene(tmp_path, 0.0)) as bare:
+    with open_scene(scene(tmp_path, 1.0)) as buried, open_scene(scene(tmp_path, 0.0)) as bare:
         buried.advance(0.02)
         top = 1.0 - below(bare)
         assert below(buried) == pytest.approx(1.0 - top, abs=1e-6)  # sand up to its top
@@ -96,7 +97,7 @@ def test_a_tool_uncovers_an_object_for_rays_and_cameras(tmp_path: Path) -> None:
 def test_sand_is_saved(tmp_path: Path) -> None:
     spec = scene(tmp_path, 0.8)
     spec = replace(spec, vehicles=(replace(spec.vehicles[0], position=(0.0, 0.0, 0.05)),))
-    with Simulation(spec, is_blind=True) as first, Simulation(spec, is_blind=True) as second:
+    with open_scene(spec, is_blind=True) as first, open_scene(spec, is_blind=True) as second:
         first.advance(0.1)
         second.restore(first.save())
         one, other = (s.world.scenery.heaps[0].height(0.0, 0.0) for s in (first, second))
@@ -111,7 +112,7 @@ def test_a_dvl_over_a_buried_object_hears_the_sand(tmp_path: Path) -> None:
     )  # fmt: skip
     spec = scene(tmp_path, 1.0)
     rov = replace(spec.vehicles[0], position=(0.0, 0.0, 1.0), parts=(dvl,))
-    with Simulation(replace(spec, vehicles=(rov,)), is_blind=True) as simulation:
+    with open_scene(replace(spec, vehicles=(rov,)), is_blind=True) as simulation:
         sensor = simulation.world.sensor("dvl", ("dvlSensor",))
         assert isinstance(sensor, Dvl)
         ranges = sensor.ranges(Pose(np.array([0.0, 0.0, 1.0]), rotation_from_rpy(*looks_down)))

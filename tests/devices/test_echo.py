@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SCENE = """<UWSimScene>
   <vehicle> <name>g500</name> <file>g500ARM5.urdf</file>
@@ -31,7 +31,7 @@ TWO = "<echoROS> <name>two</name> <topic>/two</topic> <rate>2</rate> </echoROS>"
 def test_an_echo_publishes_its_text(tmp_path: Path, interfaces: str) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(SCENE.format(interfaces))
-    with Simulation(read_scene(path), is_blind=True) as simulation:
+    with open_scene(read_scene(path), is_blind=True) as simulation:
         simulation.latest("/one")
         simulation.advance(0.01)
         assert simulation.latest("/one").data == "I am here"
@@ -40,5 +40,5 @@ def test_an_echo_publishes_its_text(tmp_path: Path, interfaces: str) -> None:
 def test_one_without_text_is_left_out(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(SCENE.format(ONE + TWO))
-    with Simulation(read_scene(path), is_blind=True) as simulation:
+    with open_scene(read_scene(path), is_blind=True) as simulation:
         assert "two" not in simulation.topics

@@ -13,13 +13,13 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.base.geodesy import Geodetic
 from uwsim.devices.fdm import FdmInput, read_packet
 from uwsim.errors import UwsimError
 from uwsim.messages import Quaternion, TFMessage, Transform, TransformStamped, Vector3, header
 from uwsim.scene.spec import NedOriginSpec, SceneSpec, SimParamsSpec
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.simulation import Simulation
 
 LATITUDE, LONGITUDE = 41.775, 3.033
 ORIGIN = Geodetic(latitude=math.radians(LATITUDE), longitude=math.radians(LONGITUDE))
@@ -84,7 +84,7 @@ def test_packets_that_are_short_foreign_or_senseless_are_dropped(data: bytes) ->
 
 def test_a_vehicle_is_where_the_newest_packet_says_and_others_are_counted(tmp_path: Path) -> None:
     waiting = [packet(north=5.0), b"junk", packet(north=100.0, up=-3.0, angles=(0.0, 0.0, 0.5))]
-    with Simulation(scene_in(tmp_path, 5503)) as simulation:
+    with open_scene(scene_in(tmp_path, 5503)) as simulation:
         [fdm] = simulation.world.devices
         assert isinstance(fdm, FdmInput)
         fdm._receive = lambda: [waiting.pop(0) for _ in range(len(waiting))]
@@ -96,7 +96,7 @@ def test_a_vehicle_is_where_the_newest_packet_says_and_others_are_counted(tmp_pa
 
 
 def test_where_ned_counts_from_may_come_from_tf(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path, 5503)) as simulation:
+    with open_scene(scene_in(tmp_path, 5503)) as simulation:
         [fdm] = simulation.world.devices
         assert isinstance(fdm, FdmInput)
         fdm._receive = lambda: [packet(up=-3.0)]
@@ -119,7 +119,7 @@ def free_port() -> int:
 
 def test_packets_come_over_udp_where_the_simulation_takes_any(tmp_path: Path) -> None:
     port = free_port()
-    with Simulation(scene_in(tmp_path, port), udp_address="127.0.0.1") as simulation:
+    with open_scene(scene_in(tmp_path, port), udp_address="127.0.0.1") as simulation:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             for data in (b"?", packet(up=-9.0)):
                 sender.sendto(data, ("127.0.0.1", port))
@@ -136,7 +136,7 @@ def test_packets_come_over_udp_where_the_simulation_takes_any(tmp_path: Path) ->
 
 def test_without_an_address_no_port_is_opened_and_the_vehicle_stays(tmp_path: Path) -> None:
     port = free_port()
-    with Simulation(scene_in(tmp_path, port)) as simulation:
+    with open_scene(scene_in(tmp_path, port)) as simulation:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
             other.bind(("127.0.0.1", port))  # it is free
         simulation.advance(0.01)
@@ -150,10 +150,10 @@ def test_a_port_that_is_taken_is_an_error_that_names_it(tmp_path: Path) -> None:
         port = other.getsockname()[1]
         taken = replace(scene, vehicles=(replace(scene.vehicles[0], fdm=port),))
         with pytest.raises(UwsimError, match=f"UDP port {port} of 127.0.0.1 cannot be opened"):
-            Simulation(taken, udp_address="127.0.0.1")
+            open_scene(taken, udp_address="127.0.0.1")
 
 
 @pytest.mark.parametrize("port", [-1, 0])
 def test_a_port_that_is_off_makes_no_input(tmp_path: Path, port: int) -> None:
-    with Simulation(scene_in(tmp_path, port)) as simulation:
+    with open_scene(scene_in(tmp_path, port)) as simulation:
         assert simulation.world.devices == ()

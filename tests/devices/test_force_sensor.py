@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.base.geometry import rotation_from_rpy
 from uwsim.devices.force_sensor import ForceSensorSpec
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.simulation import Simulation
 from uwsim.topics.sensor_topic import ForceSensorROSSpec
 
 TOPIC = ForceSensorROSSpec(name="force", topic="/force", rate=50)
@@ -62,7 +62,7 @@ def on_a_placed_vehicle(folder: Path, part: ForceSensorSpec, z: float = 0.15) ->
 
 def measured(scene: SceneSpec, seconds: float) -> np.ndarray:
     """Force and torque at the end, (6,)."""
-    with Simulation(scene, is_blind=True) as simulation:
+    with open_scene(scene, is_blind=True) as simulation:
         simulation.latest("/force")
         simulation.advance(seconds)
         message = simulation.latest("/force")
@@ -183,7 +183,7 @@ def test_a_wrist_feels_inertia_and_added_mass(tmp_path: Path) -> None:
 def test_what_a_wrist_measures_does_not_depend_on_who_else_asks(tmp_path: Path) -> None:
     scene = with_a_wrist(tmp_path, mass=1000.0, volume=0.9)
     alone = measured(scene, 0.1)
-    with Simulation(scene, is_blind=True) as simulation:
+    with open_scene(scene, is_blind=True) as simulation:
         simulation.latest("/force")
         for _ in range(50):
             simulation.advance()

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from tests.simulation.test_lamp import LAMP, brightness, night
+from tests.support.opened import open_scene
 from uwsim.messages import Float64
-from uwsim.simulation import Simulation
 from uwsim.simulation.tracked_state import TrackedState
 
 TOPIC = "headlight/brightness"
 
 
 def test_light_is_in_proportion_to_the_brightness_that_is_commanded() -> None:
-    with Simulation(night(replace(LAMP, intensity=1.0))) as simulation:
+    with open_scene(night(replace(LAMP, intensity=1.0))) as simulation:
         simulation.advance(0.01)
         full = brightness(simulation)
         simulation.publish(TOPIC, Float64(data=0.5))
@@ -37,7 +37,7 @@ def test_light_is_in_proportion_to_the_brightness_that_is_commanded() -> None:
 def test_what_is_beyond_the_range_is_its_end_and_no_number_changes_nothing(
     told: float, shines: float
 ) -> None:
-    with Simulation(night(LAMP), is_blind=True) as simulation:
+    with open_scene(night(LAMP), is_blind=True) as simulation:
         (lamp,) = simulation.world.scenery.mounted_lamps
         for value in (0.25, told):
             simulation.publish(TOPIC, Float64(data=value))
@@ -47,7 +47,7 @@ def test_what_is_beyond_the_range_is_its_end_and_no_number_changes_nothing(
 
 def test_brightness_is_saved() -> None:
     scene = night(LAMP)
-    with Simulation(scene, is_blind=True) as first, Simulation(scene, is_blind=True) as second:
+    with open_scene(scene, is_blind=True) as first, open_scene(scene, is_blind=True) as second:
         first.publish(TOPIC, Float64(data=0.3))
         first.advance(0.1)
         second.restore(first.save())
@@ -56,7 +56,7 @@ def test_brightness_is_saved() -> None:
 
 
 def test_a_live_view_gets_the_brightness() -> None:
-    with Simulation(night(LAMP), is_blind=True) as simulation:
+    with open_scene(night(LAMP), is_blind=True) as simulation:
         state = TrackedState(simulation.world)
         assert state.signals[-1].name == "lamp/headlight"
         assert state.row()[-1] == 1.0
@@ -68,5 +68,5 @@ def test_a_live_view_gets_the_brightness() -> None:
 def test_the_topic_is_listed() -> None:
     (topic,) = LAMP.topics
     assert (topic.name, topic.is_heard) == (TOPIC, True)
-    with Simulation(night(LAMP), is_blind=True) as simulation:
+    with open_scene(night(LAMP), is_blind=True) as simulation:
         assert simulation.topics[TOPIC] == "std_msgs/msg/Float64"

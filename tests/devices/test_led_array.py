@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.devices.led_array import LedArraySpec
 from uwsim.messages import Duration, LedLight
 from uwsim.scene.sim_params import SimParamsSpec
@@ -26,7 +27,7 @@ def night(folder: Path) -> Simulation:
     wall = shape(size=(0.1, 4.0, 4.0), xyz="1.55 0 0")
     robot = write_robot(folder, f'<link name="base_link">{wall}</link>')
     vehicle = VehicleSpec(name="rov", file=str(robot), parts=(EYE, LEDS))
-    return Simulation(scene_of(vehicle, sim_params=SimParamsSpec(light_rate=0.0)))
+    return open_scene(scene_of(vehicle, sim_params=SimParamsSpec(light_rate=0.0)))
 
 
 def channels(simulation: Simulation) -> list[float]:
@@ -77,7 +78,7 @@ def test_a_lamp_of_all_directions_lights_what_is_behind_it(tmp_path: Path) -> No
     )
     vehicle = VehicleSpec(name="rov", file=str(robot), parts=(eye, LEDS))
     scene = scene_of(vehicle, sim_params=SimParamsSpec(light_rate=0.0))
-    with Simulation(scene) as simulation:
+    with open_scene(scene) as simulation:
         simulation.publish("leds/red", LedLight(duration=Duration(sec=1)))
         simulation.advance(0.1)
         assert channels(simulation)[0] > 60

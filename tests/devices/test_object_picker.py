@@ -10,6 +10,7 @@ import pytest
 
 from tests.simulation.girona500 import make
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.devices.object_picker import ObjectPickerSpec
 from uwsim.messages import Bool
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
@@ -44,7 +45,7 @@ def move(simulation: Simulation, *to: float) -> None:
 
 
 def test_a_picker_takes_what_comes_within_its_range_and_carries_it(tmp_path: Path) -> None:
-    with Simulation(scene(tmp_path, thing("box", 1.0)), is_blind=True) as simulation:
+    with open_scene(scene(tmp_path, thing("box", 1.0)), is_blind=True) as simulation:
         simulation.latest("/range")
         simulation.advance(0.1)
         assert simulation.latest("/range").range == 0.5  # the box is farther
@@ -61,7 +62,7 @@ def test_a_picker_takes_what_comes_within_its_range_and_carries_it(tmp_path: Pat
 def test_what_is_released_stays_and_is_not_taken_again_before_the_next_command(
     tmp_path: Path,
 ) -> None:
-    with Simulation(scene(tmp_path, thing("box", 0.4)), is_blind=True) as simulation:
+    with open_scene(scene(tmp_path, thing("box", 0.4)), is_blind=True) as simulation:
         simulation.advance(0.1)
         simulation.publish("hand/release", RELEASE)
         simulation.advance(0.1)
@@ -78,7 +79,7 @@ def test_what_is_released_stays_and_is_not_taken_again_before_the_next_command(
 
 def test_terrain_is_not_picked_up_nor_what_is_behind_something_else(tmp_path: Path) -> None:
     ground, box = thing("terrain", 0.3), thing("box", 0.5)
-    with Simulation(scene(tmp_path, ground, box), is_blind=True) as simulation:
+    with open_scene(scene(tmp_path, ground, box), is_blind=True) as simulation:
         simulation.advance(0.1)
         move(simulation, 0.0, 1.0, 0.0)
         simulation.advance(0.1)
@@ -87,7 +88,7 @@ def test_terrain_is_not_picked_up_nor_what_is_behind_something_else(tmp_path: Pa
 
 
 def test_what_is_held_is_seen_by_rays_where_it_is_carried(tmp_path: Path) -> None:
-    with Simulation(scene(tmp_path, thing("box", 0.4)), is_blind=True) as simulation:
+    with open_scene(scene(tmp_path, thing("box", 0.4)), is_blind=True) as simulation:
         simulation.advance(0.1)
         move(simulation, 0.0, 0.0, 1.0)
         simulation.advance(0.1)
@@ -100,7 +101,7 @@ def test_what_is_held_is_seen_by_rays_where_it_is_carried(tmp_path: Path) -> Non
 
 def test_what_is_held_is_saved(tmp_path: Path) -> None:
     spec = scene(tmp_path, thing("box", 0.4))
-    with Simulation(spec, is_blind=True) as first, Simulation(spec, is_blind=True) as second:
+    with open_scene(spec, is_blind=True) as first, open_scene(spec, is_blind=True) as second:
         first.advance(0.1)
         second.restore(first.save())
         for each in (first, second):
@@ -118,7 +119,7 @@ def test_in_uwsims_physics_it_hangs_on_the_vehicle_and_falls_when_released(tmp_p
     loose = thing("box", 0.4, PhysicsSpec(mass=2.0))
     spec = scene(tmp_path, loose)
     spec = replace(spec, sim_params=replace(spec.sim_params, enable_physics=True))
-    with Simulation(spec, is_blind=True) as simulation:
+    with open_scene(spec, is_blind=True) as simulation:
         simulation.advance(1.0)
         assert simulation.pose("box").position == pytest.approx([0.4, 0.0, 0.0], abs=1e-3)
         simulation.publish("hand/release", RELEASE)

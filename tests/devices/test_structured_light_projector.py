@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets.find import find
 from uwsim.base.geometry import Pose
 from uwsim.devices.structured_light_projector import StructuredLightProjectorSpec
@@ -44,7 +45,7 @@ def test_the_images_of_the_original_are_bundled(name: str) -> None:
 
 
 def test_a_laser_is_seen_by_cameras_and_moves_with_its_vehicle() -> None:
-    with Simulation(scene("data/textures/laser_square.png")) as simulation:
+    with open_scene(scene("data/textures/laser_square.png")) as simulation:
         before = n_green(simulation)
         state = simulation.world.state
         turned = state.poses.vehicle(0) @ Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.5))
@@ -56,4 +57,4 @@ def test_a_laser_is_seen_by_cameras_and_moves_with_its_vehicle() -> None:
 
 def test_an_image_that_is_nowhere_is_named() -> None:
     with pytest.raises(AssetNotFound, match=r"nothing\.png"):
-        Simulation(replace(scene("data/textures/nothing.png"), is_original=False))
+        open_scene(replace(scene("data/textures/nothing.png"), is_original=False))

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.assets.bundled import scene_file
 from uwsim.bus import Bus
 from uwsim.devices.tf import HeardFrames, TfSpec
@@ -39,7 +40,7 @@ def simulation_in(folder: Path) -> Simulation:
     robot = write_robot(folder, f'<link name="base_link">{shape()}</link>')
     follows = TfSpec(tf_id="/rov/base", position=(1.0, 0.0, 0.0), orientation=(0.0, 0.0, 0.25))
     vehicle = VehicleSpec(name="rov", file=str(robot), position=(1.0, 2.0, 3.0), tf=follows)
-    return Simulation(scene_of(vehicle, sim_params=NED))
+    return open_scene(scene_of(vehicle, sim_params=NED))
 
 
 def test_a_vehicle_follows_its_frame_through_those_between_with_its_offset(tmp_path: Path) -> None:
@@ -98,7 +99,7 @@ def test_a_vehicle_in_water_follows_the_same_in_steps_taken_one_by_one(tmp_path:
     def end(*, at_once: bool) -> np.ndarray:
         scene = read_scene(scene_file("currents-scene", ())).nominal
         vehicle = replace(scene.vehicles[0], parts=(), tf=TfSpec(tf_id="leader"))
-        with Simulation(replace(scene, vehicles=(vehicle,), ros_interfaces=())) as simulation:
+        with open_scene(replace(scene, vehicles=(vehicle,), ros_interfaces=())) as simulation:
             x, y, z = vehicle.position
             leader = frame("world", "leader", x + 0.5, y, z)
             simulation.publish("/tf", TFMessage(transforms=[leader]))

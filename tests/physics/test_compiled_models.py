@@ -13,10 +13,10 @@ import pytest
 from uwsim.base.geometry import Pose
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
-from uwsim.physics import compile as compile_module
 from uwsim.physics import compiled_models
-from uwsim.physics.compile import compile_scene
+from uwsim.physics import engine_model as compile_module
 from uwsim.physics.compiled_models import NoContent, cached_model, content_digest
+from uwsim.physics.engine_model import compile_engine_model
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.schema.source_line import SourceLine
@@ -59,7 +59,7 @@ def bytes_of(model: mujoco.MjModel) -> bytes:
 
 
 def model(timestep: float = 0.002, **changes: object) -> bytes:
-    return bytes_of(compile_scene(replace(SCENE, **changes), {}, {}, timestep, SHAPES))  # type: ignore[arg-type]
+    return bytes_of(compile_engine_model(replace(SCENE, **changes), {}, {}, timestep, SHAPES))  # type: ignore[arg-type]
 
 
 def test_a_kept_model_is_read_and_not_compiled(
@@ -84,7 +84,7 @@ def test_another_scene_or_step_is_another_model(cache: Path) -> None:
 
 
 def test_few_shapes_leave_nothing_on_the_disk(cache: Path) -> None:
-    compile_scene(SCENE, {}, {}, 0.002, {object_body(0): STEPS[:5]})
+    compile_engine_model(SCENE, {}, {}, 0.002, {object_body(0): STEPS[:5]})
     assert not cache.exists()
 
 

@@ -10,17 +10,17 @@ import mujoco
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.errors import RunFailed
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
-from uwsim.physics.compile import compile_scene
+from uwsim.physics.engine_model import compile_engine_model
 from uwsim.physics.engine_warnings import hush, say_too_fast, speeds_of, too_fast, why_untrue
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation
 
 BALLS = "".join(f'<body name="b{i}"><freejoint/><geom size="0.1"/></body>' for i in range(30))
 MODEL = '<mujoco><size memory="{memory}"/><worldbody>' + BALLS + "</worldbody></mujoco>"
@@ -28,7 +28,7 @@ SCENE = Path(str(resources.files("uwsim") / "data" / "scenes" / "currents-scene.
 
 
 def diverge() -> None:
-    simulation = Simulation(read_scene(SCENE).nominal, is_blind=True)
+    simulation = open_scene(read_scene(SCENE).nominal, is_blind=True)
     simulation.world.state._data.qvel[0] = 1e12
     try:
         simulation.advance()
@@ -67,7 +67,7 @@ def test_a_thin_thing_that_is_loose_may_turn_as_fast_as_it_rolls(radius: float, 
     thing = ObjectSpec(name="pin", file="", physics=PhysicsSpec(mass=0.01))
     rod = CollisionShape(kind="cylinder", size=(radius, 0.15), body_from_shape=Pose.identity())
     scene = SceneSpec(objects=(thing,), sim_params=SimParamsSpec(enable_physics=True))
-    model = compile_scene(scene, {}, {}, 0.002, {object_body(0): [rod]})
+    model = compile_engine_model(scene, {}, {}, 0.002, {object_body(0): [rod]})
     speeds = speeds_of(model)
     assert speeds.tolist() == [[0, 3, 100], [3, 3, limit]]
     assert too_fast(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.0, 0.0]), speeds) == -1

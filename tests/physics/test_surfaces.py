@@ -12,7 +12,7 @@ import pytest
 from uwsim.base.geometry import Pose
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
-from uwsim.physics.compile import compile_scene
+from uwsim.physics.engine_model import compile_engine_model
 from uwsim.physics.free_objects import loose_link
 from uwsim.physics.restitution import bounce, contact_spring
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
@@ -45,7 +45,7 @@ def falling(
         objects=(thing, ground), sim_params=replace(sim, enable_physics=True, gravity=pull)
     )
     shapes = {object_body(0): [shape], object_body(1): [FLOOR]}
-    return compile_scene(scene, {}, {}, timestep, shapes)
+    return compile_engine_model(scene, {}, {}, timestep, shapes)
 
 
 def bounce_of(model: mujoco.MjModel) -> float:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.errors import SceneError
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.hydrodynamics.spec import (
@@ -18,7 +19,6 @@ from uwsim.scene.hydrodynamics.spec import (
 )
 from uwsim.scene.reader import read_scene
 from uwsim.schema import fields_of
-from uwsim.simulation import Simulation
 
 PAGE = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
 
@@ -105,7 +105,7 @@ def test_a_vehicle_far_from_floating_is_reported(volume: str, severity: str, fol
     assert (diagnostic.line, diagnostic.severity) == (10, severity)
     assert f"has 20 kg and displaces {float(volume) * 1000:g} kg of water" in diagnostic.message
     if severity == "warning":
-        Simulation(read_scene(folder / "my_scene.xml"), is_blind=True).close()
+        open_scene(read_scene(folder / "my_scene.xml"), is_blind=True).close()
     else:
         with pytest.raises(SceneError, match="lighter than any foam"):
-            Simulation(read_scene(folder / "my_scene.xml"), is_blind=True)
+            open_scene(read_scene(folder / "my_scene.xml"), is_blind=True)

@@ -9,12 +9,12 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin, Writer
 
 from tests.support.bags import sample_pixels, write_bag
+from tests.support.opened import open_scene
 from uwsim.messages import Float64, Odometry, Pose, header
 from uwsim.middleware.encodings import to_cdr
 from uwsim.middleware.recording import BagReader, Player, Recorder
 from uwsim.middleware.types import ros2_store
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation
 
 TIMES = (0.0, 0.1, 0.1, 0.3)
 
@@ -41,7 +41,7 @@ def read(path: Path) -> list[tuple[float, str, Any]]:
 
 
 def recorded(path: Path) -> Path:
-    with Simulation(SceneSpec()) as simulation, Recorder(simulation.bus, path) as recorder:
+    with open_scene(SceneSpec()) as simulation, Recorder(simulation.bus, path) as recorder:
         recorder.start(lambda: simulation.time)
         simulation.attach(Source())
         simulation.advance(0.4)
@@ -57,7 +57,7 @@ def test_what_is_played_and_recorded_again_is_the_same(
     second = tmp_path / f"second{again}"
     with (
         BagReader(first) as reader,
-        Simulation(SceneSpec()) as simulation,
+        open_scene(SceneSpec()) as simulation,
         Recorder(simulation.bus, second) as recorder,
     ):
         assert reader.duration == pytest.approx(0.3)
@@ -75,7 +75,7 @@ def test_what_is_played_and_recorded_again_is_the_same(
 
 def test_a_topic_that_others_publish_is_played_beside_it(tmp_path: Path) -> None:
     path = recorded(tmp_path / "run.mcap")
-    with BagReader(path) as reader, Simulation(SceneSpec()) as simulation:
+    with BagReader(path) as reader, open_scene(SceneSpec()) as simulation:
         player = Player(reader, 0.002, published=["/depth"], left_out=["/odom"])
         simulation.attach(player)
         simulation.latest("/recorded/depth")

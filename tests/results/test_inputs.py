@@ -13,6 +13,7 @@ import trimesh
 from PIL import Image
 from scipy.io import netcdf_file
 
+from tests.support.opened import open_scene
 from uwsim.base.files.input_files import recorded
 from uwsim.errors import ResultError
 from uwsim.results import journal
@@ -22,7 +23,6 @@ from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan import Plan
 from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.run import Run
-from uwsim.simulation import Simulation
 from uwsim.verify.recorded_plan import check_inputs
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="sea.xml">
@@ -125,7 +125,7 @@ def _plan(algorithm: str = "own_tracker:Tracker") -> Plan:
 def _inputs(algorithm: str = "own_tracker:Tracker") -> Inputs:
     plan = _plan(algorithm)
     with recorded() as files:
-        simulation = Simulation(plan.scene)
+        simulation = open_scene(plan.scene)
     simulation.close()
     return inputs_of(plan, simulation, files)
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled
 from uwsim.assets.find import PACKAGE
 from uwsim.base.files.input_files import recorded
@@ -15,14 +16,13 @@ from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 
 def files_read(path: Path) -> set[Path]:
     """Open a copied scene or benchmark; return the files of the scene that are read."""
     with recorded() as files:
         if path.stem in bundled("scenes"):
-            Simulation(read_scene(path)).close()
+            open_scene(read_scene(path)).close()
         else:
             hash_inputs(make_plan(PlanRequest(benchmark=str(path))))
     return {file.path.resolve() for file in files if file.path.suffix != ".py"}
@@ -49,7 +49,7 @@ def test_an_edited_copy_is_used(tmp_path: Path) -> None:
     assert "thruster" in text
     robot.write_text(text.replace("<thruster", "<thrusterr"))
     with pytest.raises(Exception, match="thrusterr"):
-        Simulation(read_scene(tmp_path / "grasp-scene.xml"))
+        open_scene(read_scene(tmp_path / "grasp-scene.xml"))
 
 
 def test_a_file_that_exists_is_kept_without_overwrite(

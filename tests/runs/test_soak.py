@@ -17,7 +17,8 @@ from pathlib import Path
 sys.path.insert(0, sys.argv[1])
 from tests.support.short_benchmark import bench_of
 from uwsim.runs.executors.executor import Job, run_and_record
-from uwsim.simulation import Calls, RendererPool
+from uwsim.runs.planning.trial_cache import TrialCache
+from uwsim.simulation import Calls
 
 folder, n_trials, n_first = Path(sys.argv[2]), int(sys.argv[3]), int(sys.argv[4])
 
@@ -28,9 +29,9 @@ def memory():
     return next(int(line[1]) for line in lines if line[0] == "RssAnon:") / 1024.0
 
 run = bench_of(folder / "soak.xml", folder / "out", algorithm="frozen", repeat=n_trials)
-pool = RendererPool()
+cache = TrialCache()
 for i, trial in enumerate(run.begin(), 1):
-    for _ in run_and_record(Job(run, trial), pool, Calls()):
+    for _ in run_and_record(Job(run, trial), cache, Calls()):
         pass
     if i in (n_first, n_trials):
         print(memory(), flush=True)

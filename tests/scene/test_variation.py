@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.devices.sway import SwaySpec
 from uwsim.errors import SceneError
 from uwsim.scene.reader import check_scene, read_scene
@@ -16,7 +17,6 @@ from uwsim.scene.settings import apply_setting
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.variation import draw, varied
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
-from uwsim.simulation import Simulation
 
 BASE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
 X = "<u:path>object[blackbox].position.x</u:path>"
@@ -209,7 +209,7 @@ def test_one_value_cannot_vary_twice(tmp_path: Path) -> None:
 def test_a_simulation_is_of_its_seed(tmp_path: Path) -> None:
     spec = scene(tmp_path, UNIFORM)
     for seed in (0, 5):
-        simulation = Simulation(dataclasses.replace(spec, ros_interfaces=()), seed=seed)
+        simulation = open_scene(dataclasses.replace(spec, ros_interfaces=()), seed=seed)
         origin = simulation.world.body("blackbox").world_from_body.position
         located = simulation.world.world_from_localized.inverse().transform(origin[None])[0]
         assert located[0] == pytest.approx(box_x(spec, seed))
@@ -218,7 +218,7 @@ def test_a_simulation_is_of_its_seed(tmp_path: Path) -> None:
 
 def test_a_vehicle_that_sways_with_a_phase_begins_within_its_swing(tmp_path: Path) -> None:
     spec = scene(tmp_path, vehicle=SWAY)
-    simulation = Simulation(dataclasses.replace(spec, ros_interfaces=()))
+    simulation = open_scene(dataclasses.replace(spec, ros_interfaces=()))
     places = []
     for _ in range(3):
         origin = simulation.world.body("girona500").world_from_body.position

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, MovingCarrier, plate
+from tests.support.opened import open_scene
 from uwsim.assets.find import find
 from uwsim.base.geometry import Pose, rotation_from_rpy, rotation_y
 from uwsim.messages import DVL
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.dvl_sensor import Dvl, DvlSensorSpec
 from uwsim.sensors.janus import Janus
-from uwsim.simulation import Simulation
 
 LOOKS_DOWN = rotation_from_rpy(math.pi, 0.0, 0.0)  # x ahead, y to starboard, z down
 VELOCITY = (0.8, -0.3, 0.1)
@@ -194,7 +194,7 @@ def test_in_the_tank_it_locks_on_the_floor() -> None:
     """4.81 m deep (the image on the floor, or 4.85 beside it), the sensor at 2 m; std 0.0015."""
     path = find("cirs.xml")
     assert isinstance(path, Path)
-    with Simulation(read_scene(path), is_blind=True) as simulation:
+    with open_scene(read_scene(path), is_blind=True) as simulation:
         simulation.latest("g500/dvl")
         simulation.advance(0.4)
         message = simulation.latest("g500/dvl")

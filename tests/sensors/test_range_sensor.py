@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate
+from tests.support.opened import open_scene
 from uwsim.assets.find import find
 from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.messages import Range
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.range_sensor import RangeSensor, RangeSensorSpec
-from uwsim.simulation import Simulation
 
 DOWN = rotation_from_rpy(0.0, 0.5 * math.pi, 0.0)  # x of the sensor points down
 
@@ -60,7 +60,7 @@ def test_the_sonar_of_the_tank_measures_down_to_the_image_on_its_floor() -> None
     """4.81 m deep; the vehicle is at 2 m, the sonar 0.95 m below; 0.1 degrees of tilt."""
     path = find("cirs.xml")
     assert isinstance(path, Path)
-    with Simulation(read_scene(path), is_blind=True) as simulation:
+    with open_scene(read_scene(path), is_blind=True) as simulation:
         simulation.latest("uwsim/g500/range")
         simulation.advance()
         assert simulation.latest("uwsim/g500/range").range == pytest.approx(1.86, abs=1e-4)

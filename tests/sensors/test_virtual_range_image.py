@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate, sphere
+from tests.support.opened import open_scene
 from uwsim.assets.find import find
 from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.messages import points
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.pinhole import cast_depth
 from uwsim.sensors.virtual_range_image import VirtualRangeImage, VirtualRangeImageSpec
-from uwsim.simulation import Simulation
 from uwsim.topics.depth_images import optical_points
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -108,7 +108,7 @@ def test_noise_beyond_the_planes_of_the_camera_is_infinite() -> None:
 def test_topics_carry_depth_info_and_the_same_points(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
-    with Simulation(read_scene(path), is_blind=True) as simulation:
+    with open_scene(read_scene(path), is_blind=True) as simulation:
         assert simulation.topics["cloud"] == "sensor_msgs/msg/PointCloud2"
         topics = ("/depth", "/depth_info", "/again", "/cloud", "/eye", "/eye_info")
         for topic in topics:
@@ -129,7 +129,7 @@ def test_the_renderer_and_rays_give_the_same_depth(tmp_path: Path) -> None:
     """Of each pixel, but at the edges of bodies, where it may be of either."""
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
-    with Simulation(read_scene(path)) as simulation:
+    with open_scene(read_scene(path)) as simulation:
         world, eye = simulation.world, simulation.world.camera("eye")
         drawn = eye.depth(0.0)
         cast = cast_depth(world.rays, eye.world_from_camera, eye.intrinsics)
@@ -141,7 +141,7 @@ def test_the_range_camera_of_the_tank_sees_its_floor() -> None:
     """As deep below the camera as below the sonar at its height."""
     path = find("cirs.xml")
     assert isinstance(path, Path)
-    with Simulation(read_scene(path), is_blind=True) as simulation:
+    with open_scene(read_scene(path), is_blind=True) as simulation:
         simulation.latest("uwsim/rangecamera")
         simulation.advance()
         image = simulation.latest("uwsim/rangecamera")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.support.opened import open_scene
 from uwsim.currents import ConstantSpec, Place
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.scene.object import ObjectSpec
@@ -29,7 +30,7 @@ def make(
 ) -> Simulation:
     scene = read_scene(SCENE).nominal
     vehicle = change(replace(scene.vehicles[0], parts=()))
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces),
         data_path=data_path,
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from tests.support.opened import open_scene
 from uwsim.scene.ocean_state import FogSpec, OceanStateSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
@@ -53,6 +54,6 @@ def scene_of(vehicle: VehicleSpec, **given: object) -> SceneSpec:
 
 
 def begin(scene: SceneSpec, **given: object) -> Simulation:
-    simulation = Simulation(scene, **given)  # type: ignore[arg-type]
+    simulation = open_scene(scene, **given)  # type: ignore[arg-type]
     simulation.start()
     return simulation

@@ -11,6 +11,7 @@ import mujoco
 import numpy as np
 
 from tests.simulation.girona500 import SCENE, position, run
+from tests.support.opened import open_scene
 from uwsim.messages import Float64MultiArray, JointState, MultiArrayLayout, header
 from uwsim.physics.hydrodynamics import columns as c
 from uwsim.scene.reader import read_scene
@@ -37,7 +38,7 @@ def adrift(tmp_path: Path, *, has_drag: bool) -> Simulation:
         (folder / name.replace("g500_physical", "adrift")).write_text(text)
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], parts=(), dynamics="adrift")
-    simulation = Simulation(
+    simulation = open_scene(
         replace(
             scene,
             vehicles=(vehicle,),

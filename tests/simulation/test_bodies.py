@@ -10,12 +10,12 @@ import pytest
 
 from tests.simulation.girona500 import SCENE
 from tests.simulation.small_robots import joint, scene_of, write_robot
+from tests.support.opened import open_scene
 from uwsim.base.compatibility import COMPATIBILITY, compatibility
 from uwsim.base.geometry import rotation_x, rotation_z
 from uwsim.errors import UnknownName
 from uwsim.scene.reader import read_scene
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.simulation import Simulation
 from uwsim.simulation.bodies import scaled_box
 from uwsim.world import Box
 
@@ -58,7 +58,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
         ((2.0, 3.0, 0.5), frozenset({"box-scale"})),
     ):
         thing = replace(black_box, scale_factor=scale, offsetr=(0.0, 0.0, 0.0))
-        simulation = Simulation(
+        simulation = open_scene(
             replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
             compatibility=quirks,
         )
@@ -72,7 +72,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
 
 
 def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
-    body = Simulation(read_scene(SCENE).nominal).world.body("blackbox")
+    body = open_scene(read_scene(SCENE).nominal).world.body("blackbox")
     place, turn = body.world_from_body.position, body.world_from_body.rotation
     body.world_from_body.position[:] = np.nan
     body.world_from_body.rotation[:] = np.nan
@@ -86,7 +86,7 @@ def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_i
     looks = {}
     for name in ("", "uwsim", "visual-frames"):
         asked = compatibility([name] if name else [])
-        camera = Simulation(scene, compatibility=asked).world.camera("bowtech1")
+        camera = open_scene(scene, compatibility=asked).world.camera("bowtech1")
         looks[name] = -camera.world_from_camera.rotation[:, 2]  # along -z of OpenGL
     assert looks[""] == pytest.approx((0.0, 0.0, -1.0), abs=0.01)
     assert looks["uwsim"] == pytest.approx(looks[""])
@@ -94,7 +94,7 @@ def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_i
 
 
 def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() -> None:
-    simulation = Simulation(read_scene(SCENE).nominal)
+    simulation = open_scene(read_scene(SCENE).nominal)
     link, visual = (simulation.world.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
     assert visual.world_from_body.position == pytest.approx(link.world_from_body.position)
     assert visual.box is None
@@ -104,7 +104,7 @@ def test_a_link_whose_name_has_a_slash_is_found_by_its_route(tmp_path: Path) -> 
     """As in robot files that put the names of links in a name space."""
     inside = '<link name="ns/base_link"/><link name="tool"/>' + joint("j", "ns/base_link tool")
     vehicle = VehicleSpec(name="rov", file=str(write_robot(tmp_path, inside)))
-    world = Simulation(scene_of(vehicle), is_blind=True).world
+    world = open_scene(scene_of(vehicle), is_blind=True).world
     found = [
         world.body(route).name for route in ("ns/base_link", "/rov/ns/base_link/", "rov/x/tool")
     ]

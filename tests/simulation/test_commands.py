@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose, rotation_from_xyz
 from uwsim.messages import (
     JointState,
@@ -38,7 +39,7 @@ def simulation() -> Simulation:
         ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500"),
         ROSOdomToPATSpec(topic="/odometry", vehicle_name="girona500"),
     )
-    simulation = Simulation(replace(scene, objects=(), ros_interfaces=interfaces))
+    simulation = open_scene(replace(scene, objects=(), ros_interfaces=interfaces))
     simulation.start()
     return simulation
 

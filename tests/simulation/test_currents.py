@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.currents import ConstantSpec, Place
 from uwsim.errors import UnknownName
 from uwsim.scene.reader import read_scene
@@ -14,7 +15,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-sc
 
 @pytest.fixture
 def simulation() -> Simulation:
-    simulation = Simulation(replace(read_scene(SCENE), objects=(), ros_interfaces=()))
+    simulation = open_scene(replace(read_scene(SCENE), objects=(), ros_interfaces=()))
     simulation.start()
     return simulation
 

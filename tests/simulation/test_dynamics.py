@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
 from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Twist, TwistStamped, Vector3, header
@@ -22,7 +23,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scen
 def make(velocity_loop: str = "water") -> Simulation:
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], velocity_loop=velocity_loop, parts=())
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=scene.ros_interfaces[1:])
     )
     simulation.start()
@@ -156,10 +157,10 @@ def test_a_body_beyond_100_m_s_or_100_rad_s_ends_the_run(dof: int) -> None:
 
 def test_an_integrator_may_be_chosen() -> None:
     scene = read_scene(SCENE).nominal
-    simulation = Simulation(scene, integrator="RK4", is_blind=True)
+    simulation = open_scene(scene, integrator="RK4", is_blind=True)
     assert simulation.world.state._model.opt.integrator == 1
     with pytest.raises(BadSetting, match="expected implicitfast or RK4"):
-        Simulation(scene, integrator="Euler")  # type: ignore[arg-type]
+        open_scene(scene, integrator="Euler")  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("timestep", [0.021, 0.05, 0.0, -0.002, float("nan"), float("inf")])
@@ -167,14 +168,14 @@ def test_a_step_that_the_physics_does_not_bear_is_refused(timestep: float) -> No
     scene = read_scene(SCENE).nominal
     said = "expected 0.02 s at most" if 0.0 < timestep < 1.0 else "expected a time > 0"
     with pytest.raises(BadSetting, match=said):
-        Simulation(scene, timestep=timestep, is_blind=True)
+        open_scene(scene, timestep=timestep, is_blind=True)
 
 
 def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], dynamics=None, parts=())
     still = replace(scene, vehicles=(vehicle,), ros_interfaces=())
-    Simulation(still, timestep=0.05, is_blind=True).close()
+    open_scene(still, timestep=0.05, is_blind=True).close()
 
 
 class Asked:
@@ -203,7 +204,7 @@ class Asked:
 def test_water_is_asked_only_where_it_acts() -> None:
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], parts=())
-    simulation = Simulation(replace(scene, vehicles=(vehicle,)), is_blind=True)
+    simulation = open_scene(replace(scene, vehicles=(vehicle,)), is_blind=True)
     simulation.start()
     asked = Asked()
     simulation.world.set_current(asked)

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled
 from uwsim.errors import BadMessage
 from uwsim.messages import Float64MultiArray, MultiArrayLayout
@@ -22,7 +23,7 @@ def remus(path: Path | None = None) -> Simulation:
     scene = replace(read_scene(path or bundled("scenes")["remus-scene"]), vary=())
     vehicle = replace(scene.vehicles[0], parts=())
     commands = tuple(each for each in scene.ros_interfaces if not hasattr(each, "camera_name"))
-    made = Simulation(replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=commands))
+    made = open_scene(replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=commands))
     made.start()
     return made
 

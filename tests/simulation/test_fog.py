@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.scene.ocean_state import FogSpec
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
 
@@ -21,7 +21,7 @@ def test_a_fog_updater_changes_how_thick_the_fog_is_and_not_its_colour() -> None
     colour = (0.1, 0.5, 0.2)  # of a harbour
     fog = FogSpec(density=0.1, color=colour)
     murky = replace(scene, ocean_state=replace(scene.ocean_state, fog=fog))
-    simulation = Simulation(murky)
+    simulation = open_scene(murky)
     try:
         simulation.world.set_fog(20.0)
         camera = simulation.world.camera("bowtech1")

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
-from uwsim.simulation import Simulation
 
 
 def scene_in(folder: Path, *, vr: bool) -> SceneSpec:
@@ -28,7 +28,7 @@ def scene_in(folder: Path, *, vr: bool) -> SceneSpec:
 
 @pytest.mark.parametrize("vr", [False, True])
 def test_cameras_do_not_see_a_ghost_and_viewers_do(tmp_path: Path, vr: bool) -> None:
-    with Simulation(scene_in(tmp_path, vr=vr)) as simulation:
+    with open_scene(scene_in(tmp_path, vr=vr)) as simulation:
         number = next(each.id for each in simulation.world.scenery.parts if each.is_hidden is vr
                       and each.name == "seen/base_link")  # fmt: skip
         by_camera = simulation.image("eye").ids

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, run
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose, quaternion_from_rotation
 from uwsim.messages import JointState, Point, Quaternion, header
 from uwsim.messages import Pose as PoseMessage
@@ -14,7 +15,6 @@ from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import ContactMode
 from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.scene.urdf.reader import read_urdf
-from uwsim.simulation import Simulation
 from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from uwsim.topics.ros_pose_to_pat import ROSPoseToPATSpec
 from uwsim.world import GRAVITY
@@ -62,7 +62,7 @@ class Grasp:
             ROSPoseToPATSpec(topic="/pose", vehicle_name="girona500"),
             ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500"),
         )
-        self.simulation = Simulation(
+        self.simulation = open_scene(
             replace(
                 scene,
                 vehicles=(vehicle,),

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 import uwsim
+from tests.support.opened import open_scene
 from tests.support.waiting import until
 from uwsim.messages import Image, Odometry
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 from uwsim.simulation.scenery.image_process import ImageProcess
 
 SCENES = Path(uwsim.__file__).parent / "data" / "scenes"
@@ -26,7 +26,7 @@ class Seen:
 
     def __init__(self, scene: str, topic: str) -> None:
         self.scene = read_scene(SCENES / f"{scene}.xml")
-        self.simulation = Simulation(self.scene, seed=SEED)
+        self.simulation = open_scene(self.scene, seed=SEED)
         self.images: dict[tuple[int, int], bytes] = {}
         self.simulation.bus.subscribe(topic, Image, self._keep)
 
@@ -49,10 +49,10 @@ class Seen:
 def elsewhere(scene: str, topic: str) -> Iterator[tuple[Seen, ImageProcess, list[str]]]:
     """A simulation whose images are drawn elsewhere, from some time on."""
     seen, said = Seen(scene, topic), list[str]()
-    process = ImageProcess(seen.simulation, seen.scene, {"seed": SEED}, said.append)
+    process = ImageProcess(seen.simulation, said.append)
     try:
         seen.advance()
-        until(lambda: process.is_ready, process.step)
+        until(lambda: process.is_ready and process.is_idle, process.step)
         yield seen, process, said
     finally:
         process.close()
@@ -90,7 +90,7 @@ def test_images_are_the_same_bytes_with_the_stamps_of_their_samples(scene: str, 
 
 def read_images(scene: str) -> list[str]:
     """Topics of images of a scene."""
-    with Simulation(read_scene(SCENES / f"{scene}.xml")) as simulation:
+    with open_scene(read_scene(SCENES / f"{scene}.xml")) as simulation:
         return sorted(simulation.images)
 
 

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 
 from tests.simulation.test_joint_stops import ROBOT, SCENE, SET
+from tests.support.opened import open_scene
 from uwsim.errors import SceneError
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 OBJECT = """<object> <name>box</name> <file>box.obj</file>
   <position> <x>3</x> <y>0</y> <z>-3</z> </position>
@@ -26,7 +26,7 @@ def said(folder: Path, *, robot: str = ROBOT, scene: str = SCENE) -> list[str]:
     (folder / "box.obj").write_text(BOX)
     (folder / "scene.xml").write_text(scene)
     with pytest.raises(SceneError) as caught:
-        Simulation(read_scene(folder / "scene.xml").nominal, is_blind=True)
+        open_scene(read_scene(folder / "scene.xml").nominal, is_blind=True)
     return [
         f"{Path(each.file or '').name}:{each.line}: {each.message}"
         for each in caught.value.diagnostics

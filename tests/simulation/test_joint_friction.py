@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, run
+from tests.support.opened import open_scene
 from uwsim.messages import JointState, header
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -26,7 +27,7 @@ def slewing(folder: Path, dynamics: str) -> Simulation:
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], parts=(), file="own.urdf")
     arm = ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500")
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(arm,)), data_path=(folder,)
     )
     simulation.start()

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import UnknownName, UwsimError
@@ -50,8 +51,8 @@ def brightness(simulation: Simulation) -> np.ndarray:
 
 
 def test_a_lamp_lights_the_black_box_at_night() -> None:
-    simulation = Simulation(night(LAMP))
-    dark = Simulation(night())
+    simulation = open_scene(night(LAMP))
+    dark = open_scene(night())
     seen, nothing = brightness(simulation), brightness(dark)
     assert nothing.max() <= 1.0
     assert seen[170:174, 215:235].max() > 150.0  # the orange of its side, under the lamp
@@ -61,7 +62,7 @@ def test_a_lamp_lights_the_black_box_at_night() -> None:
 
 
 def test_the_light_goes_with_the_vehicle() -> None:
-    simulation = Simulation(night(LAMP))
+    simulation = open_scene(night(LAMP))
     before = brightness(simulation)
     state = simulation.world.state
     higher = Pose(np.array([0.0, 0.0, 0.5]), np.eye(3)) @ state.poses.vehicle(0)
@@ -73,7 +74,7 @@ def test_the_light_goes_with_the_vehicle() -> None:
 
 
 def test_the_light_of_the_scene_does_not_dim_a_lamp() -> None:
-    simulation = Simulation(night(LAMP))
+    simulation = open_scene(night(LAMP))
     at_night = brightness(simulation)
     simulation.world.set_light_rate(0.3)
     assert (brightness(simulation) >= at_night).all()
@@ -81,16 +82,16 @@ def test_the_light_of_the_scene_does_not_dim_a_lamp() -> None:
 
 
 def test_the_lamp_of_a_ghost_does_not_shine() -> None:
-    simulation = Simulation(night(LAMP, vr=True))
+    simulation = open_scene(night(LAMP, vr=True))
     assert brightness(simulation).max() <= 1.0
     simulation.close()
 
 
 def test_a_lamp_on_no_link_and_a_fifth_lamp_are_refused() -> None:
     with pytest.raises(UnknownName, match="part9"):
-        Simulation(night(replace(LAMP, relative_to="part9")))
+        open_scene(night(replace(LAMP, relative_to="part9")))
     with pytest.raises(UwsimError, match="5 lamps"):
-        Simulation(night(*[LAMP] * 5))
+        open_scene(night(*[LAMP] * 5))
 
 
 def test_the_check_finds_both_and_a_cone_too_wide(tmp_path: Path) -> None:

@@ -14,14 +14,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.model.collision import fixed_mesh as fixed_mesh_module
 from uwsim.model.collision import polygon_cache
-from uwsim.physics import compile as compile_module
+from uwsim.physics import engine_model as compile_module
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.on_floor import OnFloorSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation
 
 BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 MAX_SHAPES = 5000
@@ -46,7 +46,7 @@ def track(scene: SceneSpec) -> str:
     """Hash of all positions of a vehicle that is pushed out of the ground it begins in."""
     sunk = replace(scene.vehicles[0], position=(0.0, 0.0, -3.9), accepts=("start",))
     digest = hashlib.sha256()
-    with Simulation(replace(scene, vehicles=(sunk,))) as simulation:
+    with open_scene(replace(scene, vehicles=(sunk,))) as simulation:
         row = np.zeros(simulation.motion.size)
         n_contacts = 0
         for _ in range(20):
@@ -120,7 +120,7 @@ def test_check_names_the_errors_and_a_remedy_and_accepts_an_error_of_the_file(
 def test_what_is_set_on_the_floor_stands_on_what_is_touched(scene: SceneSpec) -> None:
     rock = scene.objects[1]
     cap = replace(rock, name="cap", is_solid=False, on_floor=OnFloorSpec())
-    with Simulation(replace(scene, objects=(*scene.objects, cap))) as simulation:
+    with open_scene(replace(scene, objects=(*scene.objects, cap))) as simulation:
         bodies = [simulation.world.body(name) for name in (rock.name, "cap")]
         rise = float(np.subtract(*(body.world_from_body.position[2] for body in bodies)))
         box = bodies[0].box

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, TWIST, make
+from tests.support.opened import open_scene
 from uwsim.bus import Node
 from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
 from uwsim.devices.fault import FaultSpec
@@ -156,7 +157,7 @@ def test_water_that_comes_to_rest_is_still() -> None:
 
 @pytest.mark.parametrize("at_once", [True, False])
 def test_a_run_that_fails_ends_at_the_step_that_failed(*, at_once: bool) -> None:
-    simulation = Simulation(read_scene(SCENE).nominal, is_blind=True)
+    simulation = open_scene(read_scene(SCENE).nominal, is_blind=True)
     simulation.advance(0.01)
     data = simulation.world.state._data
     data.qfrc_applied[3] = 4e6  # soon it spins too fast

@@ -4,16 +4,16 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, vector
+from tests.support.opened import open_scene
 from uwsim.messages import Twist, TwistStamped, header
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 DISTANCE = 2.2  # what the controller takes for that of the box [m]
 
 
 def rolls(kp: float, seconds: float) -> np.ndarray:
     """Roll every 0.1 s [deg] of a vehicle that keeps over the box, from a start 0.3 m beside it."""
-    simulation = Simulation(read_scene(SCENE).nominal)
+    simulation = open_scene(read_scene(SCENE).nominal)
     camera = simulation.world.camera("bowtech1")
     box = simulation.world.body("blackbox").world_from_body.position + np.array([0.0, 0.3, 0.0])
     say = simulation.bus.publisher("/dataNavigator", TwistStamped)

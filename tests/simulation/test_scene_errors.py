@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from tests.simulation.girona500 import SCENE
+from tests.support.opened import open_scene
 from uwsim.errors import SceneError
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 TEXT = SCENE.read_text()
 DYNAMICS = "<u:dynamics>g500_physical</u:dynamics>"
@@ -76,7 +76,7 @@ def test_a_name_that_leads_nowhere_is_reported_with_its_line(way: str, tmp_path:
     assert [(diagnostic.file, diagnostic.line) for diagnostic in diagnostics] == [(str(path), line)]
     assert said in diagnostics[0].message
     with pytest.raises(SceneError) as caught:
-        Simulation(read_scene(path), is_blind=True)
+        open_scene(read_scene(path), is_blind=True)
     assert caught.value.diagnostics == tuple(diagnostics)
 
 
@@ -136,7 +136,7 @@ def test_a_device_on_no_link_is_refused_with_its_line(tmp_path: Path, element: s
     path.write_text(TEXT.replace("</vehicle>", device, 1))
     line = path.read_text().splitlines().index(device.splitlines()[1]) + 1
     with pytest.raises(SceneError, match="No link is called 'part9'") as caught:
-        Simulation(read_scene(path))
+        open_scene(read_scene(path))
     (diagnostic,) = caught.value.diagnostics
     assert diagnostic.line == line
     assert diagnostic.message.startswith(f"<{element}>: ")

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, TWIST, run
+from tests.support.opened import open_scene
 from uwsim.messages import JointState, header
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -19,7 +20,7 @@ STEPS = [0.002, 0.005, 0.01]
 def make(timestep: float = 0.002) -> Simulation:
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], parts=())
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(TWIST, ARM)),
         timestep=timestep,
     )

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, TWIST, make, position, run
+from tests.support.opened import open_scene
 from uwsim.messages import Twist, TwistStamped, header
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
@@ -82,7 +83,7 @@ def test_two_simulated_vehicles_meet_in_open_water() -> None:
     scene = read_scene(SCENE).nominal
     one = replace(scene.vehicles[0], parts=(), orientation=(0.0, 0.0, 0.0))
     other = replace(one, name="other", position=(6.0, 1.5, 1.515))
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(one, other), objects=(), ros_interfaces=(TWIST,))
     )
     simulation.start()

@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.messages import JointState
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
@@ -35,7 +36,7 @@ def begun(scene: SceneSpec) -> Iterator[Simulation]:
         ArmToROSJointStateSpec(topic=STATES.format(i), vehicle_name=vehicle.name)
         for i, vehicle in enumerate(scene.vehicles)
     )
-    simulation = Simulation(replace(scene, ros_interfaces=tell), is_blind=True)
+    simulation = open_scene(replace(scene, ros_interfaces=tell), is_blind=True)
     try:
         yield simulation
     finally:

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim import Simulation
 from uwsim.assets.bundled import bundled
 from uwsim.messages import TwistStamped
@@ -21,7 +22,7 @@ def driven(*shown: ShowTrajectorySpec) -> Simulation:
     """A vehicle that was driven along its x axis for a second at 0.5 m/s."""
     scene = read_scene(bundled("scenes")["visibility-scene"])
     params = replace(scene.sim_params, show_trajectory=shown)
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, sim_params=params, ros_interfaces=(TWIST,)), is_blind=True
     )
     message = TwistStamped()

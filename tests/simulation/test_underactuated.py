@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.base.geometry import quaternion_from_rotation, rotation_from_rpy
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.model.balance import balance_of
@@ -78,7 +79,7 @@ def torpedo(folder: Path, *thrusters: str) -> Simulation:
     (folder / "torpedo.urdf").write_text(ROBOT)
     (folder / "torpedo.xml").write_text(WATER.format("\n".join(thrusters)))
     (folder / "scene.xml").write_text(SCENE)
-    return Simulation(read_scene(folder / "scene.xml"))
+    return open_scene(read_scene(folder / "scene.xml"))
 
 
 def drive(simulation: Simulation, surge: float, seconds: float) -> np.ndarray:
@@ -214,7 +215,7 @@ def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() 
     import mujoco
 
     scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal
-    simulation = Simulation(scene)
+    simulation = open_scene(scene)
     model, data = simulation.world.state._model, simulation.world.state._data
     vehicle = read_vehicle(find_vehicle("g500_physical"))
     balance = balance_of(simulation.world.robots[0], vehicle, scene.vehicles[0].joint_values)
@@ -264,10 +265,10 @@ def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_pa
         scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>thrust</u:accept>")
     )
     assert [f for f in diagnostics_of(tmp_path / "scene.xml") if "drive" in f.message] == []
-    assert Simulation(read_scene(tmp_path / "scene.xml")).world.warnings == ()
+    assert open_scene(read_scene(tmp_path / "scene.xml")).world.warnings == ()
 
 
 def test_nothing_is_reported_of_the_bundled_scene() -> None:
     assert (
-        Simulation(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.warnings == ()
+        open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.warnings == ()
     )

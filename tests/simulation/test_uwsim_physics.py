@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, TWIST, command, position, run
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.benchmark.measures.collision import CollisionSpec
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
@@ -35,7 +36,7 @@ def play(*objects: ObjectSpec, vehicle: bool = True, **params: object) -> Simula
     """The Girona 500 stands at L (3, 1.5, 1.515), looks along y and is not simulated."""
     scene = read_scene(SCENE).nominal
     plain = replace(scene.vehicles[0], parts=(), dynamics=None)
-    simulation = Simulation(
+    simulation = open_scene(
         replace(
             scene,
             sim_params=SimParamsSpec(offsetr=OFFSET, enable_physics=True, **params),  # type: ignore[arg-type]
@@ -160,7 +161,7 @@ def test_the_same_scene_falls_to_the_same_bits() -> None:
 def test_without_enable_physics_everything_stands_still() -> None:
     scene = read_scene(SCENE).nominal
     plain = replace(scene.vehicles[0], parts=(), dynamics=None)
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(plain,), objects=(box(7.0, 1.5, 1.0, mass=2.0),))
     )
     simulation.start()

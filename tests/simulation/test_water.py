@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from scipy.io import netcdf_file
 
+from tests.support.opened import open_scene
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 ROBOT = """<robot name="float"><link name="hull">
   <visual><geometry><box size="0.3 0.2 0.1"/></geometry></visual>
@@ -161,7 +161,7 @@ def test_what_floats_goes_where_the_water_goes(
     monkeypatch.syspath_prepend(str(tmp_path))
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format(current=write(tmp_path), dynamics=dynamics))
-    simulation = Simulation(replace(read_scene(scene), ros_interfaces=()))
+    simulation = open_scene(replace(read_scene(scene), ros_interfaces=()))
     simulation.start()
     localized_from_world = simulation.world.world_from_localized.inverse()
     dt, travelled, places = simulation.timestep, np.zeros(3), [START]

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from tests.support.opened import open_scene
 from uwsim.cli.output.inventory import inventory
 from uwsim.messages import seconds
 from uwsim.scene.reader import read_scene
@@ -79,7 +80,7 @@ class SceneRun:
 def run_scene(path: Path, duration: float, *, data_path: tuple[Path, ...] = ()) -> SceneRun:
     """Run a scene headless and read every topic that it declares."""
     spec = read_scene(path)
-    with Simulation(spec, seed=1, data_path=data_path) as simulation:
+    with open_scene(spec, seed=1, data_path=data_path) as simulation:
         declared = [
             each
             for each in inventory(spec, simulation, [])["topics"]

@@ -9,6 +9,7 @@ from typing import ClassVar
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.devices import DEVICES
 from uwsim.messages import Float64
 from uwsim.scene.reader import read_scene
@@ -18,7 +19,6 @@ from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
 from uwsim.sensors.sensor import Carrier, SensorSpec, measured_by
-from uwsim.simulation import Simulation
 from uwsim.topics import INTERFACES, InterfaceSpec, element_of
 from uwsim.topics.sensor_topic import ImuToROSImuSpec, PressureSensorToROSSpec, SensorTopicSpec
 from uwsim.world import Body, SensorWorld
@@ -99,7 +99,7 @@ def test_a_sensor_is_published_as_soon_as_its_spec_has_a_bind(
     scene = dataclasses.replace(
         scene, vehicles=(vehicle,), objects=(), ros_interfaces=(missing, topic)
     )
-    with Simulation(scene, is_blind=True) as simulation:
+    with open_scene(scene, is_blind=True) as simulation:
         simulation.latest("/depth")
         simulation.advance(0.01)
         expected = -simulation.world.body("girona500/base_link").world_from_body.position[2]

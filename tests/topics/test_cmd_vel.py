@@ -9,10 +9,10 @@ import pytest
 from lxml import etree
 
 from scripts.reference.relax_ng import scene_grammar
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.messages import LaserScan, PointCloud2, Twist, Vector3, points
 from uwsim.scene.reader import check_scene, read_scene
-from uwsim.simulation import Simulation
 
 UP, DOWN = "<r>0</r>", "<r>M_PI</r>"  # of the base's z axis, as roll
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -53,7 +53,7 @@ def write(folder: Path, *, roll: str = UP, dynamics: str = "", u: str = "") -> P
 
 def moved(path: Path, twist: Twist, time: float = 1.0) -> tuple[Pose, Pose]:
     """Where the vehicle was and is, after commands at 20 Hz."""
-    with Simulation(read_scene(path), is_blind=True) as simulation:
+    with open_scene(read_scene(path), is_blind=True) as simulation:
         publish = simulation.bus.publisher("/cmd_vel", Twist)
         before = simulation.pose("rov", "W")
         for _ in range(round(20 * time)):
@@ -108,7 +108,7 @@ def test_children_of_an_interface_of_ours_may_have_the_prefix_or_not(
 
 
 def test_the_cloud_has_the_points_of_the_scan_that_hit(tmp_path: Path) -> None:
-    with Simulation(read_scene(write(tmp_path)), is_blind=True) as simulation:
+    with open_scene(read_scene(write(tmp_path)), is_blind=True) as simulation:
         scans = simulation.bus.inbox("/scan", LaserScan)
         clouds = simulation.bus.inbox("/points", PointCloud2)
         simulation.advance(0.3)

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.middleware.recording import TopicRate, TopicRates
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.schema.names import local
-from uwsim.simulation import Simulation
 from uwsim.topics import INTERFACES
 
 SENSOR = "<name>{0}</name> <relativeTo>base_link</relativeTo>"
@@ -132,7 +132,7 @@ def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def rates(scene: Path) -> dict[str, TopicRate]:
     """What came on every topic in half a second."""
-    with Simulation(read_scene(scene), is_blind=True) as simulation:
+    with open_scene(read_scene(scene), is_blind=True) as simulation:
         counted = TopicRates(simulation.bus, lambda: simulation.time)
         simulation.advance(0.5)
         return {each.topic: each for each in counted.rates()}

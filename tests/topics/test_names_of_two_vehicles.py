@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.cli import main
 from uwsim.messages import Pressure
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob
 
@@ -39,7 +39,7 @@ def scene(folder: Path, *, link_of_last: str = "part0") -> Path:
 
 def test_a_topic_carries_the_sensor_of_the_last_vehicle(tmp_path: Path) -> None:
     depths: list[float] = []
-    with Simulation(read_scene(scene(tmp_path)), is_blind=True) as simulation:
+    with open_scene(read_scene(scene(tmp_path)), is_blind=True) as simulation:
         simulation.bus.subscribe(
             "/depth", Pressure, lambda message: depths.append(message.pressure)
         )
@@ -58,7 +58,7 @@ def test_a_camera_that_is_left_out_hides_no_other(
     found = json.loads(capsys.readouterr().out)
     assert [each["topics"] for each in found["cameras"]] == [["/eye"], []]
     assert not any("2 cameras" in warning for warning in found["warnings"])
-    with Simulation(read_scene(file), is_blind=True) as simulation:
+    with open_scene(read_scene(file), is_blind=True) as simulation:
         assert simulation.world.camera("eye").world_from_camera.position[0] < 2.0
         (camera,) = scene_head(simulation, "", Blob())["cameras"]
         assert camera["body"].startswith("one/")

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from tests.topics.test_every_interface import SCENE
 from uwsim.errors import SceneError
 from uwsim.middleware.recording.topic_rates import TopicRate, TopicRates
 from uwsim.scene.reader import check_scene, read_scene
-from uwsim.simulation import Simulation
 
 
 def rates(
@@ -19,7 +19,7 @@ def rates(
     """What comes on every topic of a scene with all interfaces at a rate."""
     path = folder / "scene.xml"
     path.write_text(SCENE.replace("<rate>20</rate>", f"<rate>{rate}</rate>"))
-    simulation = Simulation(read_scene(path), is_blind=True, compatibility=compatibility)
+    simulation = open_scene(read_scene(path), is_blind=True, compatibility=compatibility)
     with simulation:
         counted = TopicRates(simulation.bus, lambda: simulation.time)
         simulation.advance(seconds)

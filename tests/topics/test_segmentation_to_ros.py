@@ -10,10 +10,10 @@ import pytest
 from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
+from tests.support.opened import open_scene
 from uwsim.messages import Image
 from uwsim.middleware.recording.recorder import ImageStorage, Recorder
 from uwsim.scene.reader import check_scene, read_scene
-from uwsim.simulation import Simulation
 
 CUBE = (
     "".join(f"v {x} {y} {z}\n" for x in (-0.2, 0.2) for y in (-0.2, 0.2) for z in (-0.2, 0.2))
@@ -61,7 +61,7 @@ def test_each_pixel_has_the_number_of_its_body_and_the_legend_names_all(
     """Also in fog through which nothing is seen, and of what is out of view."""
     path = scene_file(tmp_path, kind)
     assert [each for each in check_scene(path) if each.severity == "error"] == []
-    with Simulation(read_scene(path), is_blind=is_blind) as simulation:
+    with open_scene(read_scene(path), is_blind=is_blind) as simulation:
         simulation.latest("/seg")
         simulation.latest("/legend")
         simulation.advance(0.1)
@@ -82,7 +82,7 @@ def test_a_recording_holds_the_numbers_and_the_legend(
     tmp_path: Path, images: ImageStorage, n_images: int
 ) -> None:
     with (
-        Simulation(read_scene(scene_file(tmp_path)), is_blind=True) as simulation,
+        open_scene(read_scene(scene_file(tmp_path)), is_blind=True) as simulation,
         Recorder(simulation.bus, tmp_path / "a.mcap", images=images) as recorder,
     ):
         recorder.start(lambda: simulation.time)

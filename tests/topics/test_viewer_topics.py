@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.messages import Image, PointCloud2, PointField, header, image, point_cloud
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -26,7 +27,7 @@ PIXELS = (np.arange(2 * 3 * 3) * 13 % 256).astype(np.uint8).reshape(2, 3, 3)
 
 def opened(*interfaces: object) -> Simulation:
     scene = read_scene(SCENE)
-    return Simulation(replace(scene, ros_interfaces=interfaces), is_blind=True)
+    return open_scene(replace(scene, ros_interfaces=interfaces), is_blind=True)
 
 
 def of(simulation: Simulation, kind: type) -> list:

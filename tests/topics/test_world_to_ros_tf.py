@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.messages import JointState, TFMessage, TransformStamped, seconds
 from uwsim.scene.object import ObjectSpec
@@ -76,7 +77,7 @@ def pose(found: TransformStamped) -> Pose:
 
 
 def test_every_frame_hangs_on_one_tree(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path, with_objects=True), is_blind=True) as simulation:
+    with open_scene(scene_in(tmp_path, with_objects=True), is_blind=True) as simulation:
         found = frames(simulation)
     assert {child: each.header.frame_id for child, each in found.items()} == {
         "rov": "world",
@@ -92,7 +93,7 @@ def test_every_frame_hangs_on_one_tree(tmp_path: Path) -> None:
 
 
 def test_vehicles_and_objects_are_where_the_file_puts_them_in_l(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path, with_objects=True), is_blind=True) as simulation:
+    with open_scene(scene_in(tmp_path, with_objects=True), is_blind=True) as simulation:
         found = frames(simulation)
     assert np.allclose(pose(found["rov"]).position, [10.0, 20.0, 3.0])
     assert np.allclose(pose(found["rov"]).rotation[:, 0], [0.0, 1.0, 0.0])
@@ -101,7 +102,7 @@ def test_vehicles_and_objects_are_where_the_file_puts_them_in_l(tmp_path: Path) 
 
 
 def test_a_joint_turns_its_link_and_what_is_mounted_on_it_stays(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path), is_blind=True) as simulation:
+    with open_scene(scene_in(tmp_path), is_blind=True) as simulation:
         before = frames(simulation)
         command = JointState(name=["elbow"], position=np.array([0.5]))
         simulation.publish("/joints", command)
@@ -113,7 +114,7 @@ def test_a_joint_turns_its_link_and_what_is_mounted_on_it_stays(tmp_path: Path) 
 
 
 def test_cameras_look_along_z_and_scans_begin_along_x(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path), is_blind=True) as simulation:
+    with open_scene(scene_in(tmp_path), is_blind=True) as simulation:
         found = frames(simulation)
     ahead = np.array([0.0, 0.0, -1.0])  # of both in their own axes
     assert np.allclose(pose(found["bow"]).rotation[:, 2], ahead)

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import uwsim
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
-from uwsim.simulation import Simulation
 from uwsim.simulation.tracked_bodies import TrackedBodies
 from uwsim.simulation.views import FIELD, focus_of, orbit_view
 from uwsim.viewer.head import scene_head
@@ -119,5 +119,5 @@ def test_the_first_view_is_the_orbit_of_a_render_and_has_vehicle_and_task_in_it(
 def test_a_scene_without_a_camera_has_no_view_of_the_file(described: Any) -> None:
     _, _, simulation = described
     scene = dataclasses.replace(simulation.world.scene, camera=None)
-    with Simulation(scene) as plain:
+    with open_scene(scene) as plain:
         assert scene_head(plain, "scene", Blob())["file_view"] is None

@@ -12,6 +12,7 @@ import pytest
 
 from tests.devices.test_dredge_tool import scene
 from tests.runs.trial.test_motion_of_sand import recorded
+from tests.support.opened import open_scene
 from tests.viewer.live.desk import Desk
 from uwsim.results.motion import read_track
 from uwsim.simulation import Simulation
@@ -59,7 +60,7 @@ def test_a_film_shows_the_sand_of_its_moment(tmp_path: Path) -> None:
 def test_the_page_shows_the_sand_of_its_moment(tab: Any, tmp_path: Path) -> None:
     motion, frames = recorded(tmp_path)
     path = tmp_path / "page.html"
-    with Simulation(scene(tmp_path, 1.0)) as simulation:
+    with open_scene(scene(tmp_path, 1.0)) as simulation:
         path.write_text(page_of(simulation, motion), encoding="utf-8")
         tab.goto(path.as_uri())
         tab.wait_for_function("window.uwsim !== undefined")
@@ -82,7 +83,7 @@ def test_a_live_view_sends_a_heap_when_it_has_changed(tmp_path: Path) -> None:
 
     view = LiveView(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
     spec = scene(tmp_path, 1.0)
-    with Simulation(spec, is_blind=True) as simulation:
+    with open_scene(spec, is_blind=True) as simulation:
         view.open(simulation, "scene")
         simulation.advance(0.1)
         assert desk.on("sand/0") == []

@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Intrinsics, Pose, rotation_from_quaternion
 from uwsim.rendering.rendered_image import PixelBox, RenderedImage
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
-from uwsim.simulation import Simulation
 from uwsim.simulation.tracked_state import TrackedState
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob
@@ -36,7 +36,7 @@ def twins(folder: Path) -> SceneSpec:
 
 
 def test_of_things_of_one_name_each_is_drawn_where_it_is(tmp_path: Path) -> None:
-    with Simulation(twins(tmp_path), is_blind=True) as simulation:
+    with open_scene(twins(tmp_path), is_blind=True) as simulation:
         world = simulation.world
         head, state = scene_head(simulation, "twins", Blob()), TrackedState(world)
         names = [body["name"] for body in head["bodies"]]
@@ -67,7 +67,7 @@ def test_of_things_of_one_name_each_is_drawn_where_it_is(tmp_path: Path) -> None
 
 def test_things_of_one_name_have_boxes_and_ids_of_their_own(tmp_path: Path) -> None:
     scene = twins(tmp_path)
-    with Simulation(scene, is_blind=True) as simulation:
+    with open_scene(scene, is_blind=True) as simulation:
         names, boxes = simulation.world.part_names, simulation.boxes()
         links = [name for name in names.values() if not name.startswith("sand/")]
         assert links == ["rov/base_link", "rov#2/base_link", "box", "box#2", "rov/base_link#2"]

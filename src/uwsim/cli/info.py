@@ -53,6 +53,7 @@ def info(
     floor is searched straight below each vehicle's origin. Elements that are read and not simulated
     are listed last.
     """
+    from ..physics.compile_scene import compile_scene
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting, xacro_arguments
     from ..simulation import Simulation
@@ -68,7 +69,9 @@ def info(
         with wrong.kept():
             spec = apply_setting(spec, name, value)
     wrong.check()
-    simulation = Simulation(spec.nominal, data_path=folders, is_blind=True, runs_code=False)
+    simulation = Simulation(
+        compile_scene(spec.nominal, data_path=folders), is_blind=True, runs_code=False
+    )
     try:
         found = inventory(
             spec, simulation, diagnostics_of(path, data_path=folders, arguments=arguments)

@@ -63,6 +63,7 @@ def play(
     commands drive the vehicles.
     """
     from ..middleware.recording import BagReader
+    from ..physics.compile_scene import compile_scene
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
 
@@ -79,7 +80,8 @@ def play(
     wrong.check()
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
-    with BagReader(recording) as reader, Simulation(spec, data_path=folders) as simulation:
+    model = compile_scene(spec, data_path=folders)
+    with BagReader(recording) as reader, Simulation(model) as simulation:
         print_warnings(simulation.world.warnings)
         for topic, type_name in reader.left_out.items():
             warn(f"{topic} is not played: {type_name} has no message definition here")

@@ -118,6 +118,7 @@ def render(
     and --from the scene's only virtual camera is used; without one, the file's viewer; without
     either, an orbit view.
     """
+    from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
     wrong, wanted = AllErrors(), None
@@ -138,7 +139,8 @@ def render(
     assert wanted is not None
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
-    simulation = Simulation(spec, seed=seed, data_path=folders, compatibility=quirks)
+    model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
+    simulation = Simulation(model)
     try:
         print_warnings(simulation.world.warnings)
         rendered = wanted.render(simulation, spec)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from ..base.interrupts import raise_from_now_on
 from ..base.read_parameters import unread_note
@@ -70,6 +70,7 @@ def run(
     With a connection (--ros1, --ros2, --web) programs outside read and write topics and call
     services while the scene runs in real time, and the run is not repeatable.
     """
+    from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
     folders = tuple(data_path or ())
@@ -86,9 +87,8 @@ def run(
     assert spec is not None
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
-    with Simulation(
-        spec, seed=seed, data_path=folders, compatibility=quirks, udp_address=what.udp_address
-    ) as simulation:
+    model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
+    with Simulation(model, udp_address=what.udp_address) as simulation:
         print_warnings(simulation.world.warnings)
         raise_from_now_on()
         scene_topics = None
@@ -97,9 +97,8 @@ def run(
 
             scene_topics = SceneTopics(simulation, is_on_bus=connections.is_connected)
         pace = connections if not live.view else replace(connections, speed=0.0)
-        options = {"seed": seed, "data_path": folders, "compatibility": quirks}
         with (
-            images_elsewhere(simulation, spec, options, pace),
+            images_elsewhere(simulation, pace),
             connected(simulation, pace),
             viewed(simulation, spec, wanted, live, connections),
         ):
@@ -107,16 +106,14 @@ def run(
 
 
 @contextmanager
-def images_elsewhere(
-    simulation: Simulation, spec: SceneSpec, options: dict[str, Any], pace: ConnectionOptions
-) -> Iterator[None]:
+def images_elsewhere(simulation: Simulation, pace: ConnectionOptions) -> Iterator[None]:
     """In a run in real time with programs outside, draw images in a process of their own."""
     if not pace.is_connected or pace.pace == 0 or pace.client:
         yield
         return
     from ..simulation.scenery.image_process import ImageProcess
 
-    process = ImageProcess(simulation, spec, options, warn)
+    process = ImageProcess(simulation, warn)
     try:
         yield
     finally:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Literal
 
 import mujoco
@@ -14,8 +14,7 @@ from ..base.geometry import Array, Pose, quaternion_from_rotation
 from ..base.numerics.linear import turned_back
 from ..errors import UwsimError
 from ..model.body_names import loose_joint, vehicle_joint
-from ..model.collision.shapes import CollisionShape
-from ..scene.hydrodynamics import VehicleHydrodynamics
+from ..model.scene_model import SceneModel
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec
@@ -24,7 +23,6 @@ from .actuation.vehicle_actuation import actuation_of
 from .bounce_limit import BounceLimit
 from .collision.contacts import EngineContacts, body_name
 from .collision.world_tree import place_fixed_shapes
-from .compile import compile_scene
 from .engine_warnings import StepCheck
 from .grips import Grips
 from .joint_wrench import JointWrench
@@ -49,6 +47,9 @@ class Engine:
 
     Joint vectors hold the movable, non-mimic joints in UWSim's order; mimic joints follow.
     Vehicles with hydrodynamics are simulated, the others stay where they are put.
+
+    Args:
+        scene_model: the model of the scene.
     """
 
     STATE = (
@@ -64,22 +65,18 @@ class Engine:
     )
     """Attributes of its state, for snapshots."""
 
-    def __init__(
-        self,
-        scene: SceneSpec,
-        robots: Mapping[int, RobotSpec],
-        dynamics: Mapping[int, VehicleHydrodynamics],
-        timestep: float,
-        shapes: Mapping[str, Sequence[CollisionShape]],
-    ) -> None:
+    def __init__(self, scene_model: SceneModel) -> None:
+        scene, robots, dynamics = scene_model.scene, scene_model.robots, scene_model.dynamics
+        shapes = scene_model.shapes
         self._robots, self._dynamics = robots, dynamics
-        self._model = model = compile_scene(scene, robots, dynamics, timestep, shapes)
+        # its own: servos, grips and lifts change numbers of it
+        self._model = model = copy.copy(scene_model.engine_model)
         self._data = data = mujoco.MjData(model)
         place_fixed_shapes(model, data)
         names = [body_name(scene, model.body(i).name) for i in range(model.nbody)]
         self.motion = Motion(model, data, names)
         """Positions and velocities of all bodies, as one row of numbers."""
-        self.poses = Poses(scene, robots, model, data)
+        self.poses = Poses(scene_model, model, data)
         """Where everything is, as frames."""
         self.link_motion = LinkMotion(model, data, self.poses)
         """How the links of vehicles move."""

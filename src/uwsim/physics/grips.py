@@ -16,7 +16,7 @@ import numpy as np
 from ..base.geometry import Pose, quaternion_from_rotation
 from ..model.body_names import grip, loose_joint, object_body
 from ..model.collision.shapes import CollisionShape
-from .compile import ALL, OBJECTS, vehicle_bit
+from .engine_model import ALL, OBJECTS, vehicle_bit
 from .poses import Poses
 
 

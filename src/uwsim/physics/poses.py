@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..base.geometry import Array, Pose, quaternion_from_rotation
+from ..base.geometry import Array, Pose
 from ..base.numerics.linear import points_of, product, turned
-from ..devices.object_picker import ObjectPickerSpec
 from ..model.body_names import object_body, vehicle_body
-from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
+from ..model.scene_model import SceneModel
 from .scaled import stretched_axes
 
 
@@ -21,22 +17,16 @@ class Poses:
     """The frames of a scene, computed from the joints on demand.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
-        model: of the scene.
+        scene_model: the model of the scene.
+        model: that of the engine.
         data: its state.
     """
 
     STATE = ("version", "_is_stale", "carried", "_put")
     """Attributes of its state, for snapshots."""
 
-    def __init__(
-        self,
-        scene: SceneSpec,
-        robots: Mapping[int, RobotSpec],
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-    ) -> None:
+    def __init__(self, scene_model: SceneModel, model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        scene, robots = scene_model.scene, scene_model.robots
         self._model, self._data = model, data
         # Views into MuJoCo's memory: to look them up by name costs more than the step.
         self._origins = data.xpos  # (nbody, 3) [m]
@@ -50,15 +40,8 @@ class Poses:
         }
         names = {i: object_body(i) for i in range(len(scene.objects))}
         self._loose = {i: ids[name] for i, name in names.items() if name in ids}
-        self._fixed = {
-            i: _as_the_engine_has_it(scene.world_from_localized @ thing.localized_from_object)
-            for i, thing in enumerate(scene.objects)
-            if i not in self._loose
-        }
-        has_picker = any(each.parts_of(ObjectPickerSpec) for each in scene.vehicles)
-        self._movable = frozenset(
-            i for i in self._fixed if has_picker and not scene.objects[i].is_ground
-        )
+        self._placed = scene_model.placed_objects
+        self._fixed = scene_model.fixed_objects
         self._put: dict[int, Pose] = {}
         self.carried: dict[int, tuple[int, str, Pose]] = {}
         """Objects that follow a link: number of the vehicle, link, and where on it they are."""
@@ -124,8 +107,8 @@ class Poses:
             vehicle, link, link_from_object = self.carried[index]
             world_from_link = self.link(vehicle, link)
             return world_from_link @ link_from_object
-        if index in self._fixed:
-            return self._put.get(index, self._fixed[index]).copy()
+        if index in self._placed:
+            return self._put.get(index, self._placed[index]).copy()
         return self._body(self._loose[index])
 
     def put(self, index: int, world_from_object: Pose) -> None:
@@ -170,7 +153,7 @@ class Poses:
 
     def is_fixed(self, index: int) -> bool:
         """Whether an object stays where it is for good."""
-        return index in self._fixed and index not in self._movable
+        return index in self._fixed
 
     def points(self, bodies: npt.NDArray[np.int64], on_bodies: Array) -> Array:
         """Return where points (n, 3) [m] of some bodies are, in W, (n, 3) [m]."""
@@ -180,11 +163,3 @@ class Poses:
     def _body(self, body: int) -> Pose:
         self.refresh()
         return Pose(self._origins[body].copy(), self._axes[body].copy())
-
-
-def _as_the_engine_has_it(pose: Pose) -> Pose:
-    """A pose by way of a quaternion, which is what the engine keeps."""
-    rotation, quaternion = np.zeros(9), quaternion_from_rotation(pose.rotation)
-    mujoco.mju_normalize4(quaternion)
-    mujoco.mju_quat2Mat(rotation, quaternion)
-    return Pose(pose.position.copy(), rotation.reshape(3, 3))

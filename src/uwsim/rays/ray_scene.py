@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -62,6 +63,14 @@ class RayScene:
         sizes = [len(balls) for balls, _, _ in covers]
         self._cover_bodies = np.repeat([body for _, body, _ in covers], sizes).astype(np.int32)
         self._cover_surfaces = np.repeat([n for _, _, n in covers], sizes).astype(np.int32)
+
+    def fresh(self) -> RayScene:
+        """Return a scene of the same bodies, in the place of W, that shares their triangles."""
+        other = copy.copy(self)
+        other._world_from_body = np.tile(np.eye(4), (len(self._world_from_body), 1, 1))
+        other._body_from_world = other._world_from_body.copy()
+        other._moved = False
+        return other
 
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
         """Set the pose of a body; the matrix (4, 4) may scale [m]."""

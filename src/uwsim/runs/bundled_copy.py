@@ -8,6 +8,7 @@ from ..assets.bundled import bundled
 from ..assets.find import PACKAGE
 from ..base.files.input_files import InputFile, recorded
 from ..errors import BadSetting, UnknownName
+from ..physics.compile_scene import compile_scene
 from ..results.atomic_file import atomic_write
 from ..scene.reader import read_scene
 from ..simulation import Simulation
@@ -62,7 +63,7 @@ def _files_of(name: str) -> list[InputFile]:
     scenes, benchmarks = (bundled(kind) for kind in KINDS)
     with recorded() as files:
         if name in scenes:
-            Simulation(read_scene(scenes[name])).close()
+            Simulation(compile_scene(read_scene(scenes[name]))).close()
         elif name in benchmarks:
             hash_inputs(make_plan(PlanRequest(benchmark=name)))
         else:

@@ -191,6 +191,7 @@ def _unknown_names(
     from ..benchmark import unknown_names as names
     from ..benchmark.truth_checks import truth_diagnostics
     from ..benchmark.warnings import arm_warnings
+    from ..physics.compile_scene import compile_scene
     from ..scene.reader import read_scene
     from ..schema import Diagnostics
     from ..simulation import Simulation
@@ -209,7 +210,8 @@ def _unknown_names(
         named_by = file if scene is None else None
         path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
         spec = read_scene(path, data_path=data_path, arguments=arguments)
-        simulation = Simulation(spec, data_path=data_path, is_blind=True, runs_code=False)
+        model = compile_scene(spec, data_path=data_path)
+        simulation = Simulation(model, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:
             message = f"the scene {str(wanted)!r} has errors: uwsim check {wanted}"

@@ -17,6 +17,7 @@ from .bind_all import bind_all
 from .input_watch import watchable
 from .inputs_read import inputs_of, of_algorithm
 from .planning.plan import Plan
+from .planning.trial_cache import compile_plan
 from .run import Run
 
 
@@ -66,13 +67,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
         UwsimError: a file, a body, a camera or a service that is not there.
     """
     with recorded() as files:
-        simulation = Simulation(
-            plan.scene,
-            timestep=plan.timestep,
-            data_path=plan.data_path,
-            compatibility=plan.compatibility,
-            pool=pool,
-        )
+        simulation = Simulation(compile_plan(plan, 0), pool=pool)
         try:
             with attribute_errors_to(plan.plugins):
                 check_bound(plan.plugins, plan.benchmark.parts, simulation.world)

@@ -13,9 +13,9 @@ from ..base.geometry import Pose
 from ..base.numerics.linear import placed, product
 from ..errors import UnknownName, UwsimError
 from ..model.parts import Part
+from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
 from ..world import Box
 
 
@@ -41,13 +41,7 @@ class SceneBody:
         return self._box
 
 
-def name_bodies(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    state: Engine,
-    parts: Sequence[Part],
-    compatibility: frozenset[str] = frozenset(),
-) -> dict[str, SceneBody]:
+def name_bodies(model: SceneModel, state: Engine) -> dict[str, SceneBody]:
     """Give every frame of the scene its routes; where two share a name, the first has it.
 
     ``vehicle`` is the base frame, ``vehicle/link`` and ``link`` the kinematic frame of a link,
@@ -57,10 +51,11 @@ def name_bodies(
     objects; with the compatibility ``box-scale`` their ``scaleFactor`` is left out, as in the
     original.
     """
+    scene = model.scene
     bodies = {
         "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
     }
-    boxes = {part.object: part.model.box for part in parts if part.object is not None}
+    boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
 
     def add(names: Sequence[str], pose: Callable[[], Pose], box: Box | None) -> None:
         for name in names:
@@ -68,7 +63,7 @@ def name_bodies(
 
     for index, vehicle in enumerate(scene.vehicles):
         add([vehicle.name], partial(state.poses.vehicle, index), None)
-        for link in robots[index].links:
+        for link in model.robots[index].links:
             pose = partial(state.poses.link, index, link.name)
             names = [f"{vehicle.name}/{link.name}", link.name]
             add(names, pose, None)
@@ -78,11 +73,13 @@ def name_bodies(
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
             pose = partial(state.poses.mounted, index, link.name, link_from_visual)
-            shown = [part for part in parts if (part.vehicle, part.link) == (index, link.name)]
+            shown = [
+                part for part in model.parts if (part.vehicle, part.link) == (index, link.name)
+            ]
             add(seen, pose, _box_of(shown, pose(), state.poses.link_frame(index, link.name)))
     for index, thing in enumerate(scene.objects):
         mesh, box = thing.object_from_mesh, boxes.get(index)
-        if box is not None and "box-scale" not in compatibility:
+        if box is not None and "box-scale" not in model.compatibility:
             box = scaled_box(box, mesh.rotation, thing.scale_factor)
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
         object_from_mesh = Pose(origin, mesh.rotation)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 
 from ..base.geometry import Pose
+from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..sensors.sensor import MountedSensor
 from ..topics.frames import Frame
@@ -17,22 +17,19 @@ from .vehicles import SceneVehicle
 
 
 def vehicle_frames(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    vehicles: Sequence[SceneVehicle],
-    state: Engine,
+    model: SceneModel, vehicles: Sequence[SceneVehicle], state: Engine
 ) -> Iterator[Frame]:
     """Every vehicle with its links and sensors; a sensor on a missing link is left out.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number in the scene.
+        model: of the scene.
         vehicles: the vehicles of the scene, in the file's order.
         state: where their links are.
     """
+    scene = model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
-        robot = robots[index]
+        robot = model.robots[index]
         yield Frame("", spec.name, _in(localized_from_world, partial(state.poses.vehicle, index)))
         yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity, is_fixed=True)
         links = {link.name: partial(state.poses.link, index, link.name) for link in robot.links}

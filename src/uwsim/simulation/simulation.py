@@ -15,16 +15,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 from ..base.geometry import Array, Pose
 from ..bus import Algorithm, Bus
 from ..errors import BadSetting, UwsimError
+from ..model.scene_model import SceneModel
 from ..network import nanoseconds
+from ..physics.compile_scene import recompile
 from ..physics.motion import Motion
 from ..rendering.rendered_image import RenderedImage
-from ..scene.spec import SceneSpec
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from ..world import Flow
 from .access import arguments
@@ -44,36 +46,46 @@ class Simulation:
     """A running scene: the clock, the step, and the attached algorithms.
 
     Args:
-        scene: spec of the scene; its variations are drawn for the seed.
-        seed: the seed of every random stream.
+        model: of the scene, from `uwsim.physics.compile_scene.compile_scene`; its seed is that of
+            every random stream.
+        stream_prefix: prefix of the name of every random stream.
         pool: lends the renderer; without one the simulation has a renderer of its own.
-        options: those of `uwsim.simulation.stage.SceneStage`: ``stream_prefix``, ``timestep``,
-            ``integrator``, ``data_path``, ``compatibility``, ``is_blind``.
+        is_blind: images on topics are black, nothing is drawn for them.
+        runs_code: let Python code that the scene names run; without it that water is still.
+        udp_address: of this computer, at which ``<fdm>`` takes packets; None: it takes none.
     """
 
     def __init__(
         self,
-        scene: SceneSpec,
+        model: SceneModel,
         *,
-        seed: int = 0,
+        stream_prefix: str = "",
         pool: RendererPool | None = None,
-        **options: Any,
+        is_blind: bool = False,
+        runs_code: bool = True,
+        udp_address: str | None = None,
     ) -> None:
-        if not isinstance(scene, SceneSpec):
+        if not isinstance(model, SceneModel):
             raise BadSetting(
-                f"A Simulation is made of what read_scene returns, not of "
-                f"a {type(scene).__name__}: {arguments.shown(scene)}."
+                f"A Simulation is made of what compile_scene returns, not of "
+                f"a {type(model).__name__}: {arguments.shown(model)}."
             )
         self._own_pool = RendererPool()
-        self._scene, self._seed = scene, arguments.checked_seed(seed, "load")
-        self._options = {"pool": pool or self._own_pool, **options}
+        self._make_stage = partial(
+            SceneStage,
+            stream_prefix=stream_prefix,
+            pool=pool or self._own_pool,
+            is_blind=is_blind,
+            runs_code=runs_code,
+            udp_address=udp_address,
+        )
         self._watchers: list[Callable[[], None]] = []
         self._nodes: list[InProcessNode] = []
-        self._open()
+        self._open(model)
 
-    def _open(self, read: Iterable[str] = ()) -> None:
-        """Open the scene at step 0 and read some topics."""
-        self.world = world = SceneStage(self._scene, seed=self._seed, **self._options)
+    def _open(self, model: SceneModel, read: Iterable[str] = ()) -> None:
+        """Open a model at step 0 and read some topics."""
+        self.world = world = self._make_stage(model)
         """The world of the scene."""
         self._digest = ""  # of the scene; computed when it is needed
         scene, state = world.scene, world.state
@@ -104,10 +116,16 @@ class Simulation:
             UwsimError: an algorithm is attached, whose state cannot be reset.
         """
         self._refuse_if_attached("reset")
+        model = self.model
         if seed is not None:
-            self._seed = arguments.checked_seed(seed)
+            model = recompile(model, arguments.checked_seed(seed))
         self.world.close()
-        self._open(self._access.read)
+        self._open(model, self._access.read)
+
+    @property
+    def model(self) -> SceneModel:
+        """What does not change while it runs."""
+        return self.world.model
 
     @property
     def bus(self) -> Bus:
@@ -444,7 +462,7 @@ class Simulation:
             self._digest = digest_of(self.world.scene)
         quirks = ", ".join(sorted(self.world.compatibility)) or "none"
         return {
-            "seed": str(self._seed),
+            "seed": str(self.model.seed),
             "timestep": f"{self.timestep:.12g} s",
             "compatibility": quirks,
             "scene": self._digest,

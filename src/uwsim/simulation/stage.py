@@ -20,9 +20,9 @@ from ..devices.structured_light_projector import MountedProjector
 from ..errors import AssetNotFound, SceneError, UnknownName, UwsimError
 from ..messages import SpawnMarker, String
 from ..model.robots import find_file
+from ..model.scene_model import SceneModel
 from ..network import Channel, Network
-from ..scene.sim_params import Integrator
-from ..scene.spec import SceneSpec, with_integrator
+from ..scene.spec import SceneSpec
 from ..schema import diagnostic_at
 from ..sensors.sensor import Sensor
 from ..topics.frames import Frame
@@ -32,6 +32,7 @@ from .datagrams import Datagrams
 from .faulty_topic import FaultyTopic, faults_of
 from .frames import object_frames, vehicle_frames
 from .markers import SERVICE, Markers
+from .scenery.renderer_pool import RendererPool
 from .schedule import Schedule
 from .trajectories import RATE, Trajectory
 from .vehicles import SceneVehicle
@@ -46,10 +47,12 @@ class SceneStage(SceneWorld):
     """A scene world whose fog, light, noise, currents and arms can be set (`uwsim.world.Stage`).
 
     Args:
-        scene: spec of the scene.
-        integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
+        model: of the scene.
         udp_address: of this computer, at which ``<fdm>`` takes packets; None: it takes none.
-        options: those of `SceneWorld`.
+        stream_prefix: prefix of the name of every random stream.
+        runs_code: let Python code that the scene names run; without it that water is still.
+        pool: lends the renderer; without one the scene has a renderer of its own.
+        is_blind: images on topics are black, nothing is drawn for them.
     """
 
     STATE = (
@@ -61,13 +64,17 @@ class SceneStage(SceneWorld):
 
     def __init__(
         self,
-        scene: SceneSpec,
+        model: SceneModel,
         *,
-        integrator: Integrator | None = None,
         udp_address: str | None = None,
-        **options: Any,
+        stream_prefix: str = "",
+        runs_code: bool = True,
+        pool: RendererPool | None = None,
+        is_blind: bool = False,
     ) -> None:
-        super().__init__(with_integrator(scene, integrator), **options)
+        super().__init__(
+            model, stream_prefix=stream_prefix, runs_code=runs_code, pool=pool, is_blind=is_blind
+        )
         self.network = Network(
             self.stream,
             surface=self.scene.ocean_state.ocean_surface_height,
@@ -85,7 +92,7 @@ class SceneStage(SceneWorld):
         """What acts in the step, in the file's order."""
         place = Path(self.scene.path) if self.scene.path else None
         self.markers = Markers(
-            lambda: self.time, partial(has_model, named_by=place, data_path=self._data_path)
+            lambda: self.time, partial(has_model, named_by=place, data_path=model.data_path)
         )
         """What programs have spawned."""
         self.bus.services.serve(SERVICE, SpawnMarker, self.markers.answer)
@@ -191,7 +198,7 @@ class SceneStage(SceneWorld):
 
     def find(self, name: str, *, named_by: str) -> Path:
         """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
-        return find_file(name, named_by, self._data_path)
+        return find_file(name, named_by, self.model.data_path)
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
@@ -262,7 +269,7 @@ class SceneStage(SceneWorld):
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
-        frames = [*vehicle_frames(self.scene, self.robots, self._vehicles, self.state)]
+        frames = [*vehicle_frames(self.model, self._vehicles, self.state)]
         return [*frames, *object_frames(self.scene, self.body)] if with_objects else frames
 
     def marker_frames(self) -> Sequence[Frame]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 
 import numpy as np
@@ -10,12 +10,11 @@ import numpy as np
 from ..base.geometry import Array, Pose
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
+from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..physics.kinematics.placed_motion import PlacedMotion
 from ..scene.mounts import MountFrames, link_from_frame
-from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
 from ..world import BodyMotion
@@ -216,13 +215,13 @@ class SceneVehicle:
         return partial(self._state.poses.mounted, self.index, link, link_from_part)
 
 
-def vehicles_of(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: Engine, step: Callable[[], int]
+def bind_vehicles(
+    model: SceneModel, engine: Engine, step: Callable[[], int]
 ) -> tuple[SceneVehicle, ...]:
-    """The vehicles of a scene, in the file's order."""
-    return tuple(
-        SceneVehicle(
-            index, MountFrames(vehicle, robots[index], scene.world_from_localized), state, step
-        )
-        for index, vehicle in enumerate(scene.vehicles)
-    )
+    """Return the vehicles of a scene, in the file's order."""
+    place = model.scene.world_from_localized
+    frames = [
+        MountFrames(vehicle, model.robots[index], place)
+        for index, vehicle in enumerate(model.scene.vehicles)
+    ]
+    return tuple(SceneVehicle(index, each, engine, step) for index, each in enumerate(frames))

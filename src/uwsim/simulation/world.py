@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -17,29 +16,22 @@ from ..base.rng import stream
 from ..bus import Bus
 from ..devices.device import DeviceSpec
 from ..errors import Diagnostic, UnknownName
-from ..model.collision.scene_shapes import simulated_shapes
-from ..model.dynamics import read_dynamics
-from ..model.placement import set_on_floor
-from ..model.robots import read_robots
-from ..model.water_density import density_levels
+from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
-from ..scene.reader import scene_warnings
-from ..scene.spec import SceneSpec
-from ..scene.variation import varied
+from ..scene.urdf.robot import RobotSpec
 from ..sensors.pinhole import cast_depth, cast_surfaces
 from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
-from ..world import TIMESTEP, Actuators, Contact
+from ..world import Actuators, Contact
 from .bodies import SceneBody, find_body, name_bodies
-from .checks.place_warnings import place_warnings
-from .checks.plausibility import plausibility_warnings
+from .checks.plausibility import model_warnings
 from .collision.below_ground import BelowGround
 from .collision.contacts import Contacts
 from .collision.start_depths import lift_from_ground
 from .scenery.renderer_pool import RendererPool
 from .scenery.scene_rays import SceneRays
 from .scenery.scenery import Scenery
-from .vehicles import SceneVehicle, vehicles_of
+from .vehicles import SceneVehicle, bind_vehicles
 from .water.water_motion import water_motion
 
 
@@ -47,12 +39,8 @@ class SceneWorld:
     """A scene with its bodies, cameras and topics (`uwsim.world.World`, `uwsim.world.SensorWorld`).
 
     Args:
-        scene: spec of the scene; its variations are drawn for the seed.
-        seed: the run's seed.
+        model: of the scene.
         stream_prefix: prefix of the name of every random stream.
-        timestep: length of a step [s].
-        data_path: folders in which files are looked for.
-        compatibility: names of the compatibility quirks that are on.
         runs_code: let Python code that the scene names run; without it that water is still.
         pool: lends the renderer; without one the scene has a renderer of its own.
         is_blind: images on topics are black, nothing is drawn for them.
@@ -60,66 +48,39 @@ class SceneWorld:
 
     def __init__(
         self,
-        scene: SceneSpec,
+        model: SceneModel,
         *,
-        seed: int = 0,
         stream_prefix: str = "",
-        timestep: float = TIMESTEP,
-        data_path: tuple[Path, ...] = (),
-        compatibility: frozenset[str] = frozenset(),
         runs_code: bool = True,
         pool: RendererPool | None = None,
         is_blind: bool = False,
     ) -> None:
-        data_path = tuple(Path(folder) for folder in data_path)
-        scene = varied(scene, seed)
-        self.robots = read_robots(scene, data_path)
-        """The robot of each vehicle, by its number in the scene."""
-        self._as_written = scene
-        self.scene = scene = set_on_floor(scene, self.robots, data_path)
-        """Spec of the scene with the variations of this seed."""
-        self._seed, self._prefix, self._data_path = seed, stream_prefix, data_path
-        self.timestep = timestep
-        """Length of a step [s]."""
-        self.compatibility = compatibility
-        """The compatibility quirks that are on."""
+        self.model = model
+        """What does not change while the scene runs."""
+        self.scene = scene = model.scene
+        """Spec of the scene with the variations of this seed, and everything placed."""
+        self._prefix = stream_prefix
         self.is_blind = is_blind
         """Whether images on topics are black."""
         self._bus = Bus()
-        self.dynamics = dynamics = read_dynamics(scene, self.robots, data_path)
-        """Hydrodynamics of each vehicle that is simulated, by its number."""
-        self.files = {path.name: path for one in dynamics.values() for path in one.files}
+        self.files = dict(model.hydrodynamics_files)
         """Hydrodynamics files of vehicles, and files of currents, by name."""
-        shapes = simulated_shapes(scene, self.robots, dynamics, data_path)
-        self.state = Engine(scene, self.robots, dynamics, timestep, shapes)
+        self.state = Engine(model)
         """Where everything is, and what moves it."""
-        if dynamics or scene.has_uwsim_physics:
-            lift_from_ground(scene, self.robots, self.state, data_path)
-        self.below_ground = BelowGround(
-            scene, self.robots, shapes, self.state, timestep=timestep, data_path=data_path
-        )
+        if model.dynamics or scene.has_uwsim_physics:
+            lift_from_ground(model, self.state)
+        self.below_ground = BelowGround(model, self.state)
         """Whether a body has passed through the ground."""
-        self._vehicles = vehicles_of(scene, self.robots, self.state, lambda: self._bus.step)
-        self.scenery = Scenery(
-            scene,
-            self.robots,
-            self.state,
-            data_path,
-            compatibility=compatibility,
-            pool=pool,
-        )
+        self._vehicles = bind_vehicles(model, self.state, lambda: self._bus.step)
+        self.scenery = Scenery(model, self.state, pool)
         """The visual side of the scene."""
-        self.rays = SceneRays(scene, self.scenery.parts, self.state, self.scenery.heaps)
+        self.rays = SceneRays(model, self.state, self.scenery.heaps)
         """Ray casting against the scene."""
-        self._bodies = name_bodies(
-            scene, self.robots, self.state, self.scenery.parts, compatibility
-        )
-        self.touch = Contacts(scene, self.robots, self.state, data_path, timestep)
+        self._bodies = name_bodies(model, self.state)
+        self.touch = Contacts(model, self.state)
         """Contacts between bodies."""
-        self.water = water_motion(scene, self.stream, data_path, runs_code=runs_code)
+        self.water = water_motion(model, self.stream, runs_code=runs_code)
         """How its water moves."""
-        self.density_levels = density_levels(scene.ocean_state, dynamics)
-        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
         self.files |= self.water.files
         self._sensors = self._bound_sensors()
         self._cameras = {
@@ -129,6 +90,26 @@ class SceneWorld:
         }
         self.cameras = tuple(self._cameras)
         """Names of the virtual cameras, in the file's order."""
+
+    @property
+    def robots(self) -> Mapping[int, RobotSpec]:
+        """The robot of each vehicle, by its number in the scene."""
+        return self.model.robots
+
+    @property
+    def timestep(self) -> float:
+        """Length of a step [s]."""
+        return self.model.timestep
+
+    @property
+    def compatibility(self) -> frozenset[str]:
+        """The compatibility quirks that are on."""
+        return self.model.compatibility
+
+    @property
+    def density_levels(self) -> tuple[tuple[float, float], ...]:
+        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+        return self.model.density_levels
 
     def _bound_sensors(self) -> dict[tuple[str, str], Sensor]:
         """Sensors by element and name; where two share both, the last has it."""
@@ -144,12 +125,7 @@ class SceneWorld:
     @cached_property
     def warnings(self) -> tuple[Diagnostic, ...]:
         """Warnings about the scene, with the lines of the file."""
-        scene = self._as_written
-        implausible = plausibility_warnings(
-            scene, self.robots, self.dynamics, self._data_path, self.timestep
-        )
-        places = place_warnings(scene, self.robots, self._data_path)
-        return (*places, *scene_warnings(scene, self.robots), *implausible)
+        return model_warnings(self.model)
 
     @property
     def bus(self) -> Bus:
@@ -249,7 +225,7 @@ class SceneWorld:
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""
-        return stream(self._seed, self._prefix + name)
+        return stream(self.model.seed, self._prefix + name)
 
     def render(
         self,

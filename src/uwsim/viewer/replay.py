@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ResultError
+from ..physics.compile_scene import compile_scene
 from ..results import journal
 from ..results.atomic_file import write_text
 from ..results.journal import recorded_trials, trials_without_motion
@@ -122,14 +123,14 @@ class Replay:
 
 def _scene_of(trial: RecordedTrial) -> Simulation:
     """Open the scene of a trial, at step 0."""
-    return Simulation(
+    model = compile_scene(
         trial.scene,
         seed=trial.seed,
         timestep=trial.timestep,
         data_path=trial.data_path,
         compatibility=trial.compatibility,
-        runs_code=False,
     )
+    return Simulation(model, runs_code=False)
 
 
 def _moved(trial: RecordedTrial, at_first: Mapping[str, list[float]]) -> Json:

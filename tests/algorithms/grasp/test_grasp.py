@@ -5,13 +5,13 @@ from pathlib import Path
 import pytest
 
 from tests.algorithms.fake_node import FakeNode
+from tests.support.opened import open_scene
 from uwsim.algorithms import ALGORITHMS, check_parameters
 from uwsim.algorithms.grasp import Grasp
 from uwsim.algorithms.grasp.phases import PHASES
 from uwsim.errors import BadSetting
 from uwsim.messages import String
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SCENES = Path(__file__).parents[3] / "src" / "uwsim" / "data" / "scenes"
 
@@ -19,7 +19,7 @@ SCENES = Path(__file__).parents[3] / "src" / "uwsim" / "data" / "scenes"
 def play(name: str, seed: int, limit: float) -> tuple[list[str], list[str], float]:
     """Phases and statuses it published, and how far the box was lifted [m]."""
     said: dict[str, list[str]] = {"phase": [], "algorithmStatus": []}
-    with Simulation(
+    with open_scene(
         read_scene(SCENES / "grasp-scene.xml"), seed=seed, timestep=0.005
     ) as simulation:
         for topic, texts in said.items():

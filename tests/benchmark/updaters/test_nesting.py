@@ -13,6 +13,7 @@ import pytest
 
 from tests.support.bags import IMAGE, INFO, write_bag
 from tests.support.fakes import FakeWorld
+from tests.support.opened import open_scene
 from tests.support.short_trial import make_plan, rows_of, tank
 from uwsim.benchmark.updaters import (
     UPDATERS,
@@ -197,7 +198,7 @@ def test_the_deepest_interval_counts_and_none_may_stand_at_the_bottom() -> None:
 
 @pytest.fixture
 def simulation() -> Iterator[Simulation]:
-    simulation = Simulation(tank())
+    simulation = open_scene(tank())
     simulation.start()
     yield simulation
     simulation.close()

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
+from tests.support.opened import open_scene
 from uwsim.devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec, EnergyModelSpec
 from uwsim.devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from uwsim.devices.comms.comms_device import CommsMeshSpec, MacProtocolSpec
@@ -85,7 +86,7 @@ class Ends:
 
 
 def test_a_packet_over_1500_m_of_sea_arrives_at_the_step_after_its_delay(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path), timestep=0.01) as simulation:
+    with open_scene(scene_in(tmp_path), timestep=0.01) as simulation:
         ends = Ends(simulation)
         simulation.publish("/left_modem/tx", packet(b"where are you?"))
         simulation.advance(2.0)
@@ -95,7 +96,7 @@ def test_a_packet_over_1500_m_of_sea_arrives_at_the_step_after_its_delay(tmp_pat
 
 
 def test_two_vehicles_talk_and_the_answer_takes_as_long(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path), timestep=0.01) as simulation:
+    with open_scene(scene_in(tmp_path), timestep=0.01) as simulation:
         ends = Ends(simulation)
         answer = simulation.bus.publisher("/right_modem/tx", UInt8MultiArray)
         simulation.bus.subscribe(
@@ -110,7 +111,7 @@ def test_two_vehicles_talk_and_the_answer_takes_as_long(tmp_path: Path) -> None:
 
 
 def test_a_packet_for_another_address_is_not_handed_on(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path), timestep=0.01) as simulation:
+    with open_scene(scene_in(tmp_path), timestep=0.01) as simulation:
         ends = Ends(simulation)
         simulation.publish("/left_modem/tx", packet(b"?", to=7))
         simulation.advance(2.0)
@@ -118,7 +119,7 @@ def test_a_packet_for_another_address_is_not_handed_on(tmp_path: Path) -> None:
 
 
 def test_a_vehicle_out_of_range_hears_nothing(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path, apart=3501.0), timestep=0.01) as simulation:
+    with open_scene(scene_in(tmp_path, apart=3501.0), timestep=0.01) as simulation:
         ends = Ends(simulation)
         simulation.publish("/left_modem/tx", packet(b"?"))
         simulation.advance(4.0)
@@ -133,7 +134,7 @@ def test_a_custom_link_has_the_delays_of_its_channel_and_device(tmp_path: Path) 
         apart=40.0,
         custom_comms_channels=(channel,),
     )
-    with Simulation(scene, timestep=0.01) as simulation:
+    with open_scene(scene, timestep=0.01) as simulation:
         ends = Ends(simulation)
         simulation.publish("/left_modem/tx", packet(bytes(10)))
         simulation.advance(1.0)
@@ -148,7 +149,7 @@ def test_a_formula_loses_as_many_packets_as_it_says(tmp_path: Path) -> None:
         lambda name, mac: radio(name, mac, bitrate=1e6, rate_error_model=model),
         apart=20.0,
     )
-    with Simulation(scene, timestep=0.01) as simulation:
+    with open_scene(scene, timestep=0.01) as simulation:
         ends = Ends(simulation)
         for _ in range(200):
             simulation.publish("/left_modem/tx", packet(b"x"))
@@ -166,7 +167,7 @@ def test_noise_loses_packets_where_the_signal_is_too_weak(tmp_path: Path) -> Non
             return modem(name, mac, source_level=level, k=1.5, symbols_per_second=4096.0)
 
         scene = replace(scene_in(tmp_path, make), acoustic_comms_channels=(sea,))
-        with Simulation(scene, timestep=0.01) as simulation:
+        with open_scene(scene, timestep=0.01) as simulation:
             ends = Ends(simulation)
             simulation.publish("/left_modem/tx", packet(bytes(64)))
             simulation.advance(2.0)
@@ -179,7 +180,7 @@ def test_noise_loses_packets_where_the_signal_is_too_weak(tmp_path: Path) -> Non
 def test_what_is_left_of_the_energy_is_published(tmp_path: Path) -> None:
     model = EnergyModelSpec(energy_level=100.0, p_t_consume=20.0, p_r_consume=1.0, p_idle=0.1)
     scene = scene_in(tmp_path, lambda name, mac: modem(name, mac, energy_model=model))
-    with Simulation(scene, timestep=0.01) as simulation:
+    with open_scene(scene, timestep=0.01) as simulation:
         simulation.latest("/left_modem/energy")
         simulation.publish("/left_modem/tx", packet(bytes(25)))  # 0.4 s
         simulation.advance(2.0)
@@ -189,25 +190,25 @@ def test_what_is_left_of_the_energy_is_published(tmp_path: Path) -> None:
 
 def test_a_disabled_device_neither_sends_nor_receives(tmp_path: Path) -> None:
     scene = scene_in(tmp_path, lambda name, mac: modem(name, mac, disable=mac == 2))
-    with Simulation(scene, timestep=0.01) as simulation:
+    with open_scene(scene, timestep=0.01) as simulation:
         assert "right_modem/rx" not in simulation.topics
         assert "left_modem/rx" in simulation.topics
 
 
 def test_a_device_on_a_link_that_is_not_there_is_left_out(tmp_path: Path) -> None:
     scene = scene_in(tmp_path, lambda name, mac: modem(name, mac, relative_to="no_link"))
-    with Simulation(scene) as simulation:
+    with open_scene(scene) as simulation:
         assert "left_modem/rx" not in simulation.topics
 
 
 def test_data_that_are_no_bytes_are_refused(tmp_path: Path) -> None:
-    with Simulation(scene_in(tmp_path)) as simulation, pytest.raises(BadMessage, match="bytes"):
+    with open_scene(scene_in(tmp_path)) as simulation, pytest.raises(BadMessage, match="bytes"):
         simulation.publish("/left_modem/tx", UInt8MultiArray(data=np.zeros(3)))  # type: ignore[arg-type]
 
 
 def test_a_restored_simulation_hears_the_same(tmp_path: Path) -> None:
     scene = scene_in(tmp_path)
-    with Simulation(scene, timestep=0.01) as first, Simulation(scene, timestep=0.01) as second:
+    with open_scene(scene, timestep=0.01) as first, open_scene(scene, timestep=0.01) as second:
         heard, again = Ends(first), Ends(second)
         first.publish("/left_modem/tx", packet(b"on its way"))
         first.advance(0.5)
@@ -242,7 +243,7 @@ def test_the_interface_publishes_the_links_visual_frame_and_the_frame_of_the_dev
     scene = scene_of(
         vehicle, ros_interfaces=interfaces, sim_params=ned, ocean_state=OceanStateSpec()
     )
-    with Simulation(scene, is_blind=True) as simulation:
+    with open_scene(scene, is_blind=True) as simulation:
         frames: dict[str, Any] = {}
         simulation.bus.subscribe(
             "/tf",
@@ -278,7 +279,7 @@ def test_protocols_are_known_by_the_names_that_files_give_them(name: str, kind: 
 
 def test_a_scene_with_a_tracing_script_publishes_what_becomes_of_packets(tmp_path: Path) -> None:
     scene = replace(scene_in(tmp_path, apart=15.0), net_tracing_script=NetTracingScriptSpec())
-    with Simulation(scene, timestep=0.01) as simulation:
+    with open_scene(scene, timestep=0.01) as simulation:
         lines: list[str] = []
         simulation.bus.subscribe("/network/trace", String, lambda line: lines.append(line.data))
         simulation.publish("/left_modem/tx", packet(b"?"))
@@ -297,7 +298,7 @@ def test_a_mesh_is_drawn_where_the_device_is(tmp_path: Path) -> None:
     scene = scene_in(
         tmp_path, lambda name, mac: modem(name, mac, mesh=mesh, position=(0.0, 2.0, 0.0))
     )
-    with Simulation(scene) as simulation:
+    with open_scene(scene) as simulation:
         scenery = simulation.world.scenery
         part = next(each for each in scenery.parts if each.name == "right/right_modem")
         corners = scenery.corners(part)

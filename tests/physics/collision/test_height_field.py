@@ -14,7 +14,7 @@ from uwsim.model.collision import height_field as fields
 from uwsim.model.collision.ground import Ground
 from uwsim.model.collision.height_field import EXACT, TILE, HeightField, height_field
 from uwsim.model.collision.shapes import CollisionShape, shapes_of
-from uwsim.physics.compile import compile_scene
+from uwsim.physics.engine_model import compile_engine_model
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
@@ -35,7 +35,9 @@ def compiled(
         )
         shapes[object_body(1)] = (body,)
     params = SimParamsSpec(enable_physics=True, gravity=(0.0, 0.0, -9.81))
-    return compile_scene(SceneSpec(objects=tuple(things), sim_params=params), {}, {}, 0.002, shapes)
+    return compile_engine_model(
+        SceneSpec(objects=tuple(things), sim_params=params), {}, {}, 0.002, shapes
+    )
 
 
 def heights_seen(model: mujoco.MjModel, places: Array) -> Array:

@@ -10,6 +10,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.runs.trial.fingerprint import (
     EVERY,
     MAX_CHECKPOINTS,
@@ -18,7 +19,6 @@ from uwsim.runs.trial.fingerprint import (
     divergence,
 )
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation
 
 
 class FakeMotion:
@@ -140,7 +140,7 @@ def test_a_trace_is_read_back_as_it_was_stored() -> None:
 
 
 def test_a_scene_in_which_nothing_can_move_leaves_a_trace_too() -> None:
-    simulation = Simulation(SceneSpec())
+    simulation = open_scene(SceneSpec())
     fingerprinter = Fingerprinter(simulation)
     simulation.start()
     for _ in range(100):

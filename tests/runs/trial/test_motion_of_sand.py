@@ -10,16 +10,16 @@ from pathlib import Path
 import numpy as np
 
 from tests.devices.test_dredge_tool import scene
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Array, Pose
 from uwsim.results.motion import RATE, DugSand, read_track, track_bytes
 from uwsim.results.motion.dug_sand import NOTHING
 from uwsim.runs.trial.motion_recorder import MotionRecorder
-from uwsim.simulation import Simulation
 
 
 def recorded(folder: Path) -> tuple[bytes, list[Array]]:
     """Dig for a while, put the sand back, dig elsewhere; the track, and the sand of each frame."""
-    with Simulation(scene(folder, 1.0), is_blind=True) as simulation:
+    with open_scene(scene(folder, 1.0), is_blind=True) as simulation:
         recorder = MotionRecorder(simulation, ())
         (heap,) = simulation.world.scenery.heaps
         frames: list[Array] = []
@@ -44,7 +44,7 @@ def test_sand_of_a_track_is_that_of_the_run_to_the_bit(tmp_path: Path) -> None:
     data, frames = recorded(tmp_path)
     track = read_track(data)
     assert track.n_frames == len(frames)
-    with Simulation(scene(tmp_path, 1.0), is_blind=True) as simulation:
+    with open_scene(scene(tmp_path, 1.0), is_blind=True) as simulation:
         (heap,) = simulation.world.scenery.heaps
         for frame in (*range(len(frames)), 3, 20, 7):  # forwards, and to and fro
             heap.show(track.sand.spots(0, frame))
@@ -82,7 +82,7 @@ def test_only_a_track_with_digs_is_of_version_2(tmp_path: Path) -> None:
 
 
 def test_a_tool_that_is_nowhere_takes_nothing(tmp_path: Path) -> None:
-    with Simulation(scene(tmp_path, 1.0), is_blind=True) as simulation:
+    with open_scene(scene(tmp_path, 1.0), is_blind=True) as simulation:
         (heap,) = simulation.world.scenery.heaps
         assert heap.dig(np.array([np.nan, 0.0, 0.0])) == 0
         assert heap.dig(np.array([1e9, 0.0, 0.0])) == 0

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from tests.support.scripted import Scripted
 from uwsim.base.compatibility import compatibility
 from uwsim.benchmark.reader import read_benchmark
@@ -30,7 +31,6 @@ from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
@@ -81,7 +81,7 @@ def scene_for(benchmark: Path, spec: BenchmarkSpec) -> Path:
     said = []
     for path in candidates(benchmark, spec):
         try:
-            simulation = Simulation(read_scene(path), is_blind=True)
+            simulation = open_scene(read_scene(path), is_blind=True)
         except UwsimError as error:
             said.append(f"{path}: {error}")
             continue

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from tests.support.short_trial import DATA, make_plan, rows_of
 from uwsim.base.geometry import Pose
 from uwsim.bus import Node
@@ -27,7 +28,6 @@ from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import Simulation
 
 MEASURES = """
 <positionError> <name>goal</name> <target>girona500</target>
@@ -56,7 +56,7 @@ def stamped(x: float, y: float, z: float) -> PoseStamped:
 
 def above_the_box() -> np.ndarray:
     """Points 2 cm and 4 cm over its top, in the frame of the vehicle, (2, 3) [m]."""
-    simulation = Simulation(scene(), is_blind=True)
+    simulation = open_scene(scene(), is_blind=True)
     box, vehicle = simulation.world.body("blackbox"), simulation.world.body("girona500")
     assert box.box is not None
     stands = box.world_from_body

@@ -7,6 +7,7 @@ import json
 import pytest
 
 from tests.simulation.test_lamp import LAMP, night
+from tests.support.opened import open_scene
 from tests.support.short_trial import DATA
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.errors import ResultError
@@ -17,7 +18,7 @@ from uwsim.simulation import Simulation
 
 
 def opened(scene: str) -> Simulation:
-    return Simulation(read_scene(DATA / "scenes" / f"{scene}.xml"), is_blind=True)
+    return open_scene(read_scene(DATA / "scenes" / f"{scene}.xml"), is_blind=True)
 
 
 def inputs(axes: list[str], *values: list[float]) -> bytes:
@@ -102,7 +103,7 @@ def test_a_pilot_drives_a_single_thruster_of_a_vehicle_that_takes_twists_too() -
 
 
 def test_a_pilot_dims_the_lamps_of_the_scene() -> None:
-    with Simulation(night(LAMP), is_blind=True) as simulation:
+    with open_scene(night(LAMP), is_blind=True) as simulation:
         piloted(simulation, lamps=-1.0)
         (lamp,) = simulation.world.scenery.mounted_lamps
         simulation.advance(1.0)

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from tests.support.fakes import FakeWorld
+from tests.support.opened import open_scene
 from tests.support.short_benchmark import run
 from tests.support.short_trial import DATA
 from uwsim.analysis.report import write_report
@@ -24,7 +25,6 @@ from uwsim.results.result_file import dumps, load, loads
 from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 BENCHMARKS = DATA / "benchmarks"
 
@@ -113,7 +113,7 @@ def test_a_time_offset_is_where_swell_and_swing_begin() -> None:
 def test_whatever_the_seed_the_target_is_seen_as_a_whole() -> None:
     scene = read_scene(DATA / "scenes" / "visibility-moving-scene.xml")
     for seed in range(40):
-        simulation = Simulation(scene, seed=seed, is_blind=True)
+        simulation = open_scene(scene, seed=seed, is_blind=True)
         camera, body = simulation.world.camera("bowtech1"), simulation.world.body("blackbox")
         truths = [FaceCorners(camera, body), CornersFromCamera(camera, body)]
         before = None

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.support.documented import write_files
+from tests.support.opened import open_scene
 from tests.support.short_benchmark import bench_of, fingerprint, run
 from uwsim.algorithms.pilot import AXES, Pilot
 from uwsim.base.geometry import Array
@@ -16,7 +17,6 @@ from uwsim.runs.executors.executor import SerialExecutor, run_all
 from uwsim.runs.trial.pilot_inputs import PilotInputs
 from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 from uwsim.viewer.live.mapping import PilotMapping
 from uwsim.viewer.live.server import LiveServer
 from uwsim.viewer.live.view import LiveView
@@ -53,7 +53,7 @@ def scene(request: pytest.FixtureRequest, tmp_path: Path) -> Path:
 
 def moved(scene: Path, axis: str) -> tuple[Array, Array]:
     """Hold an axis for 2 s; returns the way, and where x of the vehicle points then, in W."""
-    with Simulation(read_scene(scene), is_blind=True) as simulation:
+    with open_scene(read_scene(scene), is_blind=True) as simulation:
         held = tuple(float(each == axis) for each in AXES)
         PilotInputs(simulation, lambda: held)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})

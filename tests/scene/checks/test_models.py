@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 DOCTYPE = '<!DOCTYPE UWSimScene SYSTEM "UWSimScene.dtd">'
 PROJECTOR = """
@@ -32,7 +32,7 @@ def test_a_projector_whose_image_is_nowhere_is_reported(tmp_path: Path) -> None:
     assert error.startswith(f"error 3: {message} nothing; searched: ")
     (warning,) = said(tmp_path, lost, doctype=DOCTYPE)
     assert warning.startswith(f"warning 3: {message} nothing; searched: ")
-    with Simulation(read_scene(tmp_path / "scene.xml"), is_blind=True) as simulation:
+    with open_scene(read_scene(tmp_path / "scene.xml"), is_blind=True) as simulation:
         simulation.advance(0.01)  # as the original, without light
 
 

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.errors import SceneError
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
   <vehicle> <name>rov</name> <file>bluerov2_heavy.urdf</file>
@@ -31,11 +31,11 @@ def said(folder: Path, *, parts: str = "", interfaces: str = "", rate: object = 
     scene.write_text(SCENE.format(parts=parts, interfaces=interfaces, rate=rate))
     found = diagnostics_of(scene)
     if not any(each.severity == "error" for each in found):
-        with Simulation(read_scene(scene), is_blind=True) as simulation:
+        with open_scene(read_scene(scene), is_blind=True) as simulation:
             assert list(simulation.world.warnings) == found
     else:
         with pytest.raises(SceneError):
-            Simulation(read_scene(scene), is_blind=True)
+            open_scene(read_scene(scene), is_blind=True)
     return [f"{each.severity} {each.line}: {each.message}" for each in found]
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.messages import ProjectedSonarImage, pixels_of
 from uwsim.scene.reader import check_scene, read_scene
 from uwsim.sensors.sonar.message import amplitudes
-from uwsim.simulation import Simulation
 
 PAGE = Path(__file__).parents[3] / "docs" / "sonar.md"
 (TEXT,) = re.findall(r"^`wreck-sonar.xml`:\n\n```xml\n(.*?)^```", PAGE.read_text(), re.M | re.S)
@@ -22,7 +22,7 @@ def heard(text: str, folder: Path) -> tuple[ProjectedSonarImage, np.ndarray]:
     """The second ping of the imaging sonar, and its picture."""
     file = folder / "scene.xml"
     file.write_text(text)
-    with Simulation(read_scene(file), seed=3, is_blind=True) as simulation:
+    with open_scene(read_scene(file), seed=3, is_blind=True) as simulation:
         assert simulation.topics["rov/fls"] == "marine_acoustic_msgs/msg/ProjectedSonarImage"
         simulation.latest("/rov/fls_image")
         simulation.latest("/rov/fls")

@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from tests.simulation.checks.test_plausibility import SCENE, written
+from tests.support.opened import open_scene
 from uwsim.errors import Diagnostic, SceneError
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 
 LINE = 1 + SCENE[: SCENE.index("<mass>1")].count("\n")
 
@@ -57,7 +57,7 @@ def test_an_object_that_no_simulation_bears_is_an_error_there_and_in_a_run(
     assert (found.severity, found.line) == ("error", LINE)
     assert text in found.message
     with pytest.raises(SceneError, match="the object 'box' has"):
-        Simulation(read_scene(tmp_path / "scene.xml"), is_blind=True)
+        open_scene(read_scene(tmp_path / "scene.xml"), is_blind=True)
 
 
 def test_a_plain_object_is_not_asked_about(tmp_path: Path) -> None:

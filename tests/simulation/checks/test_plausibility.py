@@ -12,6 +12,7 @@ from typing import get_args
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.cli.app import main
 from uwsim.errors import Diagnostic
 from uwsim.model.collision.hull import Hull, LinkBox
@@ -19,7 +20,6 @@ from uwsim.runs.check import diagnostics_of
 from uwsim.scene.checks.plausibility import PLAUSIBILITY_WARNINGS, VehicleWarning
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.robot import LinkSpec, RobotSpec
-from uwsim.simulation import Simulation
 from uwsim.simulation.checks.plausibility import warnings_of
 from uwsim.simulation.checks.vehicle_plausibility import size_said
 
@@ -356,7 +356,7 @@ def test_every_doubt_has_a_name_and_a_sentence() -> None:
 
 
 def test_what_is_asked_costs_a_simulation_nothing_until_somebody_reads_it(tmp_path: Path) -> None:
-    simulation = Simulation(read_scene(written(tmp_path)), is_blind=True)
+    simulation = open_scene(read_scene(written(tmp_path)), is_blind=True)
     assert "warnings" not in vars(simulation)
     assert simulation.world.warnings == ()
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from tests.simulation.checks.test_plausibility import SCENE, written
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.model.collision.shapes import CollisionShape
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 from uwsim.simulation.checks.step_plausibility import thin_said
 
 
@@ -59,7 +59,7 @@ def test_a_run_warns_of_it_at_its_own_step(tmp_path: Path) -> None:
     scene = scene.replace("<physics>", f"{file} <physics>", 1)
     written(tmp_path, scene=scene)
     for timestep, n in ((0.0001, 0), (0.02, 1)):
-        with Simulation(
+        with open_scene(
             read_scene(tmp_path / "scene.xml"), is_blind=True, timestep=timestep
         ) as one:
             found = [each.message for each in one.world.warnings if "thick" in each.message]

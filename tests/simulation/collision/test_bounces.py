@@ -11,6 +11,7 @@ import pytest
 
 from tests.simulation.collision.test_floor import BOX, UP, grid, ground
 from tests.simulation.girona500 import SCENE
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.errors import SimulationFailed
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
@@ -40,14 +41,14 @@ def loose(name: str, x: float, y: float, height: float, *, scale: float = 2.5, r
 
 def in_air(*objects: ObjectSpec, timestep: float) -> Simulation:
     sim = replace(UP, enable_physics=True, gravity=(0.0, 0.0, -9.81))
-    return Simulation(SceneSpec(sim_params=sim, objects=objects), timestep=timestep, is_blind=True)
+    return open_scene(SceneSpec(sim_params=sim, objects=objects), timestep=timestep, is_blind=True)
 
 
 def in_water(*objects: ObjectSpec, timestep: float) -> Simulation:
     vehicle = read_scene(SCENE).vehicles[0]
     far = replace(vehicle, parts=(), position=(6.5, 6.5, -1.0), orientation=(np.pi, 0.0, 0.0))
     scene = SceneSpec(sim_params=UP, objects=objects, vehicles=(far,))
-    return Simulation(scene, timestep=timestep, is_blind=True)
+    return open_scene(scene, timestep=timestep, is_blind=True)
 
 
 def height(simulation: Simulation, name: str = "thing") -> float:
@@ -213,7 +214,7 @@ def test_what_a_kinematic_vehicle_lifts_or_presses_is_above_the_ground_or_named(
     lift = replace(base, parts=(), dynamics=None, position=(0.0, 0.0, -9.0))
     sim = replace(UP, enable_physics=True, gravity=(0.0, 0.0, -9.81))
     scene = SceneSpec(sim_params=sim, objects=(thing, floor), vehicles=(lift,))
-    simulation = Simulation(scene, timestep=timestep, is_blind=True)
+    simulation = open_scene(scene, timestep=timestep, is_blind=True)
     simulation.advance(4.0)
     x, y, rest = simulation.world.body("thing").world_from_body.position
     highest = -np.inf

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import SCENE, run
+from tests.support.opened import open_scene
 from uwsim.assets import load_model
 from uwsim.base.geometry import Pose
 from uwsim.errors import SceneError
@@ -60,7 +61,7 @@ def opened(*objects: ObjectSpec, frame: SimParamsSpec = UP, rov: bool = False) -
     vehicles = ()
     if rov:
         vehicles = (replace(read_scene(SCENE).vehicles[0], parts=(), name="rov"),)
-    return Simulation(SceneSpec(sim_params=frame, objects=objects, vehicles=vehicles))
+    return open_scene(SceneSpec(sim_params=frame, objects=objects, vehicles=vehicles))
 
 
 def corners(simulation: Simulation) -> np.ndarray:
@@ -249,7 +250,7 @@ def test_a_vehicle_begins_with_its_lowest_link_on_the_floor(align: bool, tmp_pat
         on_floor=OnFloorSpec(align_to_slope=align, clearance=-0.003),
     )
     terrain = ground(file, orientation=(np.pi, 0.0, 0.0))
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(terrain,)), data_path=(tmp_path,)
     )
     simulation.start()
@@ -281,7 +282,7 @@ def test_a_scaled_vehicle_stands_on_its_scaled_foot(tmp_path: Path) -> None:
         on_floor=ON_FLOOR,
     )
     scene = SceneSpec(objects=(ground(grid(tmp_path, flat(6.0))),), vehicles=(vehicle,))
-    height = Simulation(scene).world.body("tall").world_from_body.position[2]
+    height = open_scene(scene).world.body("tall").world_from_body.position[2]
     assert height == pytest.approx(-6.0 + 1.5 * 2.1, abs=1e-6)
 
 
@@ -300,12 +301,12 @@ def test_check_says_with_its_line_where_there_is_no_ground(tmp_path: Path) -> No
     assert [
         diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
     ] == []
-    assert Simulation(read_scene(path)).world.body("pot").world_from_body.position[2] > -7.2
+    assert open_scene(read_scene(path)).world.body("pot").world_from_body.position[2] > -7.2
     path.write_text(FILE.format(x=300))
     (diagnostic,) = [
         diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
     ]
     assert (diagnostic.line, "at x 300, y 0" in diagnostic.message) == (6, True)
     with pytest.raises(SceneError) as caught:
-        Simulation(read_scene(path))
+        open_scene(read_scene(path))
     assert caught.value.diagnostics == (diagnostic,)

@@ -13,6 +13,7 @@ from tests.simulation.collision.test_bounces import in_water, relief
 from tests.simulation.collision.test_bounces import loose as on_relief
 from tests.simulation.collision.test_floor import EDGES, UP, grid, ground
 from tests.simulation.girona500 import SCENE
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.physics.kinematics.lift import SPEED
 from uwsim.runs.check import diagnostics_of
@@ -145,7 +146,7 @@ def test_a_vehicle_whose_arm_begins_in_the_ground_is_not_thrown(floor: ObjectSpe
         position=(0.0, 0.0, -5.2),
         parts=(),
     )
-    simulation = Simulation(
+    simulation = open_scene(
         SceneSpec(sim_params=UP, objects=(floor,), vehicles=(vehicle,)), is_blind=True
     )
     assert simulation.world.state.lift.is_active
@@ -194,7 +195,7 @@ def test_an_object_of_the_original_s_physics_is_lifted_too_and_check_warns(
     warned = [each.message for each in diagnostics_of(path) if "begins" in each.message]
     assert len(warned) == 1
     assert f"the object {name!r}: it begins " in warned[0]
-    with Simulation(read_scene(path).nominal, timestep=timestep) as simulation:
+    with open_scene(read_scene(path).nominal, timestep=timestep) as simulation:
         heights = []
         for _ in range(50):
             simulation.advance(0.1)

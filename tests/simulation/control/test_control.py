@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim import messages
 from uwsim.bus import Bus
 from uwsim.messages.simulation_control import (
@@ -31,7 +32,6 @@ from uwsim.messages.simulation_control import (
     StepSimulation,
 )
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 from uwsim.simulation.control import Quit, SimulationControl
 
 SCENE = """<UWSimScene>
@@ -50,7 +50,7 @@ class Controlled:
     """A simulation, and calls that come while it is paused."""
 
     def __init__(self, scene: Path) -> None:
-        self.simulation = Simulation(read_scene(scene))
+        self.simulation = open_scene(read_scene(scene))
         self.later: deque[Callable[[], None]] = deque()
         self.control = SimulationControl(self.simulation, self.exchange)
         self.control.begin()

@@ -10,9 +10,9 @@ import trimesh
 from scipy.interpolate import LinearNDInterpolator
 from scipy.spatial import Delaunay
 
+from tests.support.opened import open_scene
 from uwsim.assets.bundled import scene_file
 from uwsim.scene.reader import read_scene
-from uwsim.simulation import Simulation
 from uwsim.simulation.scenery.below import _highest, below, below_vehicle
 
 
@@ -37,7 +37,7 @@ def test_from_inside_only_what_is_lower_is_met() -> None:
 
 
 def test_below_a_vehicle_lie_the_box_and_then_the_tank_and_not_itself() -> None:
-    simulation = Simulation(read_scene(scene_file("currents-scene")), is_blind=True)
+    simulation = open_scene(read_scene(scene_file("currents-scene")), is_blind=True)
     try:
         found = below_vehicle(simulation.world, "girona500")
         assert [each.name for each in found] == ["blackbox", "terrain"]

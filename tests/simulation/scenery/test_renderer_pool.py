@@ -6,15 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
+from tests.support.opened import open_scene
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
-from uwsim.simulation import RendererPool, Simulation
+from uwsim.simulation import RendererPool
 
 SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 
 
 def images(scene: SceneSpec, pool: RendererPool | None) -> list[np.ndarray]:
-    simulation = Simulation(scene, seed=3, pool=pool)
+    simulation = open_scene(scene, seed=3, pool=pool)
     camera = simulation.world.camera("bowtech1")
     exact = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     assert exact.colour is not None
@@ -40,8 +41,8 @@ def test_images_are_the_same_whoever_had_the_renderer_before() -> None:
 def test_two_simulations_at_once_do_not_see_each_other() -> None:
     scene = read_scene(SCENES / "visibility-scene.xml")
     pool = RendererPool()
-    emptier = Simulation(replace(scene, objects=scene.objects[:1]), pool=pool)
-    whole = Simulation(scene, pool=pool)
+    emptier = open_scene(replace(scene, objects=scene.objects[:1]), pool=pool)
+    whole = open_scene(scene, pool=pool)
     camera = emptier.world.camera("bowtech1")
     with_all = whole.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids
     with_one = emptier.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.acoustics import MATERIALS
 from uwsim.base.geometry import Pose
 from uwsim.messages import Point
@@ -37,7 +38,7 @@ DOWN = np.array([[0.0, 0.0, -1.0]])
 def make(folder: Path, inside: str = "") -> Simulation:
     file = folder / "scene.xml"
     file.write_text(SCENE.format(inside))
-    return Simulation(read_scene(file), is_blind=True)
+    return open_scene(read_scene(file), is_blind=True)
 
 
 def below(simulation: Simulation, x: float, y: float) -> tuple[float, str]:
@@ -82,6 +83,6 @@ def test_the_water_is_that_of_the_scene(tmp_path: Path) -> None:
         assert (water.temperature, water.salinity) == (8.0, 0.0)
     file = tmp_path / "empty.xml"
     file.write_text("<UWSimScene/>")
-    with Simulation(read_scene(file), is_blind=True) as simulation:
+    with open_scene(read_scene(file), is_blind=True) as simulation:
         water = simulation.world.sea_water
         assert (water.temperature, water.salinity) == (15.0, 35.0)

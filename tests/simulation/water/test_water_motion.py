@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from tests.support.opened import open_scene
 from uwsim.currents import Constant, Place, TargetCurrent, TotalCurrent, UwsimSinusoidSpec
 from uwsim.currents.current import Current
 from uwsim.scene.hydrodynamics import BodyHydrodynamics
@@ -55,7 +56,7 @@ def bluerov(current: Current) -> Simulation:
     vehicle = VehicleSpec(
         name="bluerov", file="bluerov2_heavy.urdf", dynamics="bluerov2_heavy", position=(0, 0, 3.0)
     )
-    simulation = Simulation(
+    simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=()), is_blind=True
     )
     simulation.start()

@@ -12,10 +12,10 @@ import pytest
 
 import uwsim
 from tests.simulation.test_lamp import LAMP, night
+from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.messages import Float64
 from uwsim.runs.trial.pilot_topics import pilot_topics
-from uwsim.simulation import Simulation
 from uwsim.viewer.document import document
 from uwsim.viewer.live.mapping import KEYS, PilotMapping
 from uwsim.viewer.live.server import LiveServer
@@ -97,7 +97,7 @@ SEEN = """() => {
 def test_a_dimmed_lamp_looks_in_the_page_as_in_a_camera(
     browser: Any, server: LiveServer, brightness: float
 ) -> None:
-    with Simulation(night(LAMP)) as simulation:
+    with open_scene(night(LAMP)) as simulation:
         simulation.publish("headlight/brightness", Float64(data=brightness))
         simulation.advance(0.01)
         view = LiveView(server)

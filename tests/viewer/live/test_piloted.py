@@ -37,7 +37,7 @@ def opened(tmp_path: Path) -> Opened:
     def open_scene(interfaces: str) -> Simulation:
         path = tmp_path / "two.xml"
         path.write_text(SCENE.replace("INTERFACES", interfaces))
-        return Simulation(read_scene(path), is_blind=True)
+        return open_scene(read_scene(path), is_blind=True)
 
     return open_scene
 

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 import uwsim
+from tests.support.opened import open_scene
 from tests.viewer.live.desk import Desk
 from uwsim.bus import Bus
 from uwsim.devices.battery import BatterySpec
 from uwsim.messages import Float64, Float64MultiArray, JointState, PoseStamped, String
-from uwsim.simulation import Simulation
 from uwsim.viewer.live.heard_topics import MAX_FIELDS, HeardTopics, fields_of
 from uwsim.viewer.live.readings import Readings
 from uwsim.viewer.live.view import LiveView
@@ -25,7 +25,7 @@ def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their
         scene = opened.world.scene
     battery = BatterySpec(name="pack", capacity=10.0, voltage=24.0, charge=0.25, hotel_load=500.0)
     [vehicle] = scene.vehicles
-    with Simulation(
+    with open_scene(
         replace(scene, vehicles=(replace(vehicle, parts=(*vehicle.parts, battery)),)), is_blind=True
     ) as simulation:
         simulation.advance(0.2)
@@ -72,7 +72,7 @@ def test_the_real_time_factor_is_that_of_the_last_seconds_and_none_in_a_pause() 
 def test_a_scene_without_a_vehicle_has_its_pace_alone() -> None:
     with uwsim.load("currents-scene") as opened:
         scene = replace(opened.world.scene, vehicles=(), ros_interfaces=())
-    with Simulation(scene, is_blind=True) as simulation:
+    with open_scene(scene, is_blind=True) as simulation:
         assert [name for name, _, _ in Readings(simulation, 0).take(0.0)] == ["real-time factor"]
 
 

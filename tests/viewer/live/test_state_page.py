@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 import uwsim
+from tests.support.opened import open_scene
 from tests.viewer.live.test_pilot_page import page_of
 from uwsim.base.geometry import Pose
 from uwsim.runs.trial.pilot_topics import pilot_topics
@@ -99,7 +100,7 @@ def number(text: str) -> float:
 def rov(path: Path, x: float = 0.0) -> Simulation:
     """A vehicle whose z axis points up, 3 m ahead of a wall, over a floor 4 m below."""
     path.write_text(WALL.replace("X", f"{x}"))
-    return Simulation(read_scene(path))
+    return open_scene(read_scene(path))
 
 
 @pytest.mark.parametrize(("roll", "pitch", "heading"), [(10.0, -20.0, 300.0), (-35.0, 5.0, 75.0)])

@@ -106,7 +106,7 @@ def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
     spec = scene.vehicles[index]
     robot = simulation.world.robots[index]
     actuators = simulation.world.actuators(spec.name)
-    dynamics = simulation.world.dynamics.get(index)
+    dynamics = simulation.model.dynamics.get(index)
     return {
         "name": spec.name,
         "file": spec.file,

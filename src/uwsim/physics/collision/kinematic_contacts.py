@@ -16,7 +16,7 @@ from ...base.geometry import Array, Pose, quaternion_from_rotation
 from ...base.numerics.linear import dot, length
 from ...model.collision.shapes import CollisionShape
 from ...world import Contact
-from ..compile import ALL, OBJECTS, SHAPES, give_form
+from ..engine_model import ALL, OBJECTS, SHAPES, give_form
 from ..kinematics.jumps import JumpTimes, without_placement
 
 

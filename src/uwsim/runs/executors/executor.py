@@ -20,9 +20,10 @@ from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimErro
 from ...results.journal import path_of
 from ...results.result import Result
 from ...results.seal import deny_access_to_memory
-from ...simulation import Calls, Cut, RendererPool
+from ...simulation import Calls, Cut
 from ..own_process.process import PROCESS_ENDED
 from ..planning.plan import Plan, Trial
+from ..planning.trial_cache import TrialCache
 from ..run import Run
 from ..sealed import sealed
 from ..trial.onlooker import Onlooker
@@ -194,12 +195,12 @@ class SerialExecutor:
 
     def execute(self, queue: JobQueue) -> None:
         """Execute all jobs."""
-        pool = RendererPool()
+        cache = TrialCache()
         try:
             while (job := queue.take()) is not None:
                 calls = Calls(limit=self._limit)
                 try:
-                    for _ in run_and_record(job, pool, calls, self._onlooker):
+                    for _ in run_and_record(job, cache, calls, self._onlooker):
                         queue.level(job)
                 except Exception as error:
                     raise_if_interrupted()
@@ -211,11 +212,11 @@ class SerialExecutor:
                 else:
                     queue.done(job)
         finally:
-            pool.close()
+            cache.close()
 
 
 def run_and_record(
-    job: Job, pool: RendererPool, calls: Calls, onlooker: Onlooker | None = None
+    job: Job, cache: TrialCache, calls: Calls, onlooker: Onlooker | None = None
 ) -> Iterator[Event]:
     """Run a trial and write its journal; yields the levels that were not on disk before."""
     if job.run.seal is not None:
@@ -223,7 +224,7 @@ def run_and_record(
     writer = JournalWriter(job.run, job.trial)
     here = Path.cwd()  # an algorithm may go elsewhere
     try:
-        for event in run_trial(job.run.plan, job.trial, pool, calls, onlooker, job.run.recorder):
+        for event in run_trial(job.run.plan, job.trial, cache, calls, onlooker, job.run.recorder):
             raise_if_interrupted()
             with chdir(here):
                 is_new = writer.keep(event)

@@ -22,8 +22,9 @@ from multiprocessing.process import BaseProcess
 from ...base.environment import environment
 from ...base.interrupts import is_of_user
 from ...base.terminal import ignore_casts
-from ...simulation import BEFORE, Calls, Counter, Cut, RendererPool, open_call
+from ...simulation import BEFORE, Calls, Counter, Cut, open_call
 from ..own_process.process import TOO_LONG, how
+from ..planning.trial_cache import TrialCache
 from .closed_forks import ClosedForks, closes_forks
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
@@ -226,11 +227,11 @@ def work(
     """Run the jobs from the pipe until ``None`` comes, or until the parent has ended."""
     exit_with_parent(parent)
     ignore_casts()
-    pool = RendererPool()
+    cache = TrialCache()
     try:
         while (job := pipe.recv()) is not None:
             try:
-                for _ in run_and_record(job, pool, Calls(counter, job.cut, limit=limit)):
+                for _ in run_and_record(job, cache, Calls(counter, job.cut, limit=limit)):
                     pipe.send(LevelKept())
             except BaseException as error:
                 if is_of_user(error):
@@ -241,4 +242,4 @@ def work(
     except (EOFError, OSError):
         pass  # the employer has gone
     finally:
-        pool.close()
+        cache.close()

@@ -27,8 +27,8 @@ from ...base.environment import environment, not_chosen
 from ...base.files.scratch import OWNER, scratch_folder
 from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
 from ...results import journal
-from ...simulation import RendererPool
 from ..planning.plan import Trial
+from ..planning.trial_cache import TrialCache
 from ..prepare import hash_inputs
 from ..run import Run
 from .executor import ENVIRONMENT, Job, JobQueue
@@ -210,7 +210,7 @@ class RayWorker:
 
     def __init__(self) -> None:
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # for its employer alone
-        self._pool = RendererPool()
+        self._cache = TrialCache()
         self._known: list[journal.Record] = []
 
     def execute(
@@ -219,7 +219,7 @@ class RayWorker:
         """Run a trial, if this machine is equivalent to the driver's; yields its events."""
         try:
             self._check(run, trial, head)
-            yield from run_trial(run.plan, trial, self._pool)
+            yield from run_trial(run.plan, trial, self._cache)
         except Exception as error:
             yield TrialFailed(picklable(error))
 
@@ -238,7 +238,7 @@ class RayWorker:
         if asked in self._known:
             return
         try:
-            inputs, renderer = hash_inputs(run.plan, self._pool)
+            inputs, renderer = hash_inputs(run.plan, self._cache.renderers)
         except UwsimError as error:
             raise RunFailed(f"Worker on {platform.node()}: {error}") from error
         if run.plan.is_blind:

@@ -19,9 +19,10 @@ from ...base.files.file_names import file_names
 from ...errors import RunFailed
 from ...results import journal
 from ...results.atomic_file import atomic_write
-from ...simulation import Calls, RendererPool
+from ...simulation import Calls
 from ..input_watch import Watch
 from ..planning.plan import Plan, Trial
+from ..planning.trial_cache import TrialCache
 from ..run import Run
 from ..trial.level_row import LevelRow, TrialEnd
 from ..trial.onlooker import Onlooker
@@ -67,7 +68,7 @@ Event = LevelEnded | TrialEnded
 def run_trial(
     plan: Plan,
     trial: Trial,
-    pool: RendererPool,
+    cache: TrialCache,
     calls: Calls | None = None,
     onlooker: Onlooker | None = None,
     recorder: TrialRecorder | None = None,
@@ -77,7 +78,7 @@ def run_trial(
     Args:
         plan: the benchmark to run.
         trial: one of its trials.
-        pool: lends the renderer.
+        cache: keeps what does not change from trial to trial.
         calls: counts those into the algorithm.
         onlooker: looks on between the steps.
         recorder: writes down the messages.
@@ -85,7 +86,7 @@ def run_trial(
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    outcomes = execute(plan, trial, pool=pool, calls=calls, onlooker=onlooker, recorder=recorder)
+    outcomes = execute(plan, trial, cache=cache, calls=calls, onlooker=onlooker, recorder=recorder)
     for n, outcome in enumerate(outcomes):
         if isinstance(outcome, TrialEnd):
             yield TrialEnded(record=_end(outcome), motion=outcome.motion, inputs=outcome.inputs)

@@ -32,10 +32,11 @@ from ...benchmark.updaters import (
 )
 from ...errors import NeverStarted, SimulationFailed
 from ...messages import String
-from ...simulation import Calls, RendererPool, Simulation
+from ...simulation import Calls, Simulation
 from ...simulation.markers import SERVICE as SPAWN_MARKER
 from ..own_process.program import Program, program_of, refused_of
 from ..planning.plan import Plan, Trial
+from ..planning.trial_cache import TrialCache, compile_plan
 from .fingerprint import Fingerprinter
 from .floor import Floor
 from .known_corners import known_corners
@@ -65,7 +66,7 @@ def execute(
     plan: Plan,
     trial: Trial,
     *,
-    pool: RendererPool | None = None,
+    cache: TrialCache | None = None,
     calls: Calls | None = None,
     onlooker: Onlooker | None = None,
     recorder: TrialRecorder | None = None,
@@ -75,7 +76,8 @@ def execute(
     Args:
         plan: the benchmark to run.
         trial: one of its trials.
-        pool: lends the renderer; without one the trial has a renderer of its own.
+        cache: keeps what does not change from trial to trial; without one the trial compiles its
+            scene and has a renderer of its own.
         calls: counts those into the algorithm.
         onlooker: looks on between the steps.
         recorder: writes down the messages.
@@ -86,14 +88,10 @@ def execute(
     calls = calls or Calls()
     with program_of(plan, calls.limit) as program:  # its process starts while the scene is opened
         simulation = Simulation(
-            plan.scene,
-            seed=trial.seed,
+            compile_plan(plan, trial.seed) if cache is None else cache.model(plan, trial.seed),
             stream_prefix=trial.stream_prefix,
-            timestep=plan.timestep,
-            data_path=plan.data_path,
-            compatibility=plan.compatibility,
             is_blind=plan.is_blind,
-            pool=pool,
+            pool=None if cache is None else cache.renderers,
         )
         try:
             with (

@@ -16,6 +16,7 @@ from ...model.collision.hull import hull_of
 from ...model.collision.scene_shapes import simulated_solids
 from ...model.dynamics import DYNAMICS, read_dynamics
 from ...model.robots import read_robots
+from ...model.scene_model import SceneModel
 from ...scene.checks.plausibility import VehicleWarning, unless_meant
 from ...scene.hydrodynamics.spec import VehicleHydrodynamics
 from ...scene.object import PhysicsSpec
@@ -103,6 +104,24 @@ def warnings_of(
     """Report every likely mistake of a scene that is not open, and what is left out of it."""
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
+    return _all_warnings(scene, robots, dynamics, data_path, timestep)
+
+
+def model_warnings(model: SceneModel) -> tuple[Diagnostic, ...]:
+    """Report the same of a scene that is compiled, with the lines of its file."""
+    found = _all_warnings(
+        model.varied, model.robots, model.dynamics, model.data_path, model.timestep
+    )
+    return tuple(found)
+
+
+def _all_warnings(
+    scene: SceneSpec,
+    robots: Mapping[int, RobotSpec],
+    dynamics: Mapping[int, VehicleHydrodynamics],
+    data_path: tuple[Path, ...],
+    timestep: float,
+) -> list[Diagnostic]:
     implausible = plausibility_warnings(scene, robots, dynamics, data_path, timestep)
     places = place_warnings(scene, robots, data_path)
     return [*places, *scene_warnings(scene, robots), *implausible]

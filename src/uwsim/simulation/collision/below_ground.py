@@ -15,7 +15,6 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
@@ -24,7 +23,8 @@ from ...base.geometry import Array, Pose
 from ...errors import SimulationFailed
 from ...model.body_names import object_body, vehicle_body
 from ...model.collision.shapes import CollisionShape, bounds
-from ...model.collision.solid_grounds import SolidGround, solid_grounds
+from ...model.collision.solid_grounds import SolidGround
+from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
@@ -51,31 +51,19 @@ class BelowGround:
     """The check of one simulation.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
-        shapes: collision shapes of what is simulated, by the name of its body.
+        model: of the scene.
         state: where everything is.
-        timestep: length of a step [s].
-        data_path: folders in which files are looked for.
     """
 
     STATE = ("_looked", "_step", "_middles", "_below", "_above")
     """Attributes of its state, for snapshots."""
 
-    def __init__(
-        self,
-        scene: SceneSpec,
-        robots: Mapping[int, RobotSpec],
-        shapes: Mapping[str, Sequence[CollisionShape]],
-        state: Engine,
-        *,
-        timestep: float,
-        data_path: tuple[Path, ...],
-    ) -> None:
-        self._timestep, self._period = timestep, max(1, round(PERIOD / timestep))
+    def __init__(self, model: SceneModel, state: Engine) -> None:
+        self._timestep = model.timestep
+        self._period = max(1, round(PERIOD / self._timestep))
         self._looked = self._step = 0  # periods that were over at the last look, and its step
-        self._bodies = [*_bodies(scene, robots, shapes, state)]
-        self._grounds = solid_grounds(scene, shapes, data_path) if self._bodies else []
+        self._bodies = [*_bodies(model.scene, model.robots, model.shapes, state)]
+        self._grounds = model.grounds if self._bodies else ()
         self._start = [body.places() for body in self._bodies]
         self._middles = np.array([places[0] for places in self._start]).reshape(-1, 3)
         size = len(self._bodies), len(self._grounds)

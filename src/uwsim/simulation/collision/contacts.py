@@ -9,16 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
-from pathlib import Path
 from typing import Any, Literal
 
 from ...base.geometry import Array, Pose
 from ...errors import UwsimError
-from ...model.collision.scene_shapes import collision_shapes
+from ...model.scene_model import SceneModel
 from ...physics.collision.kinematic_contacts import KinematicContacts
 from ...physics.engine import Engine
-from ...scene.spec import SceneSpec
-from ...scene.urdf.robot import RobotSpec
 from ...world import Contact
 from ..bodies import touchable, untouchable
 from ..snapshot import put_state, state_of
@@ -28,26 +25,15 @@ class Contacts:
     """The contacts of a scene.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
+        model: of the scene.
         state: where everything is.
-        data_path: folders in which files are looked for.
-        timestep: length of a step [s].
     """
 
     STATE = ("_step", "_laid")
     """Attributes of its state, for snapshots."""
 
-    def __init__(
-        self,
-        scene: SceneSpec,
-        robots: Mapping[int, RobotSpec],
-        state: Engine,
-        data_path: tuple[Path, ...],
-        timestep: float,
-    ) -> None:
-        self._scene, self._robots, self._state = scene, robots, state
-        self._data_path, self._timestep = data_path, timestep
+    def __init__(self, model: SceneModel, state: Engine) -> None:
+        self._model, self._state = model, state
         self._touching: KinematicContacts | None = None
         self._found: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
         self._step = 0
@@ -58,10 +44,10 @@ class Contacts:
         One without a shape cannot, as in the original without physics.
         """
         try:
-            kind, index = touchable(name, self._scene)
+            kind, index = touchable(name, self._model.scene)
         except UwsimError:
             return False
-        return kind == "object" or any(link.solids for link in self._robots[index].links)
+        return kind == "object" or any(link.solids for link in self._model.robots[index].links)
 
     @property
     def _laid(self) -> Mapping[str, Any] | None:
@@ -92,7 +78,7 @@ class Contacts:
             UnknownName: there is none.
             UwsimError: it cannot be touched.
         """
-        kind, index = touchable(name, self._scene)
+        kind, index = touchable(name, self._model.scene)
         contacts = self._state.contacts(kind, index)
         if contacts is None:
             if self._touching is None:
@@ -111,14 +97,11 @@ class Contacts:
             UnknownName: there is none.
         """
         if name not in self._found:
-            self._found[name] = touchable(name, self._scene)
+            self._found[name] = touchable(name, self._model.scene)
         return self._state.contact_forces(*self._found[name])
 
     def _lay(self) -> KinematicContacts:
-        scene, state = self._scene, self._state
-        vehicles = range(len(scene.vehicles))
-        solid = scene.solid_objects
-        shapes = collision_shapes(scene, self._robots, vehicles, solid, self._data_path)
+        scene, state, shapes = self._model.scene, self._state, self._model.all_shapes
         poses: dict[str, Callable[[], Pose]] = {}
         for body in shapes:
             kind, number, *link = body.split("/")
@@ -129,4 +112,5 @@ class Contacts:
             )
         names = {f"vehicle/{i}": vehicle.name for i, vehicle in enumerate(scene.vehicles)}
         names |= {f"object/{i}": thing.name for i, thing in enumerate(scene.objects)}
-        return KinematicContacts(shapes, poses, names, lambda: state.poses.version, self._timestep)
+        timestep = self._model.timestep
+        return KinematicContacts(shapes, poses, names, lambda: state.poses.version, timestep)

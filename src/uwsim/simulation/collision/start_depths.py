@@ -18,6 +18,7 @@ import numpy as np
 from ...base.geometry import Array, Pose
 from ...model.collision.ground import Ground
 from ...model.placement import Floor
+from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
@@ -98,9 +99,7 @@ class StartDepths:
         return None
 
 
-def lift_from_ground(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], state: Engine, data_path: tuple[Path, ...]
-) -> None:
+def lift_from_ground(model: SceneModel, state: Engine) -> None:
     """Begin to lift simulated vehicles and loose objects that begin in the ground.
 
     Only those are looked at which touch something fixed at the start.
@@ -108,7 +107,8 @@ def lift_from_ground(
     touching = state.deep_at_start(MIN_RISE)
     if not touching:
         return
-    depths = StartDepths(scene, robots, data_path)
+    scene = model.scene
+    depths = StartDepths(scene, model.robots, model.data_path)
     for kind, index in touching:
         spec = scene.vehicles[index] if kind == "vehicle" else scene.objects[index]
         if "start" in spec.accepts:

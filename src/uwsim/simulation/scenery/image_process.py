@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...messages import image
-from ...scene.spec import SceneSpec
+from ...model.scene_model import SceneModel
 from ...topics.virtual_camera_to_ros_image import ImagePublisher
 from ..snapshot import packed, put_state, state_of, unpacked
 
@@ -44,20 +44,11 @@ class ImageProcess:
 
     Args:
         simulation: whose images they are.
-        scene: spec of the scene, as the simulation was given it.
-        options: further arguments of the simulation.
         report: called with a line for the user.
     """
 
-    def __init__(
-        self,
-        simulation: Simulation,
-        scene: SceneSpec,
-        options: Mapping[str, Any],
-        report: Callable[[str], object],
-    ) -> None:
-        self._simulation, self._scene, self._options = simulation, scene, dict(options)
-        self._report = report
+    def __init__(self, simulation: Simulation, report: Callable[[str], object]) -> None:
+        self._simulation, self._report = simulation, report
         self._process: multiprocessing.process.BaseProcess | None = None
         self._pipe: Connection | None = None
         self._memory: SharedMemory | None = None
@@ -129,7 +120,7 @@ class ImageProcess:
         self._pipe, theirs = context.Pipe()
         where = self._memory.name, self._slots
         self._process = context.Process(
-            target=draw_images, args=(theirs, where, self._scene, self._options), daemon=True
+            target=draw_images, args=(theirs, where, self._simulation.model), daemon=True
         )
         self._process.start()
         self.pid = self._process.pid
@@ -175,8 +166,7 @@ class ImageProcess:
 def draw_images(
     pipe: Connection,
     where: tuple[str, Mapping[str, tuple[int, int]]],
-    scene: SceneSpec,
-    options: Mapping[str, Any],
+    model: SceneModel,
 ) -> None:
     """Draw what is asked for until the pipe is closed; what the process does."""
     from ..simulation import Simulation
@@ -187,7 +177,7 @@ def draw_images(
     memory = SharedMemory(name)
     assert memory.buf is not None
     try:
-        with Simulation(scene, **options) as simulation:
+        with Simulation(model) as simulation:
             _ = simulation.world.scenery.renderer_name  # its graphics context
             pipe.send(READY)
             while True:

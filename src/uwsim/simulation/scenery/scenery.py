@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +17,8 @@ from ...devices.lamp import MAX_LAMPS, MountedLamp
 from ...devices.led_array import Led
 from ...devices.structured_light_projector import MountedProjector
 from ...errors import UwsimError
-from ...model.parts import Part, parts_of
+from ...model.parts import Part
+from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
 from ...rendering.grey import grey_truncated
 from ...rendering.lights.lamp import Lamp
@@ -27,7 +27,6 @@ from ...rendering.noise import add_noise
 from ...rendering.rendered_image import RenderedImage
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
-from ...scene.urdf.robot import RobotSpec
 from ..unique_names import unique
 from .renderer_pool import RendererPool
 from .sand import heaps_of
@@ -44,27 +43,16 @@ class Scenery:
     """The models of a scene in its water; acquires a renderer for the first image.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
+        model: of the scene.
         state: where everything is.
-        data_path: folders in which files are looked for.
-        compatibility: names of the compatibility quirks that are on.
         pool: lends the renderer; without one the scenery has a renderer of its own.
     """
 
     STATE = ("water", "light", "heaps")
     """Attributes of its state, for snapshots."""
 
-    def __init__(
-        self,
-        scene: SceneSpec,
-        robots: Mapping[int, RobotSpec],
-        state: Engine,
-        data_path: tuple[Path, ...],
-        *,
-        compatibility: frozenset[str],
-        pool: RendererPool | None,
-    ) -> None:
+    def __init__(self, model: SceneModel, state: Engine, pool: RendererPool | None) -> None:
+        scene = model.scene
         self._state = state
         self._own_pool = RendererPool()
         self._pool = pool or self._own_pool
@@ -73,9 +61,9 @@ class Scenery:
         self._drawn_version = -1
         self._vehicle_names = tuple(vehicle.name for vehicle in scene.vehicles)
         self._vehicle_labels = unique(self._vehicle_names)
-        self.parts = tuple(parts_of(scene, robots, data_path))
+        self.parts = model.parts
         """The models of the scene and whose they are."""
-        self.water = Water.of(scene.ocean_state, compatibility)
+        self.water = Water.of(scene.ocean_state, model.compatibility)
         """The water as it is now; scene updaters change its fog."""
         self.light = Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene))
         """The sun as it shines now; scene updaters change its rate."""

@@ -13,6 +13,7 @@ from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...currents import Place, TotalCurrent, bind_currents
 from ...model.robots import find_file
+from ...model.scene_model import SceneModel
 from ...scene.spec import SceneSpec
 from ...world import Flow
 
@@ -175,23 +176,19 @@ def _spread(localized: Array, felt: npt.NDArray[np.int64], turn: Array) -> Array
 
 
 def water_motion(
-    scene: SceneSpec,
-    stream: Callable[[str], np.random.Generator],
-    data_path: tuple[Path, ...],
-    *,
-    runs_code: bool,
+    model: SceneModel, stream: Callable[[str], np.random.Generator], *, runs_code: bool
 ) -> WaterMotion:
     """Return the flow of a scene.
 
     Args:
-        scene: its spec.
+        model: its model.
         stream: returns the random generator of a name.
-        data_path: folders in which files are looked for.
         runs_code: let Python code that the scene names run.
     """
+    scene = model.scene
     place = Place(
         stream=stream,
-        find=lambda name: find_file(name, scene.path, data_path),
+        find=lambda name: find_file(name, scene.path, model.data_path),
         world_from_localized=scene.world_from_localized,
         runs_code=runs_code,
         surface_height=scene.ocean_state.ocean_surface_height,

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...devices.lamp import MountedLamp
+from ...physics.compile_scene import compile_scene
 from ...results.motion import MarkerLook, MotionTrack, markers_at
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
@@ -89,14 +90,14 @@ class Puppets:
 
 def scene_of(trial: RecordedTrial) -> Simulation:
     """Open the scene of a trial; Python code that it names is not run."""
-    return Simulation(
+    model = compile_scene(
         trial.scene,
         seed=trial.seed,
         timestep=trial.timestep,
         data_path=trial.data_path,
         compatibility=trial.compatibility,
-        runs_code=False,
     )
+    return Simulation(model, runs_code=False)
 
 
 def frame_at(track: MotionTrack, time: float) -> tuple[int, float]:

@@ -75,7 +75,7 @@ def vehicle_bit(index: int) -> int:
     return 2 << (index % 29)
 
 
-def compile_scene(
+def compile_engine_model(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
     dynamics: Mapping[int, VehicleHydrodynamics],

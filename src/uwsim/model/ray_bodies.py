@@ -1,0 +1,92 @@
+"""The bodies of a scene that rays meet, with their surfaces and acoustic materials."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+
+import numpy as np
+
+from ..acoustics import MATERIALS, Material, MaterialName
+from ..base.geometry import Array, Pose
+from ..base.numerics.linear import determinant, placed, product
+from ..rays import RayScene, Surface
+from ..scene.spec import SceneSpec
+from .parts import Part
+
+Owner = tuple[int | None, str, int | None]
+"""The number of a vehicle and its link, or the number of an object."""
+
+
+class RayBodies:
+    """The visible models of a scene for ray casting, without ghosts (``vr``).
+
+    Their triangles are sorted when `scene` or `movers` is first asked for.
+
+    Args:
+        scene: spec of the scene.
+        parts: its models.
+        fixed_places: ``world_from_object`` of each object that never moves, by its number.
+    """
+
+    def __init__(
+        self, scene: SceneSpec, parts: Sequence[Part], fixed_places: Mapping[int, Pose]
+    ) -> None:
+        self._parts = [part for part in parts if not part.is_hidden]
+        self._fixed_places = fixed_places
+        names = {part.id: _material(scene, part) for part in self._parts}
+        owners = {
+            p.id: scene.vehicles[p.vehicle].name for p in self._parts if p.vehicle is not None
+        }
+        numbers = range(max(names, default=0) + 1)
+        self.materials: tuple[Material, ...] = tuple(
+            MATERIALS[names.get(number, "sand")] for number in numbers
+        )
+        """Of each surface, by its number."""
+        self.vehicles = tuple(owners.get(number, "") for number in numbers)
+        """Name of the vehicle that each surface belongs to, by its number; or empty."""
+
+    @property
+    def movers(self) -> tuple[Owner, ...]:
+        """Whose each body that moves is."""
+        return tuple(self._moving)
+
+    @cached_property
+    def scene(self) -> RayScene:
+        """What is fixed as the first body, then those of `movers`; all in the place of W."""
+        fixed: list[Surface] = []
+        for part in self._parts:
+            place = None if part.object is None else self._fixed_places.get(part.object)
+            if place is not None:
+                fixed += _surfaces(part, product(place.matrix, part.frame_from_mesh))
+        return RayScene([fixed, *self._moving.values()])
+
+    @cached_property
+    def _moving(self) -> dict[Owner, list[Surface]]:
+        moving: dict[Owner, list[Surface]] = {}
+        for part in self._parts:
+            if part.object not in self._fixed_places:
+                owner = part.vehicle, part.link, part.object
+                moving.setdefault(owner, []).extend(_surfaces(part, part.frame_from_mesh))
+        return moving
+
+
+def _material(scene: SceneSpec, part: Part) -> MaterialName:
+    """The acoustic material of a part."""
+    if part.object is None:
+        return "steel"
+    thing = scene.objects[part.object]
+    return thing.acoustic_material or ("sand" if thing.is_ground else "steel")
+
+
+def _surfaces(part: Part, frame: Array) -> list[Surface]:
+    """The triangles of a part in a frame; a mirror turns them round."""
+    found = []
+    for mesh in part.model.meshes:
+        if mesh.opacity > 0.0:
+            vertices = mesh.vertices.astype(np.float64)
+            corners = placed(vertices, frame[:3, :3], frame[:3, 3])[mesh.triangles]
+            if determinant(np.ascontiguousarray(frame[:3, :3])) < 0.0:
+                corners = corners[:, ::-1]
+            found.append(Surface(part.id, corners, mesh.two_sided))
+    return found

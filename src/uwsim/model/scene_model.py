@@ -1,0 +1,118 @@
+"""The model of a scene: everything that does not change while the scene runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import mujoco
+import numpy as np
+
+from ..base.geometry import Pose, quaternion_from_rotation
+from ..devices.object_picker import ObjectPickerSpec
+from ..scene.hydrodynamics import VehicleHydrodynamics
+from ..scene.spec import SceneSpec
+from ..scene.urdf.robot import RobotSpec
+from .body_names import object_body
+from .collision.scene_shapes import collision_shapes
+from .collision.shapes import CollisionShape
+from .collision.solid_grounds import SolidGround, solid_grounds
+from .parts import Part, parts_of
+from .ray_bodies import RayBodies
+from .water_density import density_levels
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class SceneModel:
+    """What follows from a scene, a seed, a timestep, folders and compatibility quirks.
+
+    It is made by `uwsim.physics.compile_scene.compile_scene`, once for all simulations of it.
+    """
+
+    source: SceneSpec
+    """The scene as it was read, with its integrator."""
+    varied: SceneSpec
+    """The scene with the variations (``<u:vary>``) of the seed; lines are those of the file."""
+    scene: SceneSpec
+    """The same with everything placed: what stands on the floor (``<u:onFloor>``) has a pose."""
+    seed: int
+    """The seed of its variations."""
+    timestep: float
+    """The length of a step [s]."""
+    data_path: tuple[Path, ...]
+    """The folders in which files are looked for."""
+    compatibility: frozenset[str]
+    """The compatibility quirks that are on."""
+    robots: Mapping[int, RobotSpec]
+    """The robot of each vehicle, by its number in the scene."""
+    dynamics: Mapping[int, VehicleHydrodynamics]
+    """The hydrodynamics of each vehicle that is simulated, by its number."""
+    shapes: Mapping[str, tuple[CollisionShape, ...]]
+    """The collision shapes of what is simulated, by the name of its body."""
+    engine_model: mujoco.MjModel
+    """The model of the physics engine; each engine steps a copy."""
+
+    @cached_property
+    def parts(self) -> tuple[Part, ...]:
+        """The visible models and whose they are; loaded when they are first asked for."""
+        return tuple(parts_of(self.scene, self.robots, self.data_path))
+
+    @cached_property
+    def all_shapes(self) -> Mapping[str, tuple[CollisionShape, ...]]:
+        """The collision shapes of everything that can be touched, simulated or not, by body."""
+        scene = self.scene
+        vehicles = range(len(scene.vehicles))
+        return collision_shapes(scene, self.robots, vehicles, scene.solid_objects, self.data_path)
+
+    @cached_property
+    def placed_objects(self) -> Mapping[int, Pose]:
+        """``world_from_object`` of each object that is no body of the engine, by its number."""
+        bodies = {self.engine_model.body(i).name for i in range(self.engine_model.nbody)}
+        return {
+            index: _as_the_engine_has_it(
+                self.scene.world_from_localized @ thing.localized_from_object
+            )
+            for index, thing in enumerate(self.scene.objects)
+            if object_body(index) not in bodies
+        }
+
+    @cached_property
+    def fixed_objects(self) -> Mapping[int, Pose]:
+        """The same of those that stay where they are for good: nothing can pick them up."""
+        scene = self.scene
+        has_picker = any(each.parts_of(ObjectPickerSpec) for each in scene.vehicles)
+        return {
+            index: pose
+            for index, pose in self.placed_objects.items()
+            if scene.objects[index].is_ground or not has_picker
+        }
+
+    @cached_property
+    def ray_bodies(self) -> RayBodies:
+        """The bodies that rays meet; their triangles are sorted when they are first asked for."""
+        return RayBodies(self.scene, self.parts, self.fixed_objects)
+
+    @cached_property
+    def grounds(self) -> tuple[SolidGround, ...]:
+        """The ground that bodies may not pass through."""
+        return tuple(solid_grounds(self.scene, self.shapes, self.data_path))
+
+    @cached_property
+    def density_levels(self) -> tuple[tuple[float, float], ...]:
+        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+        return density_levels(self.scene.ocean_state, self.dynamics)
+
+    @cached_property
+    def hydrodynamics_files(self) -> Mapping[str, Path]:
+        """The hydrodynamics files of its vehicles, by name."""
+        return {path.name: path for each in self.dynamics.values() for path in each.files}
+
+
+def _as_the_engine_has_it(pose: Pose) -> Pose:
+    """Return a pose by way of a quaternion, which is what the engine keeps."""
+    rotation, quaternion = np.zeros(9), quaternion_from_rotation(pose.rotation)
+    mujoco.mju_normalize4(quaternion)
+    mujoco.mju_quat2Mat(rotation, quaternion)
+    return Pose(pose.position.copy(), rotation.reshape(3, 3))

@@ -1,0 +1,60 @@
+"""What the trials of one process share: renderers, and the models of scenes."""
+
+from __future__ import annotations
+
+from ...model.scene_model import SceneModel
+from ...physics.compile_scene import compile_scene
+from ...simulation import RendererPool
+from ...simulation.snapshot import digest_of
+from .plan import Plan
+
+N_MODELS = 2
+"""Models that are kept: a run and its control take turns, each with the levels of a seed."""
+
+
+def compile_plan(plan: Plan, seed: int) -> SceneModel:
+    """Compile the scene of a plan for a seed.
+
+    Raises:
+        UwsimError: the scene cannot be compiled.
+    """
+    return compile_scene(
+        plan.scene,
+        seed=seed,
+        timestep=plan.timestep,
+        data_path=plan.data_path,
+        compatibility=plan.compatibility,
+    )
+
+
+class TrialCache:
+    """Keeps what does not change from trial to trial. Use it from one thread.
+
+    Files that change while a run executes end the run (`uwsim.runs.input_watch`), so that a model
+    is never older than its files.
+    """
+
+    def __init__(self) -> None:
+        self.renderers = RendererPool()
+        """Lends the renderer of each trial."""
+        self._models: dict[object, SceneModel] = {}  # the one used last is the last
+
+    def model(self, plan: Plan, seed: int) -> SceneModel:
+        """Return the model of a plan's scene for a seed; it is compiled at the first request.
+
+        Raises:
+            UwsimError: the scene cannot be compiled.
+        """
+        key = digest_of(plan.scene), seed, plan.timestep, plan.data_path, plan.compatibility
+        model = self._models.pop(key, None)
+        if model is None:
+            model = compile_plan(plan, seed)
+        self._models[key] = model
+        for oldest in list(self._models)[:-N_MODELS]:
+            del self._models[oldest]
+        return model
+
+    def close(self) -> None:
+        """Release the graphics contexts."""
+        self.renderers.close()
+        self._models.clear()
