@@ -142,4 +142,9 @@ def _are_texts(answer: object) -> bool:
 def _shown(answer: object) -> str:
     """Describe a value in a few words that are the same in every run."""
     kind = type(answer).__name__
-    return f"{kind} {str(answer)[:40]!r}" if isinstance(answer, str | Real) else kind
+    if not isinstance(answer, str | Real):
+        return kind
+    try:
+        return f"{kind} {str(answer)[:40]!r}"
+    except ValueError:  # an int of more digits than Python writes
+        return kind
