@@ -424,6 +424,8 @@ def test_a_detail_that_is_no_number_leaves_a_reason(folder: Path) -> None:
         ("['kp']", "is list; expected a dict of name -> number or text"),
         ("{'kp': [0.4]}", "has list for 'kp'; expected a name, and a number or text"),
         ("{'kp': float('inf')}", "has float 'inf' for 'kp'; expected"),
+        ("{'kp': 10**400}", f"has int '1{'0' * 39}' for 'kp'; expected"),
+        ("{'kp': 10**5000}", "has int for 'kp'; expected"),
     ],
 )
 def test_parameters_that_no_result_can_hold_are_refused_before_the_first_level(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import fcntl
 import os
 import signal
 import subprocess
@@ -128,6 +129,28 @@ def test_a_keeper_that_is_dismissed_ends_and_has_its_key_in_no_argument(tmp_path
     assert seal.key.hex().encode() not in words
     keeper.close()
     assert keeper._process.returncode == 0
+
+
+def test_a_keeper_that_is_not_needed_does_not_wait_for_the_lock_of_the_run(
+    tmp_path: Path,
+) -> None:
+    keeper = Keeper(Seal(), [tmp_path])
+    handle = os.open(tmp_path, os.O_RDONLY)
+    fcntl.flock(handle, fcntl.LOCK_EX)  # as a run holds it until it has written its result
+    keeper.close(is_all_open=True)
+    os.close(handle)
+    assert keeper._process.returncode == 0  # not killed for its patience
+
+
+def test_whether_all_files_could_be_opened_is_known(tmp_path: Path) -> None:
+    seal = Seal()
+    path = written(tmp_path, seal)
+    blocked = path.with_name(f".{path.name}.{os.getpid()}.part")
+    blocked.mkdir()
+    assert not seal.open_all(tmp_path)
+    blocked.rmdir()
+    assert seal.open_all(tmp_path)
+    assert b"17.125" in path.read_bytes()
 
 
 def test_memory_of_a_process_is_denied_to_others() -> None:

@@ -101,7 +101,7 @@ def parameters_of(
         raise RunFailed(f"{who} is {_shown(returned)}; expected a dict of name -> number or text.")
     found: dict[str, float | int | str] = {}
     for name, value in returned.items():
-        number = float(value) if isinstance(value, Real) else None
+        number = _as_float(value) if isinstance(value, Real) else None
         if not isinstance(name, str) or not (
             isinstance(value, str) or (number is not None and math.isfinite(number))
         ):
@@ -110,6 +110,13 @@ def parameters_of(
             )
         found[name] = value if isinstance(value, str | int) or number is None else number
     return found
+
+
+def _as_float(value: Real) -> float:
+    try:
+        return float(value)
+    except OverflowError:  # an int of hundreds of digits
+        return math.inf
 
 
 def files_of(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
@@ -135,4 +142,9 @@ def _are_texts(answer: object) -> bool:
 def _shown(answer: object) -> str:
     """Describe a value in a few words that are the same in every run."""
     kind = type(answer).__name__
-    return f"{kind} {str(answer)[:40]!r}" if isinstance(answer, str | Real) else kind
+    if not isinstance(answer, str | Real):
+        return kind
+    try:
+        return f"{kind} {str(answer)[:40]!r}"
+    except ValueError:  # an int of more digits than Python writes
+        return kind

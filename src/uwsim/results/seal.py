@@ -38,6 +38,8 @@ KEY, ONCE, TAG = 32, 16, 32
 """Bytes of a key, of a number that is used once, and of a tag."""
 PATIENCE = 10.0
 """How long the keeper waits for the lock of the directory, and the run for the keeper [s]."""
+ALL_OPEN = b"all open\n"
+"""What a run tells its keeper that needs it no more."""
 PR_SET_DUMPABLE = 4
 FOLDER = "units"
 """Folder of a result in which sealed files are."""
@@ -78,16 +80,25 @@ class Seal:
         """Return the content of a file sealed."""
         return MAGIC + self.closed(data)
 
-    def open_all(self, directory: Path) -> None:
-        """Open every sealed file of a result; what another key has sealed is left as it is."""
+    def open_all(self, directory: Path) -> bool:
+        """Open every sealed file of a result; returns whether all could be read and written.
+
+        What another key has sealed is left as it is.
+        """
+        is_all_open = True
         for path in sorted((directory / FOLDER).glob("*")):
-            with suppress(OSError, ValueError):
+            try:
                 before = path.read_bytes()
                 after = self._plain(before)
                 if after != before:
                     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
                     draft.write_bytes(after)
                     draft.replace(path)
+            except OSError:
+                is_all_open = False
+            except ValueError:
+                pass
+        return is_all_open
 
     def _plain(self, data: bytes) -> bytes:
         if data.startswith(MAGIC):
@@ -128,10 +139,12 @@ class Keeper:
             self._process.stdin.write(asked.encode() + b"\n")
             self._process.stdin.flush()
 
-    def close(self) -> None:
-        """Let it end; what is sealed still is opened by it."""
+    def close(self, *, is_all_open: bool = False) -> None:
+        """Let it end; it opens what is sealed still, unless the run has opened all of it."""
         assert self._process.stdin is not None
         with suppress(OSError):
+            if is_all_open:
+                self._process.stdin.write(ALL_OPEN)
             self._process.stdin.close()
         try:
             self._process.wait(PATIENCE)
@@ -155,7 +168,8 @@ def keep() -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
     asked = json.loads(sys.stdin.buffer.readline())
-    sys.stdin.buffer.read()
+    if sys.stdin.buffer.read() == ALL_OPEN:
+        return
     seal = Seal(bytes.fromhex(asked["key"]))
     for name in asked["directories"]:
         with suppress(OSError), _locked(Path(name)):

@@ -30,7 +30,8 @@ def sealed(runs: Sequence[Run]) -> Iterator[None]:
     try:
         yield
     finally:
+        is_all_open = True
         for run in runs:
-            seal.open_all(run.out)
+            is_all_open &= seal.open_all(run.out)
             run.seal = None
-        keeper.close()
+        keeper.close(is_all_open=is_all_open)
