@@ -66,6 +66,8 @@ def test_rows_of_another_run_are_refused(tmp_path: Path) -> None:
         (2, 7, "found 7; expected an object with 'row' or 'end'"),
         (2, {"row": {}}, "expected 'values' among its keys"),
         (2, {"row": row_record(total="x")}, "row.total is 'x'; expected a finite number"),
+        (2, {"row": row_record(status="\ud800")}, r"row.status is '\\ud800'; expected text"),
+        (2, {"row": row_record(missing={"\ud800": "x"})}, r"row.missing is '\\ud800'; expected"),
         (2, {"row": row_record(measures={"a": 1})}, "row.measures.a is 1; expected a list of 2"),
         (2, {"row": row_record(logs={"a": [["x"]]})}, "expected numbers and nulls"),
         (3, {"end": end_record(streams=[["/a", 1]])}, r"end.streams\[0\] is .* a list of 3"),

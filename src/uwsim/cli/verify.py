@@ -145,8 +145,9 @@ def verify(
 
     A trial is the unit of execution: the whole sweep of a seed, or one level where the benchmark is
     independent. Files are found by name (next to the result, here, bundled) and identified by the
-    recorded hash; others are refused. Before any replay, every file of the result is made anew from
-    its trials and compared, and every total and every derived value is computed again from its row.
+    recorded hash; others are refused. Before any replay, the rows, tables and logs of the result
+    are made anew from its trials and compared, and every total and every derived value is computed
+    again from its row. Plots, the report and provenance.json are not compared.
     The sample of trials is drawn from the system's random source, so it cannot be predicted; the
     seed that draws it again is printed.
 

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, replace
 
 from ..statistics import Interval, Rate, mean_interval, rate
 from .result import Result
+
+SAME = 9
+"""Decimals to which the levels of two results agree."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,6 +46,25 @@ def rows_by_level(result: Result) -> dict[tuple[float, ...], list[int]]:
         level = tuple(v for column in columns if (v := column[row]) is not None)
         found.setdefault(level, []).append(row)
     return found
+
+
+def rounded(level: tuple[float, ...]) -> tuple[float, ...]:
+    """Return a level as it is compared with those of other results."""
+    return tuple(round(value, SAME) for value in level)
+
+
+def only_levels(result: Result, levels: Collection[tuple[float, ...]]) -> Result:
+    """Return the rows of a result at some levels, `rounded`, and what belongs to these rows."""
+    chosen = [rows for level, rows in rows_by_level(result).items() if rounded(level) in levels]
+    new = {row: i for i, row in enumerate(sorted(row for rows in chosen for row in rows))}
+    return replace(
+        result,
+        rows=tuple(result.rows[row] for row in new),
+        missing=tuple(replace(m, row=new[m.row]) for m in result.missing if m.row in new),
+        images=tuple(replace(m, row=new[m.row]) for m in result.images if m.row in new),
+        refused=tuple(replace(m, row=new[m.row]) for m in result.refused if m.row in new),
+        remarks=tuple(replace(m, row=new[m.row]) for m in result.remarks if m.row in new),
+    )
 
 
 def seeds_of(result: Result) -> tuple[int | None, ...]:

@@ -628,6 +628,50 @@ def test_differences_stand_on_a_zero_line_and_the_winning_side_is_named(three: C
     assert success(compared(noisy("a", 1.0, n=2, salt=1), noisy("b", 1.0, n=2, salt=2))) is None
 
 
+SWEEPS = [
+    ({0.0: 1.0, 0.5: 2.0, 1.0: 3.0}, {0.5: 5.0, 1.0: 6.0, 2.0: 7.0}),
+    ({0.0: 1.0, 0.5: 2.0}, {0.5: 5.0, 1.0: 6.0}),
+]
+
+
+def sweep(algorithm: str, means: dict[float, float]) -> Result:
+    return made(algorithm, {fog: [mean, mean + 0.25, None] for fog, mean in means.items()})
+
+
+@pytest.mark.parametrize("is_reversed", [False, True])
+def test_curves_show_the_levels_that_both_have(is_reversed: bool) -> None:
+    results = [sweep(name, means) for name, means in zip("ab", SWEEPS[0], strict=True)]
+    axes = curves(compared(*(results[::-1] if is_reversed else results))).axes[0]
+    drawn_xs = {x for line in axes.lines for x in np.asarray(line.get_xdata(), float) if x >= 0.01}
+    assert {0.5, 1.0} <= drawn_xs
+    assert not {0.0, 2.0} & {*drawn_xs}
+    low, high = axes.get_xlim()
+    assert 0.0 < low < 0.5
+    assert 1.0 < high < 2.0
+
+
+@pytest.mark.parametrize("is_reversed", [False, True])
+def test_one_common_level_is_drawn_with_its_values(is_reversed: bool) -> None:
+    results = [sweep(name, means) for name, means in zip("ab", SWEEPS[1], strict=True)]
+    comparison = compared(*(results[::-1] if is_reversed else results))
+    axes = curves(comparison).axes[0]
+    names = [text.get_text() for text in axes.get_yticklabels()]
+    dots = [line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 1]
+    assert dict(zip(names, dots, strict=True)) == {"a": 2.125, "b": 5.125}
+    figure = success(comparison)
+    assert figure is not None
+    assert [text.get_text() for text in figure.axes[0].get_yticklabels()] == names
+    assert "1 level, 3 repeats" in render(comparison, ())
+
+
+def test_of_three_results_those_levels_are_drawn_that_two_have() -> None:
+    three = [sweep(name, means) for name, means in zip("ab", SWEEPS[0], strict=True)]
+    three.append(sweep("c", {0.0: 1.0, 0.5: 2.0, 4.0: 1.0}))
+    low, high = curves(compared(*three)).axes[0].get_xlim()
+    assert low < 0.0
+    assert 1.0 < high < 2.0
+
+
 def test_bars_without_any_value_say_so() -> None:
     nothing = Interval(n=0, mean=None, std=None, low=None, high=None)
     some = Interval(n=2, mean=1.0, std=0.1, low=0.5, high=1.5)

@@ -162,6 +162,11 @@ class Comparison:
     """Every pair of results."""
 
     @property
+    def levels(self) -> tuple[Level, ...]:
+        """The levels that were compared: those that two of the results share."""
+        return tuple(dict.fromkeys(at.level for versus in self.versus for at in versus.levels))
+
+    @property
     def n_tests(self) -> int:
         """Number of levels, over all pairs of results, that Holm's correction counts."""
         return family_size([at.value for versus in self.versus for at in versus.levels])

@@ -6,7 +6,7 @@ import base64
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...results.per_level import rows_by_level, success_per_level
+from ...results.per_level import success_per_level
 from ...results.result import Result
 from ...statistics import Interval
 from ...version import __version__
@@ -77,7 +77,7 @@ def _lead(comparison: Comparison) -> str:
     function = f" = {column.expression}" if column.expression else ""
     better = "higher" if comparison.higher_is_better else "lower"
     against = f"; {comparison.baseline.name} is the baseline" if comparison.baseline else ""
-    levels = len(rows_by_level(comparison.entries[0].result))
+    levels = len(comparison.levels)
     repeats = max(len(at.seeds) for versus in comparison.versus for at in versus.levels)
     return (
         f"{column.name}{unit}{function}, {better} is better; {_many(levels, 'level')}, "

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import ResultError
-from ...results.per_level import rows_by_level, seeds_of
+from ...results.per_level import rounded, rows_by_level, seeds_of
 from ...results.result import Result
 from .inputs import Entry
 
 Level = tuple[float, ...]
-SAME = 9
-"""Decimals to which the levels of a pair agree."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +87,7 @@ def _rows(entry: Entry) -> dict[tuple[int, Level, int], int]:
                     f"{entry.source}: does not record its seeds; nothing can be paired."
                 )
             turn = turns[seed] = turns.get(seed, -1) + 1
-            found[seed, tuple(round(value, SAME) for value in level), turn] = row
+            found[seed, rounded(level), turn] = row
     return found
 
 

@@ -2,13 +2,14 @@
 
 Bands and bars are 95 % intervals. In the plot of differences a filled marker is a level at which
 one is better after Holm's correction; a hollow one shows no difference. Where there is one level,
-or none, the same is drawn as bars.
+or none, the same is drawn as bars. Levels that only one result has are left out, as in the tables.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.transforms import offset_copy
 
-from ...results.per_level import per_level, rows_by_level, success_per_level
+from ...results.per_level import only_levels, per_level, success_per_level
 from ...results.result import Column
 from ...statistics import Interval, Rate
 from ..plots import (
@@ -59,11 +60,12 @@ def draw_comparison(comparison: Comparison, directory: Path) -> tuple[Path, ...]
 
 def curves(comparison: Comparison) -> Figure:
     """Draw what was compared over the levels, a line and a band for each result."""
-    entries, column = comparison.entries, comparison.column
+    entries, column = _compared(comparison), comparison.column
     if _has_one_level(comparison):
         bars = [
-            (entry.name, per_level(entry.result, column.name)[0].interval, True)
+            (entry.name, at.interval, True)
             for entry in entries
+            for at in per_level(entry.result, column.name)
         ]
         return _bars(bars, column.label, zero=False)
     figure = compare_plot(
@@ -97,7 +99,7 @@ def differences_plot(comparison: Comparison) -> Figure:
             if i % across == 0:
                 axes.set_ylabel(plain(label if down > 1 else f"{column.name}, {label}"))
             if i + across >= len(all_versus):
-                _label_levels(axes, comparison.entries[0])
+                _label_levels(axes, comparison)
                 axes.tick_params(labelbottom=True)
         write_note(figure, f"bands: 95 % intervals over repeats{FILLED}")
     return figure
@@ -106,7 +108,8 @@ def differences_plot(comparison: Comparison) -> Figure:
 def success(comparison: Comparison) -> Figure | None:
     """Draw the share of repeats that ended ``ok``; None where all did, or no status is stored."""
     drawn = []
-    for entry in comparison.entries:
+    entries = _compared(comparison)
+    for entry in entries:
         found = success_per_level(entry.result)
         drawn.append([(at.level, at.success) for at in found if at.success is not None])
     if not any(rate.value < 1.0 for rates in drawn for _, rate in rates):
@@ -118,7 +121,7 @@ def success(comparison: Comparison) -> Figure | None:
                 Interval(n=r.n, mean=r.value, std=None, low=r.low, high=r.high),
                 True,
             )
-            for entry, rates in zip(comparison.entries, drawn, strict=True)
+            for entry, rates in zip(entries, drawn, strict=True)
             for _, r in rates
         ]
         return _bars(bars, "share of repeats that ended ok", zero=False)
@@ -126,7 +129,7 @@ def success(comparison: Comparison) -> Figure | None:
         axes = figure.subplots()
         several = len({level[:-1] for rates in drawn for level, _ in rates}) > 1
         i = 0
-        for entry, rates in zip(comparison.entries, drawn, strict=True):
+        for entry, rates in zip(entries, drawn, strict=True):
             for outer in dict.fromkeys(level[:-1] for level, _ in rates):
                 line = [(level[-1], rate) for level, rate in rates if level[:-1] == outer]
                 name = entry.name
@@ -135,7 +138,7 @@ def success(comparison: Comparison) -> Figure | None:
                 _draw_rates(figure, line, i, plain(name))
                 i += 1
         axes.set(ylabel="share that ended ok", ylim=(-0.03, 1.03))
-        _label_levels(axes, comparison.entries[0])
+        _label_levels(axes, comparison)
         figure.legend(loc="outside right upper")
         write_note(figure, "bars: exact 95 % intervals (Clopper and Pearson) over repeats")
     return figure
@@ -240,9 +243,9 @@ def _bars(bars: Sequence[Bar], label: str, *, zero: bool) -> Figure:
     return figure
 
 
-def _label_levels(axes: Axes, entry: Entry) -> None:
-    column = entry.result.of_kind("level")[-1]
-    xs = sorted({level[-1] for level in rows_by_level(entry.result)})
+def _label_levels(axes: Axes, comparison: Comparison) -> None:
+    column = comparison.entries[0].result.of_kind("level")[-1]
+    xs = sorted({level[-1] for level in comparison.levels})
     pad = 0.03 * (xs[-1] - xs[0])
     axes.set_xlim(xs[0] - pad, xs[-1] + pad)
     axes.set_xlabel(plain(level_label(column)))
@@ -250,7 +253,15 @@ def _label_levels(axes: Axes, entry: Entry) -> None:
 
 def _has_one_level(comparison: Comparison) -> bool:
     columns: tuple[Column, ...] = comparison.entries[0].result.of_kind("level")
-    return not columns or all(len(versus.levels) == 1 for versus in comparison.versus)
+    return not columns or len(comparison.levels) == 1
+
+
+def _compared(comparison: Comparison) -> tuple[Entry, ...]:
+    """Return the results with the levels that were compared."""
+    levels = set(comparison.levels)
+    return tuple(
+        replace(entry, result=only_levels(entry.result, levels)) for entry in comparison.entries
+    )
 
 
 def _is_shown(at: AtLevel) -> bool:

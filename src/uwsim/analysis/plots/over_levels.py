@@ -108,7 +108,11 @@ def compare_plot(
             draw_end(axes, curve, look)
         curves = [curve for _, _, curve in drawn]
         scale_axes(axes, curves)
-        label_axes(axes, results[0], shown)
+        limits = []
+        for result in reversed(results):  # the first one last: its labels stay
+            label_axes(axes, result, shown)
+            limits.append(axes.get_xlim())
+        axes.set_xlim(min(low for low, _ in limits), max(high for _, high in limits))
         predicted = {result.fact("f_star"): result for result in results}
         predicted.pop(None, None)
         if len(predicted) == 1:  # the same for all that have the rule

@@ -30,8 +30,16 @@ def expect(truth: bool, value: object, at: str, what: str) -> None:
 
 
 def text(value: Any, at: str) -> None:
-    """A string."""
-    expect(isinstance(value, str), value, at, "text")
+    """A string that can be written: without half of a surrogate pair."""
+    expect(isinstance(value, str) and _is_unicode(value), value, at, "text")
+
+
+def _is_unicode(value: str) -> bool:
+    try:
+        value.encode()
+    except UnicodeEncodeError:
+        return False
+    return True
 
 
 def whole(value: Any, at: str) -> None:
@@ -104,6 +112,7 @@ def table(shape: Shape) -> Shape:
     def check(value: Any, at: str) -> None:
         expect(isinstance(value, dict), value, at, "an object")
         for key, item in value.items():
+            text(key, at)
             shape(item, f"{at}.{key[:MAX_SHOWN]}")
 
     return check
