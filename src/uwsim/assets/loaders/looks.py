@@ -41,6 +41,13 @@ def check_size(data: bytes, name: object) -> None:
         pass
 
 
+def opened(data: bytes) -> Any:
+    """Return an image that is decoded later, with what Pillow raises if it is none."""
+    from PIL import Image
+
+    return Image.open(io.BytesIO(data))
+
+
 def is_broken(path: Path, *, is_decoded: bool) -> bool:
     """Whether a file of an image cannot be opened, or not decoded, which takes longer."""
     from PIL import Image
