@@ -35,7 +35,7 @@ def check_size(data: bytes, name: object) -> None:
             pass
     except Image.DecompressionBombError as error:
         raise AssetError(
-            f"{name}: an image of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are read."
+            f"{name}: an image of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are read"
         ) from error
     except Exception:  # no image, or a broken one: whoever wants one says so
         pass
