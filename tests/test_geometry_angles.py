@@ -1,4 +1,4 @@
-"""Angles of a rotation, in both of UWSim's orders."""
+"""Angles of a rotation, in both of UWSim's orders; points through a pose."""
 
 import numpy as np
 import pytest
@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from uwsim.base.geometry import (
+    Pose,
     rotation_from_rpy,
     rotation_from_xyz,
     rpy_from_rotation,
@@ -31,3 +32,10 @@ def test_where_two_axes_are_one_the_angles_still_give_the_rotation(upright: floa
     ):
         rotation = make(0.4, upright, -0.9)
         assert make(*angles(rotation)) == pytest.approx(rotation, abs=1e-9)
+
+
+def test_a_pose_transforms_one_point_as_it_does_many() -> None:
+    pose = Pose(np.array([1.0, 2.0, 3.0]), rotation_from_rpy(0.1, 0.2, 0.3))
+    points = np.array([[1.0, 0.0, 0.0], [0.5, -2.0, 4.0]])
+    assert pose.transform(points[1]).tolist() == pose.transform(points)[1].tolist()
+    assert pose.transform(points[1]).shape == (3,)

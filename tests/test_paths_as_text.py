@@ -11,12 +11,14 @@ from tests.support.opened import open_scene
 from uwsim.assets.bundled import benchmark_file, scene_file
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, FileError, UwsimError
+from uwsim.physics.compile_scene import compile_scene
 from uwsim.results.log import load_log
 from uwsim.results.result_file import load
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.reader import read_urdf
+from uwsim.simulation import Simulation
 
 READERS: list[Callable[[str], object]] = [
     read_scene, read_benchmark, read_urdf, read_vehicle, load, load_log,
@@ -51,9 +53,14 @@ def test_a_file_of_the_wrong_kind_is_reported_with_its_kind() -> None:
 
 
 @pytest.mark.parametrize("scene", ["scene.xml", Path("scene.xml"), None, "x" * 10_000])
-def test_a_simulation_of_something_else_than_a_scene_says_what_it_takes(scene: object) -> None:
-    with pytest.raises(BadSetting, match="what read_scene returns, not of a ") as caught:
-        open_scene(scene)  # type: ignore[arg-type]
+@pytest.mark.parametrize(
+    ("make", "takes"), [(compile_scene, "read_scene"), (Simulation, "compile_scene")]
+)
+def test_a_simulation_of_something_else_than_a_scene_says_what_it_takes(
+    scene: object, make: Callable[[object], object], takes: str
+) -> None:
+    with pytest.raises(BadSetting, match=f"what {takes} returns, not of a ") as caught:
+        make(scene)
     assert len(str(caught.value)) < 200
 
 

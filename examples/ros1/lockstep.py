@@ -272,7 +272,14 @@ class LockStep:
         return max(0.0, min(times)) if times else None
 
     def _in(self, topic, kind, receive):
-        reader = rospy.Subscriber(topic, kind, receive, queue_size=None, tcp_nodelay=True)
+        def of_its_sender(message):
+            """Drop what another node sends on a topic of the simulation's."""
+            sender = message._connection_header["callerid"]
+            is_simulators = not self._sent or rospy.resolve_name(topic) in self._sent
+            if sender == SIMULATOR or not is_simulators:
+                receive(message)
+
+        reader = rospy.Subscriber(topic, kind, of_its_sender, queue_size=None, tcp_nodelay=True)
         self._readers[topic] = reader
 
     def _out(self, topic, kind):

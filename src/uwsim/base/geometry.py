@@ -165,8 +165,9 @@ class Pose:
         return Pose(-turned_back(self.rotation, self.position), self.rotation.T)
 
     def transform(self, points: Array) -> Array:
-        """Points in b (n, 3) as points in a (n, 3) [m]."""
-        return placed(points, self.rotation, self.position)
+        """Points in b, (n, 3) or one (3,), as points in a, of the same shape [m]."""
+        rows = np.asarray(points, dtype=np.float64)
+        return placed(np.atleast_2d(rows), self.rotation, self.position).reshape(rows.shape)
 
 
 def image_centre(width: int, height: int) -> tuple[float, float]:

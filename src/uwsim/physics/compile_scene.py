@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from ..errors import BadSetting
 from ..model.collision.scene_shapes import simulated_shapes
 from ..model.dynamics import read_dynamics
 from ..model.placement import set_on_floor
@@ -15,6 +16,9 @@ from ..scene.spec import SceneSpec, with_integrator
 from ..scene.variation import varied
 from ..world import TIMESTEP
 from .engine_model import compile_engine_model
+
+MAX_SHOWN = 60
+"""Most letters of a wrong argument in an error."""
 
 
 def compile_scene(
@@ -40,8 +44,13 @@ def compile_scene(
         AssetNotFound: a file is nowhere; names every folder searched.
         SceneError: a file is wrong, or a name leads nowhere; with every error.
         BadHydrodynamics: the hydrodynamics are wrong; with every error.
-        BadSetting: the step is no time, or longer than the physics bears.
+        BadSetting: it is no scene; the step is no time, or longer than the physics bears.
     """
+    if not isinstance(scene, SceneSpec):
+        raise BadSetting(
+            f"A scene is compiled from what read_scene returns, not of a {type(scene).__name__}: "
+            f"{repr(scene)[:MAX_SHOWN]}."
+        )
     folders = tuple(map(Path, data_path))
     source = with_integrator(scene, integrator)
     drawn = varied(source, seed)

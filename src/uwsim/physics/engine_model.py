@@ -112,7 +112,7 @@ def _compiled(
     timestep: float,
     shapes: Mapping[str, Sequence[CollisionShape]],
 ) -> mujoco.MjModel:
-    """Build the model; the arguments are those of `compile_scene`."""
+    """Build the model; the arguments are those of `compile_engine_model`."""
     spec = _with_options(scene, timestep, is_simulated=bool(dynamics))
     world_from_localized = scene.world_from_localized
     _add_vehicles(spec, scene, robots, dynamics)

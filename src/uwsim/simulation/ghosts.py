@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
-from ..base.geometry import Pose
+from ..base.geometry import Array, Pose
 from ..messages import JointState, Odometry
+from ..physics.kinematics.placed_motion import Source
 from ..topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
 from ..topics.pat_to_ros_odom import PATToROSOdomSpec
 from ..topics.ros_pose_to_pat import pose_in_localized
@@ -20,8 +21,10 @@ class Ghost:
 
     def __init__(self, vehicle: SceneVehicle, world_from_localized: Pose) -> None:
         self._vehicle, self._world_from_localized = vehicle, world_from_localized
+        vehicle.follow()
         self._pose: Pose | None = None
-        self._joints: JointState | None = None
+        self._joints: Array | None = None  # the joint vector (n,) [rad or m]
+        self._led = frozenset[Source]()  # what was led before
 
     def see_odometry(self, message: Odometry) -> None:
         """Take a pose in L."""
@@ -30,17 +33,18 @@ class Ghost:
             self._pose = self._world_from_localized @ pose
 
     def see_joints(self, message: JointState) -> None:
-        """Take positions of joints."""
-        self._joints = message
+        """Take positions of joints; the others stay where they were when the first ones came."""
+        before = self._vehicle.joints if self._joints is None else self._joints
+        known = dict(zip(message.name, message.position.tolist(), strict=False))
+        now = zip(self._vehicle.joint_names, before.tolist(), strict=True)
+        self._joints = np.array([known.get(name, value) for name, value in now])
 
     def place(self) -> None:
         """Put the vehicle there; called in every step."""
-        if self._pose is not None:
-            self._vehicle.place(self._pose)
-        if self._joints is not None:
-            known = dict(zip(self._joints.name, self._joints.position.tolist(), strict=False))
-            now = zip(self._vehicle.joint_names, self._vehicle.joints.tolist(), strict=True)
-            self._vehicle.set_joints(np.array([known.get(name, value) for name, value in now]))
+        known: dict[Source, object] = {"base": self._pose, "joints": self._joints}
+        now = frozenset(source for source, value in known.items() if value is not None)
+        self._vehicle.lead(self._pose, self._joints, now - self._led)
+        self._led = now
 
 
 def follow_recorded(simulation: Simulation, recorded: Mapping[str, str]) -> tuple[str, ...]:

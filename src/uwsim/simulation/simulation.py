@@ -293,10 +293,10 @@ class Simulation:
             UnknownName: there is no such vehicle; names the nearest.
             UwsimError: the vehicle is kinematic.
         """
-        index = self.world.vehicle(name).index
-        if not self.world.state.is_simulated(index):
+        vehicle = self.world.vehicle(name)
+        if not self.world.state.is_simulated(vehicle.index):
             raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
-        return self.world.state.vehicle_velocity(index)
+        return vehicle.velocity
 
     def image(self, camera: str) -> RenderedImage:
         """Render what a camera sees now, without noise: colour, range, ids and their names.

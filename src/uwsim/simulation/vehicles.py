@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import partial
 
 import numpy as np
 
 from ..base.geometry import Array, Pose
+from ..base.numerics.linear import turned_back
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
 from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
-from ..physics.kinematics.placed_motion import PlacedMotion
+from ..physics.kinematics.placed_motion import PlacedMotion, Source
 from ..scene.mounts import MountFrames, link_from_frame
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
@@ -51,7 +52,8 @@ class SceneVehicle:
         # position [m] and angles Rx Ry Rz [rad]; None: those of the file
         self._centre: tuple[Sequence[float], Sequence[float]] | None = None
         self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
-        self._placed: PlacedMotion | None = None  # where it is not simulated and a sensor reads it
+        # where it is not simulated and a sensor reads it, or follows a recording
+        self._placed: PlacedMotion | None = None
 
     @property
     def autopilot(self) -> Autopilot | None:
@@ -89,7 +91,10 @@ class SceneVehicle:
     @property
     def velocity(self) -> Array:
         """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
-        return self._state.vehicle_velocity(self.index)
+        if self._placed is None:
+            return self._state.vehicle_velocity(self.index)
+        twist = self._placed.twist(self._step())
+        return np.concatenate([turned_back(self.world_from_base.rotation, twist[:3]), twist[3:]])
 
     @property
     def joints(self) -> Array:
@@ -103,6 +108,29 @@ class SceneVehicle:
         """
         self._centre = self._centre_of(world_from_base)
         self._come_to(world_from_base)
+
+    def follow(self) -> None:
+        """From now on it moves as `lead` says, not as it is simulated: velocities are of that."""
+        if self._placed is None:
+            self._placed = self._state.placed_motion(self.index)
+
+    def lead(
+        self, world_from_base: Pose | None, joints: Array | None, starts: Collection[Source] = ()
+    ) -> None:
+        """Set its pose and its joint vector, as far as given: it has come there from the last.
+
+        Args:
+            world_from_base: its pose.
+            joints: its joint vector, (n,) [rad or m].
+            starts: what was never led before: it has not come there, its motion starts there.
+        """
+        if world_from_base is not None:
+            self._centre = self._centre_of(world_from_base)
+            self._state.place_vehicle(self.index, world_from_base)
+        if joints is not None:
+            self._state.set_joints(self.index, joints)
+        if self._placed is not None:
+            self._placed.record(self._step(), starts)
 
     def _come_to(self, world_from_base: Pose) -> None:
         self._state.place_vehicle(self.index, world_from_base)
@@ -193,16 +221,17 @@ class SceneVehicle:
         link, state = (self.index, spec.relative_to), self._state
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
         contacts = partial(state.contact_wrench, *link)
+        motion = partial(self._motion, spec.relative_to)
         if not state.is_simulated(self.index):
-            if self._placed is None:
-                self._placed = state.placed_motion(self.index)
-            motion = partial(self._placed_motion, self._placed, spec.relative_to)
+            self.follow()
             return MountedBody(name, pose, contacts, lambda point: np.zeros(6), motion)
-        joint = partial(state.joint_wrench.of, *link)
-        return MountedBody(name, pose, contacts, joint, partial(state.link_motion.of, *link))
+        return MountedBody(name, pose, contacts, partial(state.joint_wrench.of, *link), motion)
 
-    def _placed_motion(self, placed: PlacedMotion, link: str, point: Array) -> BodyMotion:
-        return placed.of(link, point, self._step())
+    def _motion(self, link: str, point: Array) -> BodyMotion:
+        """Return the motion of a point of W, (3,) [m], on a link."""
+        if self._placed is None:
+            return self._state.link_motion.of(self.index, link, point)
+        return self._placed.of(link, point, self._step())
 
     def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
         """Return what says where something on a link is."""

@@ -224,6 +224,44 @@ def seen_box(**camera: object) -> tuple[FakeWorld, FakeBody]:
     return FakeWorld({"box": body}, {"cam": FakeCamera(**camera)}), body  # type: ignore[arg-type]
 
 
+def test_a_log_shows_how_an_old_estimate_becomes_wrong_and_then_nothing() -> None:
+    world, body = seen_box()
+    norm = corners_spec().bind(world)
+    norm.start()
+    seen = norm.ground_truth
+    assert seen is not None
+    say(world, norm, *seen)
+    assert norm.log_values[0] == pytest.approx(0.0, abs=1e-4)
+    body.move(0.1, 0.0, -1.05)  # the truth goes on, the estimate does not
+    wait(world, norm, STEPS_PER_SECOND)
+    assert norm.log_values[0] == pytest.approx(2.0 * 0.1 * 257.34083, rel=1e-5)
+    wait(world, norm, 1)
+    assert norm.log_values == (None,) * 9
+    say(world, norm, *seen)
+    assert norm.log_values[0] == pytest.approx(2.0 * 0.1 * 257.34083, rel=1e-5)
+
+
+def test_a_log_has_a_gap_where_the_truth_is_gone() -> None:
+    world, body = seen_box()
+    norm = corners_spec().bind(world)
+    norm.start()
+    seen = norm.ground_truth
+    assert seen is not None
+    say(world, norm, *seen)
+    body.move(0.0, 0.0, 3.0)
+    wait(world, norm, 1)
+    assert norm.log_values == (None,) * 9
+
+
+def test_a_measure_that_starts_again_logs_nothing_of_its_first_time() -> None:
+    world = FakeWorld()
+    norm = norm_of(world, 0.0)
+    norm.start()
+    say(world, norm, 4.0)
+    norm.start()
+    assert norm.log_values == (None, None)
+
+
 def corners_spec(publish_on: str | None = None) -> EuclideanNormSpec:
     truth = CornersFromCameraSpec(camera="cam", target="box", publish_on=publish_on)
     return EuclideanNormSpec(name="corners", ground_truth=truth, target="estimate")

@@ -50,6 +50,24 @@ class Mortal(lockstep.LockStep):
 lockstep.LockStep = Mortal
 run_algorithm.main()
 """
+INTRUDER = f"""
+import sys
+sys.path.insert(0, {str(EXAMPLES)!r})
+import run_algorithm, rospy  # the first finds rospy
+from sensor_msgs.msg import Image
+from std_msgs.msg import String
+
+rospy.init_node("intruder", disable_signals=True)
+image = rospy.Publisher("/uwsim/camera1", Image, queue_size=10)
+tick = rospy.Publisher("/uwsim/lockstep/tick", String, queue_size=10)
+grey = Image(height=240, width=320, encoding="rgb8", step=960, data=bytes([128]) * 230400)
+print("ready", flush=True)
+while not rospy.is_shutdown():
+    image.publish(grey)
+    for text in ("[1]", "no JSON", '{{"client": "outside"}}'):
+        tick.publish(String(data=text))
+    rospy.rostime.wallsleep(0.05)
+"""
 TOTAL = LIMIT
 """Nothing takes longer unless it hangs [s]."""
 
@@ -121,6 +139,27 @@ def test_a_tracker_of_rospy_scores_the_same_rows_also_when_it_dawdles(
     assert outside["rows"] == inside["rows"]
     assert outside["run"]["clients"] == [["outside", "lock-step, ros1, grade (a)"]]
     assert (out / log).read_bytes() == (tmp_path / "inside" / log).read_bytes()
+
+
+def test_another_node_on_a_topic_of_the_simulation_changes_no_row(
+    graph: Peers, tmp_path: Path
+) -> None:
+    benchmark = write_benchmark(tmp_path, "0.5")
+    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", "esm")
+    own = {name: graph.environment[name] for name in ("ROS_MASTER_URI", "ROS_IP", "ROS_LOG_DIR")}
+    with subprocess.Popen(
+        [sys.executable, "-c", INTRUDER], env={**os.environ, **own}, stdout=subprocess.PIPE
+    ) as intruder:
+        try:
+            assert intruder.stdout is not None
+            assert intruder.stdout.readline() == b"ready\n"
+            program = ("uwsim.algorithms:Esm",)
+            outside = scored_outside(graph, benchmark, tmp_path / "outside", program=program)
+        finally:
+            intruder.kill()
+    assert outside["rows"] == inside["rows"]
+    assert {each["by"] for each in outside["refused"]} == {"node /intruder"}
+    assert "/uwsim/camera1" in {each["what"] for each in outside["refused"]}
 
 
 def test_a_controller_of_rospy_scores_the_currents_as_in_process(

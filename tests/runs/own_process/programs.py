@@ -187,6 +187,24 @@ class Dies(Does):
         os._exit(3)
 
 
+class Forks:
+    """Dies; a child of it holds its socket."""
+
+    def start(self, node: Node) -> None:
+        if os.fork():
+            os._exit(3)
+        time.sleep(20.0)
+        os._exit(0)
+
+
+class SendsHalf:
+    """Sends the length of a frame, and the frame never."""
+
+    def start(self, node: Node) -> None:
+        os.write(int(sys.argv[1]), (1000).to_bytes(4, "big"))
+        time.sleep(20.0)
+
+
 class IsKilled(Does):
     def act(self) -> None:
         os.kill(os.getpid(), signal.SIGKILL)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -217,6 +218,24 @@ def test_a_request_that_takes_too_long_ends_the_process() -> None:
         until(lambda: not is_there(process.pid))
         with pytest.raises(Stopped, match=r"its process ended \(killed by SIGKILL\)"):
             process.request(["parameters", {}], lambda asked: 0)
+
+
+@pytest.mark.parametrize(
+    ("algorithm", "limit", "why"),
+    [
+        (programs.Forks, None, r"its process ended \(with exit status 3\)"),
+        (programs.Forks, 15.0, r"its process ended \(with exit status 3\)"),
+        (programs.SendsHalf, 5.0, "a callback took longer than --callback-limit"),
+    ],
+)
+def test_a_process_that_leaves_its_socket_open_is_not_waited_for(
+    algorithm: type, limit: float | None, why: str
+) -> None:
+    with OwnProcess(limit) as process:
+        remote, began = ProcessAlgorithm(process, algorithm), time.monotonic()
+        with pytest.raises(Stopped, match=why):
+            remote.start(node_of(Bus()))
+        assert time.monotonic() - began < 14.0
 
 
 @pytest.mark.slow

@@ -201,6 +201,13 @@ WRONG = {
         "5e4 8 8 0.5",
         "which stops it within a step",
     ),
+    "friction of a placeholder": (
+        "friction",
+        "robot",
+        '<limit lower="-1" upper="1"/>',
+        '<limit lower="-1" upper="1" effort="10"/> <dynamics friction="1e7"/>',
+        "the dry friction of its joint 'grip' (1e+07 of 10) is more than its effort",
+    ),
     "in the air": (
         "start",
         "scene",

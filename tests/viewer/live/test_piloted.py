@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import uwsim
+from tests.support.opened import open_scene
 from tests.viewer.live.desk import Desk
 from uwsim.algorithms.pilot import AXES, TWIST_AXES, Pilot
 from uwsim.runs.trial.pilot_inputs import PilotInputs
@@ -34,12 +35,12 @@ Opened = Callable[[str], Simulation]
 def opened(tmp_path: Path) -> Opened:
     """Opens a scene of two vehicles with these interfaces."""
 
-    def open_scene(interfaces: str) -> Simulation:
+    def open_two(interfaces: str) -> Simulation:
         path = tmp_path / "two.xml"
         path.write_text(SCENE.replace("INTERFACES", interfaces))
         return open_scene(read_scene(path), is_blind=True)
 
-    return open_scene
+    return open_two
 
 
 def test_the_second_vehicle_is_piloted_where_the_first_cannot_be_steered(opened: Opened) -> None:

@@ -21,7 +21,6 @@ from collada.common import DaeBrokenRefError, DaeError
 from collada.geometry import Geometry
 from collada.material import DaeMissingSampler2D, Effect, Map, Material
 from collada.scene import GeometryNode, Node
-from PIL import Image
 
 from ...base.numerics.linear import product
 from ...errors import AssetError
@@ -290,9 +289,9 @@ def _look(effect: Effect, references: References) -> Any:
     if isinstance(effect.diffuse, Map):
         try:
             name = effect.diffuse.sampler.surface.image.path
-            image = Image.open(io.BytesIO(references.get(name)))
-        except Exception:  # without the image; what was refused is kept in the references
-            image = None
+        except Exception:  # pycollada has no image there
+            name = None
+        image = None if name is None else references.image(name)
     elif effect.diffuse is not None:
         colour = np.asarray(effect.diffuse, dtype=np.float64)
     materials: Any = trimesh.visual.material

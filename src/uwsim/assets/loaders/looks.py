@@ -35,10 +35,17 @@ def check_size(data: bytes, name: object) -> None:
             pass
     except Image.DecompressionBombError as error:
         raise AssetError(
-            f"{name}: an image of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are read."
+            f"{name}: an image of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are read"
         ) from error
     except Exception:  # no image, or a broken one: whoever wants one says so
         pass
+
+
+def opened(data: bytes) -> Any:
+    """Return an image that is decoded later, with what Pillow raises if it is none."""
+    from PIL import Image
+
+    return Image.open(io.BytesIO(data))
 
 
 def is_broken(path: Path, *, is_decoded: bool) -> bool:

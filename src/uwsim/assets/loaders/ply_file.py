@@ -6,7 +6,7 @@ write them: a list ``texcoord`` of each face, or two properties of each vertex.
 
 from __future__ import annotations
 
-import io
+import abc
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any, Literal
@@ -14,7 +14,6 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 import trimesh
-from PIL import Image
 
 from .polygons import cut
 from .references import References
@@ -105,7 +104,7 @@ def read_parts(
             process=False,
         )
         name = images[number] if 0 <= number < len(images) else None
-        picture = None if name is None or uvs is None else _picture(name, references)
+        picture = None if name is None or uvs is None else references.image(name)
         if picture is not None and uvs is not None:
             material = visuals.material.PBRMaterial(baseColorTexture=picture)
             mesh.visual = visuals.TextureVisuals(uv=uvs[chosen], material=material)
@@ -143,13 +142,6 @@ def _uvs(vertices: Columns, faces: Columns, corners: Array, counts: Array) -> Ar
         if set(names) <= vertices.keys():
             return np.stack([_numbers(vertices[name])[corners] for name in names], axis=-1)
     return None
-
-
-def _picture(name: str, references: References) -> Image.Image | None:
-    try:
-        return Image.open(io.BytesIO(references.get(name)))
-    except Exception:  # without the image; what was refused is kept in the references
-        return None
 
 
 def _colours(columns: Columns, rows: Array) -> npt.NDArray[np.uint8] | None:
@@ -202,19 +194,19 @@ def _lines(data: bytes) -> Iterator[tuple[str, int]]:
         at = end + 1
 
 
-class _Body:
+class _Body(abc.ABC):
     """What stands behind the header; its places count bytes, or the numbers of a text."""
 
     start: int
     end: int
 
+    @abc.abstractmethod
     def size(self, kind: str) -> int:
         """Return how many places a number takes."""
-        raise NotImplementedError
 
+    @abc.abstractmethod
     def at(self, places: Array, kind: str) -> Array:
         """Return the numbers at places."""
-        raise NotImplementedError
 
     def length_at(self, place: int, kind: str) -> int:
         """Return the length of the list that stands at a place; ValueError if it is none."""

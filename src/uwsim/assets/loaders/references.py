@@ -11,11 +11,12 @@ import os
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path, PurePosixPath
+from typing import Any
 from urllib.parse import unquote
 
 from ...base.files.input_files import is_inside
 from ...errors import AssetError
-from .looks import is_broken
+from .looks import is_broken, opened
 
 NO_IMAGES = (".mtl", ".bin", ".glb", ".gltf", ".obj")
 """Files that a mesh file names and that are no images."""
@@ -60,6 +61,13 @@ class References:
             raise
 
     __getitem__ = get
+
+    def image(self, name: str) -> Any:
+        """Return an image that is not decoded yet; None without it, which `check` may report."""
+        try:
+            return opened(self.get(name))
+        except Exception:  # Pillow raises whatever its readers raise
+            return None
 
     def check(self) -> None:
         """Raise the first error, if any file was refused."""

@@ -113,6 +113,9 @@ class EuclideanNorm(Measure):
     messages were no estimates; ``frames``, over how many :math:`t_k` the statistics are;
     ``answered``, the share of these by which a new estimate had arrived since the one before.
 
+    The log has the norm at the newest image, or at the newest estimate if that came later, and
+    nothing from 1 s after the last estimate on.
+
     Compatibility ``last-norm`` keeps the last norm, however old it is, as the original does,
     and reads estimates that come after it went off; where its log has no new estimate, the
     components are 0.
@@ -132,7 +135,7 @@ class EuclideanNorm(Measure):
         self._frames = Signal(truth.components)
         self._n_images: int | None = None  # of the truth's camera, at the last look
         self._last: Sample | None = None  # of the newest estimate with a truth, as it arrived
-        self._shown: Sample | None = None  # of the newest estimate; None where it has no truth
+        self._newest: Sample | None = None  # at the newest image or estimate; None without a truth
         self._without: dict[str, int] = {}  # images that have no truth, by the reason
         self._n = self._n_refused = self._n_answered = 0
         self._estimate: Array | None = None  # in force (k,)
@@ -150,7 +153,7 @@ class EuclideanNorm(Measure):
     def start(self) -> None:
         """Discard old estimates and send the truth to ``publishOn`` where the file says so."""
         self._inbox.clear()
-        self._estimate, self._is_answered = None, False
+        self._estimate, self._newest, self._is_answered = None, None, False
         self._unanswered.clear()
         self._waits_since = self._world.step
         self._n_images = self._truth.n_images
@@ -221,9 +224,12 @@ class EuclideanNorm(Measure):
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The newest estimate's, as it arrived; none where there was no truth."""
-        shown = self._last if self._last_norm_stands else self._shown
-        if shown is None:
+        """At the newest image, or estimate; none without a truth, or 1 s after the last estimate.
+
+        With the compatibility ``last-norm`` the newest estimate's, however old it is.
+        """
+        shown = self._last if self._last_norm_stands else self._newest
+        if shown is None or (not self._last_norm_stands and self._silence_now > PATIENCE):
             return (None,) * (1 + len(self._truth.components))
         norm, components = shown
         if self._last_norm_stands and not self._is_new:
@@ -269,6 +275,12 @@ class EuclideanNorm(Measure):
         return self._silence[0] * self._world.timestep
 
     @property
+    def _silence_now(self) -> float:
+        """Time since the last estimate, or since the start [s]."""
+        since = self._world.step if self._waits_since is None else self._waits_since
+        return (self._world.step - since) * self._world.timestep
+
+    @property
     def ground_truth(self) -> Array | None:
         """The truth now."""
         return self._truth.read()
@@ -296,8 +308,8 @@ class EuclideanNorm(Measure):
         self._waits_since = self._world.step
         truth = self._truth.read()
         self._refused = "" if truth is not None else f"no truth: {self._truth.missing}"
-        self._shown = None if truth is None else compared(truth, good[-1])
-        self._last = self._shown or self._last
+        self._newest = None if truth is None else compared(truth, good[-1])
+        self._last = self._newest or self._last
         for before in self._unanswered:
             self._frames.add(*compared(before, good[-1]))
         self._unanswered.clear()
@@ -329,13 +341,15 @@ class EuclideanNorm(Measure):
         if truth is None:
             why = self._truth.missing
             self._without[why] = self._without.get(why, 0) + 1
+            self._newest = None
             return
         self._n_answered += self._is_answered
         self._is_answered = False
         if self._estimate is None:
             self._unanswered.append(truth)
         else:
-            self._frames.add(*compared(truth, self._estimate))
+            self._newest = compared(truth, self._estimate)
+            self._frames.add(*self._newest)
 
     def _publish(self, service: str) -> None:
         truth = self._truth.read()

@@ -1,4 +1,4 @@
-r"""Velocities and accelerations of a vehicle that is placed by commands, not simulated.
+r"""Velocities and accelerations of a vehicle that is placed, by commands or by a recording.
 
 Its commands move it in jumps (`jumps`), each made evenly over a time T:
 
@@ -12,6 +12,9 @@ and add up.
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from typing import Literal
+
 import mujoco
 import numpy as np
 
@@ -19,6 +22,9 @@ from ...base.geometry import Array
 from ...world import BodyMotion
 from .jumps import JumpTimes
 from .link_motion import LinkMotion
+
+Source = Literal["base", "joints"]
+"""What commands move."""
 
 
 class PlacedMotion:
@@ -54,13 +60,18 @@ class PlacedMotion:
         self._joints = _Jumps(len(moving), timestep)
         self._speeds, self._rates = np.zeros(model.nv), np.zeros(model.nv)
 
-    def record(self, step: int) -> None:
-        """Record where a command has put it."""
+    def record(self, step: int, starts: Collection[Source] = ()) -> None:
+        """Record where it was put; what ``starts`` has not come there, its motion begins there."""
         change = self._change()
-        if change[:6].any():
-            self._base.add(step, change[:6])
-        if change[6:].any():
-            self._joints.add(step, change[6:])
+        sources: tuple[tuple[Source, _Jumps, Array], ...] = (
+            ("base", self._base, change[:6]),
+            ("joints", self._joints, change[6:]),
+        )
+        for source, jumps, part in sources:
+            if source in starts:
+                jumps.begin(step)
+            elif part.any():
+                jumps.add(step, part)
 
     def record_drift(self, step: int) -> None:
         """Record where the water has carried it."""
@@ -71,6 +82,10 @@ class PlacedMotion:
         self._change()
         for jumps in (self._base, self._joints, self._drift):
             jumps.clear()
+
+    def twist(self, step: int) -> Array:
+        """Return the velocity of its base in W, and its turning in its own axes, (6,)."""
+        return self._base.speed(step) + self._drift.speed(step)
 
     def of(self, link: str, point: Array, step: int) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on a link."""
@@ -104,6 +119,11 @@ class _Jumps:
         """Forget the last jump."""
         self._speed, self._before = np.zeros_like(self._speed), np.zeros_like(self._before)
         self._times.forget()
+
+    def begin(self, step: int) -> None:
+        """Be at rest from this step on; the next jump counts from it."""
+        self.clear()
+        self._times.add(step)
 
     def add(self, step: int, change: Array) -> None:
         """Record a jump; several in one step are one."""

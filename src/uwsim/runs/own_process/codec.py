@@ -65,7 +65,9 @@ def decode(frame: bytes) -> Any:
         (n,) = _LENGTH.unpack_from(frame)
         start = _LENGTH.size + n
         value, end = _Reader(frame, start).value(_VALUE(frame[_LENGTH.size : start].decode()))
-    except (ValueError, TypeError, KeyError, IndexError, RecursionError, struct.error) as error:
+    except struct.error:
+        raise FrameError(f"{len(frame)} bytes, which end too early") from None
+    except (ValueError, TypeError, KeyError, IndexError, RecursionError) as error:
         raise FrameError(f"{type(error).__name__}: {error}") from error
     if end != len(frame):
         raise FrameError(f"{len(frame) - end} bytes too many")

@@ -8,10 +8,12 @@ simulation time does not move: the rows are the same.
 
 from __future__ import annotations
 
+import math
 import os
 import select
 import signal
 import socket
+import struct
 import subprocess
 import sys
 import time
@@ -60,6 +62,11 @@ class OwnProcess:
                     "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
                 },
             )
+        if limit is not None:
+            # no single read or write of a frame takes longer: seconds and microseconds
+            most = struct.pack("ll", int(limit), int(limit % 1.0 * 1e6) or 1)
+            ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, most)
+            ours.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, most)
         self._pipe = Connection(ours.detach())
         self._limit = limit
         self._ready = select.poll()
@@ -119,15 +126,16 @@ class OwnProcess:
         """Wait for a frame, which comes ``waited`` after the request; returns when it came [s].
 
         Raises:
-            Stopped: it did not come within the limit.
+            Stopped: it did not come within the limit, or its process has ended.
         """
-        if self._limit is None:
-            return 0.0
-        glance = min(GLANCE, self._limit / 4)
-        while waited <= self._limit:
+        limit = math.inf if self._limit is None else self._limit
+        glance = min(GLANCE, limit / 4)
+        while waited <= limit:
             began = time.monotonic()
             if self._ready.poll(max(1.0, 1000.0 * glance)):
                 return waited + time.monotonic() - began
+            if self._process.poll() is not None and not self._ready.poll(0):
+                raise self._ended()  # though a child of it may hold the socket
             # of a time in which this process itself was stopped only so much counts
             waited += min(time.monotonic() - began, 2 * glance)
         self._process.kill()
@@ -144,6 +152,9 @@ class OwnProcess:
             frame: object = decode(self._pipe.recv_bytes(MAX_FRAME))
         except FrameError as error:
             raise Stopped(f"its process sent bytes that are no frame: {error}") from None
+        except BlockingIOError:  # half a frame
+            self._process.kill()
+            raise Stopped(TOO_LONG) from None
         except (EOFError, OSError):
             raise self._ended() from None
         match frame:

@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from typing import Literal
 
 VehicleWarning = Literal[
-    "balance", "bottom", "buoyancy", "drag", "inertia", "passable", "places", "size", "start",
-    "strength", "thrust",
+    "balance", "bottom", "buoyancy", "drag", "friction", "inertia", "passable", "places", "size",
+    "start", "strength", "thrust",
 ]  # fmt: skip
 """Warnings about a vehicle."""
 ObjectWarning = Literal["buoyancy", "places", "start"]
@@ -24,6 +24,7 @@ PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "buoyancy": "What it displaces is far from its mass, or more than its shape has room for; "
     "of an object, more than twice its box.",
     "drag": "A link has more drag than its mass bears in one step, or drag and no mass at all.",
+    "friction": "The dry friction of a joint is more than its effort: no servo moves it.",
     "inertia": "The inertia of a link is missing, or far from that of its mass and size.",
     "passable": "Simulated vehicles pass through it, or it through everything.",
     "places": "A thruster or the centre of mass or buoyancy lies far off the hull, or the centre "

@@ -222,6 +222,22 @@ def drag_said(one: Candidate) -> str:
     return "; ".join(messages[:3])
 
 
+def friction_said(one: Candidate) -> str:
+    """Warn of joints that their servos cannot move."""
+    held = [
+        f"{joint.name!r} ({joint.friction:.3g} of {joint.effort:.3g})"
+        for joint in one.robot.movable
+        if 0.0 < joint.effort <= joint.friction
+    ]
+    if not held:
+        return ""
+    more = f" and {len(held) - 3} more" if len(held) > 3 else ""
+    return (
+        f"the dry friction of its joint {', '.join(held[:3])}{more} is more than its effort: no "
+        'servo moves it; expected less (<dynamics friction="..."> of the URDF, N m or N)'
+    )
+
+
 def _links(one: Candidate) -> Iterator[tuple[LinkSpec, float, BodyHydrodynamics | None]]:
     for link in one.robot.links:
         body = one.dynamics.body(link.name)
@@ -239,5 +255,6 @@ OF_SIMULATED: Mapping[VehicleWarning, Callable[[Candidate], str]] = {
     "strength": strength_said,
     "inertia": inertia_said,
     "drag": drag_said,
+    "friction": friction_said,
 }
 """Checks of a simulated vehicle."""
