@@ -82,6 +82,19 @@ def test_recorded_commands_drive_the_vehicle_as_they_did(dive: Path, tmp_path: P
     assert np.array_equal(poses(dive, topic), poses(out, topic))
 
 
+@pytest.mark.slow
+def test_the_scene_of_a_recording_is_that_of_its_seed(tmp_path: Path) -> None:
+    topic, dive, out = "/truth/odometry", tmp_path / "dive.mcap", tmp_path / "out.mcap"
+    common = ["--images", "none", "--record"]
+    assert main(["run", "grasp-scene", "--seed", "5", "--for", "0.5s", *common, str(dive)]) == 0
+    command = ["play", str(dive), "grasp-scene", "--commands", *common, str(out)]
+    assert main([*command, "--seed", "5"]) == 0
+    assert np.array_equal(poses(dive, topic), poses(out, topic))
+    out.unlink()
+    assert main(command) == 0
+    assert not np.array_equal(poses(dive, topic), poses(out, topic)), "it begins elsewhere"
+
+
 def test_a_recording_that_is_not_there_is_one_clean_line(
     capfd: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

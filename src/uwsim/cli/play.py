@@ -16,7 +16,7 @@ from ..runs.stand_ins import warn_of_stand_ins
 from .options.connections import ConnectionOptions, connected
 from .options.help_texts import INPUT, in_group
 from .options.options import DataPathOption, NoCodeOption, SettingOptions
-from .options.run_options import ProgramOptions, RecordOptions
+from .options.run_options import ProgramOptions, RecordOptions, SeedOption
 from .render import scene_of
 from .run import run_and_report, settings_of_scene, wanted_of
 
@@ -50,6 +50,7 @@ def play(
     what: ProgramOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
+    seed: SeedOption = 0,
     output: RecordOptions,
     no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
@@ -80,7 +81,7 @@ def play(
     wrong.check()
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
-    model = compile_scene(spec, data_path=folders)
+    model = compile_scene(spec, seed=seed, data_path=folders)
     with BagReader(recording) as reader, Simulation(model) as simulation:
         print_warnings(simulation.world.warnings)
         for topic, type_name in reader.left_out.items():

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 from ..base.interrupts import raise_from_now_on
 from ..base.read_parameters import unread_note
@@ -22,10 +22,9 @@ from ..runs.program import load_program
 from ..runs.stand_ins import warn_of_stand_ins
 from .exit_status import running
 from .options.connections import ConnectionOptions, connected
-from .options.help_texts import RUN, in_group
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
-from .options.run_options import ProgramOptions, RecordOptions
+from .options.run_options import ProgramOptions, RecordOptions, SeedOption
 from .output.progress import progress
 from .output.topic_table import print_json, print_topics
 from .render import scene_of
@@ -50,9 +49,7 @@ def run(
     changes: SettingOptions,
     connections: ConnectionOptions,
     live: LiveOptions,
-    seed: Annotated[
-        int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
-    ] = 0,
+    seed: SeedOption = 0,
     output: RecordOptions,
     no_code: NoCodeOption = False,
     data_path: DataPathOption = None,

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Annotated
 
 from .completion import algorithm_names, one_of
-from .help_texts import INPUT, OUTPUT, in_group
+from .help_texts import INPUT, OUTPUT, RUN, in_group
 from .options import JsonOption
 
 
@@ -48,6 +48,10 @@ class ProgramOptions:
         ),
     ] = None
 
+
+SeedOption = Annotated[
+    int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
+]
 
 ImagesOption = Annotated[
     str,
