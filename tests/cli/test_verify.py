@@ -239,6 +239,30 @@ def test_where_no_result_is_the_error_says_what_is_there_and_how_to_go_on(
     )
 
 
+@pytest.mark.parametrize("there", [0, 2])
+def test_a_row_too_many_or_too_few_is_a_difference(
+    folder: Path, capsys: pytest.CaptureFixture[str], there: int
+) -> None:
+    change(folder, lambda lines: lines.__setitem__(slice(1, -1), lines[1:-1] * there))
+    status, said = verify(capsys)
+    assert status == 3
+    assert f"trial 1 (seed 3): {there} rows; expected 1, one for each level of the trial" in said
+
+
+def test_of_result_json_alone_a_row_too_many_is_a_difference(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for name in ("units", "pictures"):
+        shutil.rmtree(folder / "out" / name)
+    path = folder / "out" / "result.json"
+    document = json.loads(path.read_text())
+    document["rows"].append(document["rows"][-1])
+    path.write_text(json.dumps(document))
+    status, said = verify(capsys)
+    assert status == 3
+    assert "result.json: 3 rows; expected 2, one for each level" in said
+
+
 def test_result_json_alone_can_be_verified_by_its_rows(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -52,6 +52,16 @@ def test_a_row_that_differs_when_played_again_stops_the_run(tmp_path: Path) -> N
     assert read(tmp_path, 0, HEAD).rows == (row,)
 
 
+@pytest.mark.parametrize("line", [1, -1])
+def test_what_is_behind_the_end_of_a_trial_is_refused(tmp_path: Path, line: int) -> None:
+    play(tmp_path, [stored_row()])
+    path = path_of(tmp_path, 0)
+    lines = path.read_text().splitlines()
+    path.write_text("".join(f"{each}\n" for each in [*lines, lines[line]]))
+    with pytest.raises(ResultError, match=r"00000\.jsonl:4: it is behind the end of its trial"):
+        read(tmp_path, 0, HEAD)
+
+
 def test_rows_of_another_run_are_refused(tmp_path: Path) -> None:
     play(tmp_path, [stored_row()])
     with pytest.raises(ResultError, match="another run"):

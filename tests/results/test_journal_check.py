@@ -65,6 +65,14 @@ def test_rows_that_say_what_their_units_have_stored_are_believed(tmp_path: Path)
     assert checked(written(tmp_path)) is None
 
 
+def test_a_level_that_is_there_twice_is_refused(tmp_path: Path) -> None:
+    path = written(tmp_path) / "units" / "00001.jsonl"
+    lines = path.read_text().splitlines()
+    path.write_text("".join(f"{each}\n" for each in [*lines[:2], *lines[1:]]))
+    with pytest.raises(ResultError, match=r"00001\.jsonl: level 0\.0 of seed 1 is there twice"):
+        checked(tmp_path)
+
+
 @pytest.mark.parametrize(
     ("before", "after", "said"),
     [

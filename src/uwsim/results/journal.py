@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -99,6 +100,26 @@ def read(directory: Path, index: int, head: Record, seal: Seal | None = None) ->
     return stored
 
 
+def level_difference(stored: Stored, levels: Sequence[Sequence[float]]) -> str | None:
+    """Return where the rows of a trial are not its levels, in their order; None if they are.
+
+    Args:
+        stored: its journal; one that is not finished may have fewer rows.
+        levels: its levels, the values of each.
+    """
+    rows = [list(row.values) for row in stored.rows]
+    for number, (there, level) in enumerate(zip(rows, map(list, levels), strict=False)):
+        if there != level:
+            return f"row {number} is of the level {_values(there)}; expected {_values(level)}"
+    if len(rows) > len(levels) or (stored.end is not None and len(rows) < len(levels)):
+        return f"{len(rows)} rows; expected {len(levels)}, one for each level of the trial"
+    return None
+
+
+def _values(level: Sequence[float]) -> str:
+    return ", ".join(map(repr, level)) or "None"
+
+
 def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, Stored]:
     """Read a journal of any run: its head and its content, up to what is sealed.
 
@@ -122,6 +143,8 @@ def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, Store
             break  # the disk was full, or the machine went down
         except ResultError as error:
             raise ResultError(f"{path}:{number}: {error}") from None
+        if found["end"]:
+            raise ResultError(f"{path}:{number}: it is behind the end of its trial; expected none.")
         found[kind].append(record[kind])
     if not found["unit"]:
         return None, NOTHING

@@ -87,7 +87,7 @@ def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
 
 
 def read_journals(directory: Path) -> Journals:
-    """Read the journals of all trials, in their order."""
+    """Read the journals of all trials, in their order; ResultError if a level is there twice."""
     rows: dict[Key, tuple[StoredRow, float]] = {}
     ended: list[Key] = []
     elapsed: dict[Cell, float] = {}
@@ -99,6 +99,9 @@ def read_journals(directory: Path) -> Journals:
         for row in stored.rows:
             elapsed[seed] = elapsed.get(seed, 0.0) + row.duration
             key = (seed, *row.values)
+            if key in rows and seed is not None:
+                level = ", ".join(map(str, row.values))
+                raise ResultError(f"{path}: level {level} of seed {seed} is there twice.")
             rows[key] = row, elapsed[seed]
             if stored.end is not None:
                 ended.append(key)

@@ -145,7 +145,7 @@ def _logs(
 
 
 def _streams(trial: Trial, end: StoredEnd) -> list[ImageStream]:
-    level = tuple(value for _, value in trial.levels[0].values) if trial.is_alone else None
+    level = trial.values[0] if trial.is_alone else None
     return [
         ImageStream(seed=trial.seed, level=level, topic=topic, frames=frames, sha256=sha256)
         for topic, frames, sha256 in end.streams

@@ -161,10 +161,20 @@ class Run:
         return result
 
     def stored(self, trial: Trial) -> journal.Stored:
-        """Return the stored rows of a trial; raises ResultError if they are of another run."""
-        if not journal.path_of(self.out, trial.index).exists():
+        """Return the stored rows of a trial.
+
+        Raises:
+            ResultError: they are of another run, or not of the levels of the trial.
+        """
+        path = journal.path_of(self.out, trial.index)
+        if not path.exists():
             return journal.NOTHING
-        return journal.read(self.out, trial.index, self.head(trial), self.seal)
+        found = journal.read(self.out, trial.index, self.head(trial), self.seal)
+        if message := journal.level_difference(found, trial.values):
+            raise ResultError(
+                f"{path}: {message}. Remove this file: --resume then runs its trial again."
+            )
+        return found
 
 
 def _has_motion(out: Path, trial: Trial) -> bool:

@@ -247,9 +247,10 @@ def _check_trial(found: Verification, directory: Path, again: Run, trial: Trial)
     )
     name = f"trial {trial.index} (seed {trial.seed})"
     before = len(found.differences)
-    for n, level in enumerate(trial.levels):
-        rows = [each.rows[n].record() if n < len(each.rows) else {} for each in (stored, replayed)]
-        for message in differences.of_row(*rows):
+    if message := journal.level_difference(stored, trial.values):
+        found.add(name, message)
+    for level, *rows in zip(trial.levels, stored.rows, replayed.rows, strict=False):
+        for message in differences.of_row(*(row.record() for row in rows)):
             found.add(f"{name}, level {level}", message)
     for message in differences.of_end(*(_end(each) for each in (stored, replayed))):
         found.add(name, message)
@@ -273,6 +274,10 @@ def _check_rows(found: Verification, result: Result, again: Run) -> None:
     made = again.write()
     expected = _rows_by_level(result, again.plan)
     names = {column.name for column in result.columns}
+    known = {key for trial in again.plan.trials() for key in _keys(trial, again.plan)}
+    if len(result.rows) > len(known & expected.keys()):
+        n = len(known & expected.keys())
+        found.add("result.json", f"{len(result.rows)} rows; expected {n}, one for each level")
     for key, row in _rows_by_level(made, again.plan).items():
         for column, cell in zip(made.columns, made.rows[row], strict=True):
             if column.name == "ended_at" and len(made.rows) < len(result.rows):

@@ -14,7 +14,7 @@ import pytest
 
 from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from tests.support.stored_rows import stored_end, stored_row
-from uwsim.errors import NeverStarted, RunFailed
+from uwsim.errors import NeverStarted, ResultError, RunFailed
 from uwsim.results.journal import Journal
 from uwsim.results.result_file import load
 from uwsim.runs.executors import executor
@@ -155,14 +155,39 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     [trial] = bench.plan.trials()
     file = Journal(bench.out, trial.index, bench.head(trial))
     broken = stored_row(missing={"total": f"esm was stopped at 0.3 s: {why}"})
-    for row in (stored_row(), broken, broken):
-        file.add(replace(row, ended_at=2.0, fingerprint=""))
+    for row, values in zip((stored_row(), broken, broken), trial.values, strict=True):
+        file.add(replace(row, values=values, ended_at=2.0, fingerprint=""))
     if is_finished:
         file.finish(stored_end(trace={}))
     file.close()
     bench.begin()
     assert bench.n_rows(trial) == n_left
     assert (bench.unfinished() == []) == (n_left == 3)
+
+
+@pytest.mark.parametrize(
+    ("order", "message"),
+    [
+        ((0, 2), "row 1 is of the level 1.0; expected 0.5"),
+        ((0, 0, 1, 2), "row 1 is of the level 0.0; expected 0.5"),
+        ((1, 0, 2), "row 0 is of the level 0.5; expected 0.0"),
+        ((0, 1), "2 rows; expected 3, one for each level of the trial"),
+        ((0, 1, 2, 2), "4 rows; expected 3, one for each level of the trial"),
+    ],
+)
+def test_resume_refuses_a_trial_whose_rows_are_not_its_levels(
+    benchmark: Path, tmp_path: Path, order: tuple[int, ...], message: str
+) -> None:
+    bench = bench_of(benchmark, tmp_path / "out")
+    [trial] = bench.plan.trials()
+    file = Journal(bench.out, trial.index, bench.head(trial))
+    for number in order:
+        row = stored_row(values=list(trial.values[number]))
+        file.add(replace(row, ended_at=2.0, fingerprint=""))
+    file.finish(stored_end(trace={}))
+    file.close()
+    with pytest.raises(ResultError, match=rf"00000\.jsonl: {message}\. Remove this file: --resume"):
+        bench.begin()
 
 
 @pytest.mark.slow

@@ -15,6 +15,7 @@ from mcap_ros2.decoder import DecoderFactory
 from PIL import Image
 
 from tests.simulation.test_lamp import LAMP, night
+from tests.support.stored_rows import stored_row
 from uwsim.cli import main
 from uwsim.rendering.grey import grey_truncated
 from uwsim.results.journal import recorded_trials, track_path
@@ -77,13 +78,11 @@ def curve(name: str, value: float = 1.0) -> Curve:
 
 
 def test_the_further_columns_of_a_log_are_curves_with_their_units(trial: RecordedTrial) -> None:
-    row = {
-        "status": "ok",
-        "missing": {},
-        "measures": {"success": (1.0, "1")},
-        "logs": {"success": [[0.0, 0.0, 0.1, None], [0.5, 1.0, 0.3, 2.0]]},
-        "log_headers": {"success": ["value", "height [m]", "phase [1]"]},
-    }
+    row = stored_row(
+        measures={"success": (1.0, "1")},
+        logs={"success": [[0.0, 0.0, 0.1, None], [0.5, 1.0, 0.3, 2.0]]},
+        log_headers={"success": ("value", "height [m]", "phase [1]")},
+    )
     level = _level(row, replace(trial.track.levels[0], began=2.0))
     assert [(one.measure, one.unit) for one in level.details] == [
         ("success.height", "m"),

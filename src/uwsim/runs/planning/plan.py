@@ -44,6 +44,11 @@ class Trial:
     """Whether this is one level of an independent benchmark."""
 
     @property
+    def values(self) -> tuple[tuple[float, ...], ...]:
+        """The values of each level, the outermost first."""
+        return tuple(tuple(value for _, value in level.values) for level in self.levels)
+
+    @property
     def stream_prefix(self) -> str:
         """Prefix of the name of every random stream."""
         if not self.is_alone:
