@@ -168,9 +168,9 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
 @pytest.mark.parametrize(
     ("order", "message"),
     [
-        ((0, 2), "row 1 is of the level 1.0; expected 0.5"),
-        ((0, 0, 1, 2), "row 1 is of the level 0.0; expected 0.5"),
-        ((1, 0, 2), "row 0 is of the level 0.5; expected 0.0"),
+        ((0, 2), "row 1 is of the level 0.8; expected 0.4"),
+        ((0, 0, 1, 2), "row 1 is of the level 0.0; expected 0.4"),
+        ((1, 0, 2), "row 0 is of the level 0.4; expected 0.0"),
         ((0, 1), "2 rows; expected 3, one for each level of the trial"),
         ((0, 1, 2, 2), "4 rows; expected 3, one for each level of the trial"),
     ],
