@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.short_benchmark import run, write_benchmark
 from tests.support.short_trial import DATA
+from tests.support.stored_rows import stored_row
 from uwsim.errors import ResultError
 from uwsim.results.log import load_log
 from uwsim.results.motion import TrackLevel
@@ -53,9 +54,10 @@ def test_levels_and_curves_are_those_of_the_result(stored: Path, page: str) -> N
 
 
 def level(began: float, row: dict[str, Any]) -> RecordedLevel:
-    about = {"status": "ok", "missing": {}, **row}
     values = {"fog": began}
-    return _level(about, TrackLevel(values=values, began=began, duration=1.0, status="ok"))
+    return _level(
+        stored_row(**row), TrackLevel(values=values, began=began, duration=1.0, status="ok")
+    )
 
 
 def test_curves_have_the_further_columns_of_a_log_with_names_of_phases_and_ranges() -> None:
