@@ -249,6 +249,16 @@ def test_a_row_too_many_or_too_few_is_a_difference(
     assert f"trial 1 (seed 3): {there} rows; expected 1, one for each level of the trial" in said
 
 
+def test_a_journal_too_many_is_a_difference(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    units = folder / "out" / "units"
+    (units / "00007.jsonl").write_text((units / "00000.jsonl").read_text())
+    status, said = verify(capsys)
+    assert status == 3
+    assert "units/00007.jsonl: this run has no such trial" in said
+
+
 def test_of_result_json_alone_a_row_too_many_is_a_difference(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

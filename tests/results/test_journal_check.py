@@ -65,6 +65,16 @@ def test_rows_that_say_what_their_units_have_stored_are_believed(tmp_path: Path)
     assert checked(written(tmp_path)) is None
 
 
+@pytest.mark.parametrize("n", [1, 5])
+def test_a_row_that_a_result_repeats_is_refused(tmp_path: Path, n: int) -> None:
+    path = written(tmp_path) / "result.json"
+    document = json.loads(path.read_text())
+    document["rows"] += [document["rows"][1]] * n
+    path.write_text(json.dumps(document))
+    with pytest.raises(ResultError, match=rf"seed 0, level 0\.5 is there {n + 1} times"):
+        checked(tmp_path)
+
+
 def test_a_level_that_is_there_twice_is_refused(tmp_path: Path) -> None:
     path = written(tmp_path) / "units" / "00001.jsonl"
     lines = path.read_text().splitlines()

@@ -7,6 +7,7 @@ checked.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -69,6 +70,9 @@ def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
     n_ended = _n_ended(result)
     keys = tuple(_keys(result))
     messages, without = [], 0
+    for (seed, *level), n in Counter(keys).items():
+        if n > 1:
+            messages.append(f"seed {seed}, level {', '.join(map(str, level))} is there {n} times")
     for row, key in enumerate(keys):
         stored = journals.rows.get(key)
         if stored is not None:

@@ -135,6 +135,10 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
         found.add(f"{journal.FOLDER}/{name}", what)
     if gone:
         found.not_compared.append("result.json and the files next to it: units/ is incomplete")
+    expected_names = {journal.path_of(directory, trial.index).name for trial in run.plan.trials()}
+    for path in sorted((directory / journal.FOLDER).glob("*.jsonl")):
+        if path.name not in expected_names:
+            found.add(f"{journal.FOLDER}/{path.name}", "this run has no such trial")
     for trial in run.plan.trials():
         path = journal.path_of(directory, trial.index)
         head, stored = journal.read_any(path)
