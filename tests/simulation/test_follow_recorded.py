@@ -126,6 +126,22 @@ def test_joints_move_what_is_mounted_on_them() -> None:
     assert np.linalg.norm(apart) == pytest.approx(SLEW, rel=1e-3)
 
 
+def test_a_joint_that_is_recorded_as_no_number_stays() -> None:
+    simulation = following()
+    before = simulation.world.vehicle(NAME).joints
+    heard = JointState(
+        header(0.0),
+        ["Slew", "Elbow"],
+        np.array([np.nan, before[2] - 0.1]),
+        np.zeros(0),
+        np.zeros(0),
+    )
+    simulation.bus.publisher("/recorded/joints", JointState)(heard)
+    simulation.advance()
+    expected = before - [0.0, 0.0, 0.1, 0.0, 0.0]
+    assert simulation.world.vehicle(NAME).joints == pytest.approx(expected, abs=1e-4)
+
+
 def test_a_vehicle_that_follows_nothing_keeps_its_own_velocity() -> None:
     simulation = make(INTERFACES, change=lambda vehicle: replace(vehicle, parts=(IMU,)))
     simulation.advance(0.1)

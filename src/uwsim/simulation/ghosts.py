@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
@@ -33,9 +34,10 @@ class Ghost:
             self._pose = self._world_from_localized @ pose
 
     def see_joints(self, message: JointState) -> None:
-        """Take positions of joints; the others stay where they were when the first ones came."""
+        """Take the finite positions of joints; the others stay where they were."""
         before = self._vehicle.joints if self._joints is None else self._joints
-        known = dict(zip(message.name, message.position.tolist(), strict=False))
+        pairs = zip(message.name, message.position.tolist(), strict=False)
+        known = {name: value for name, value in pairs if math.isfinite(value)}
         now = zip(self._vehicle.joint_names, before.tolist(), strict=True)
         self._joints = np.array([known.get(name, value) for name, value in now])
 

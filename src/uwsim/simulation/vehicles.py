@@ -106,8 +106,7 @@ class SceneVehicle:
 
         It is displaced from there from now on.
         """
-        self._centre = self._centre_of(world_from_base)
-        self._come_to(world_from_base)
+        self.lead(world_from_base, None)
 
     def follow(self) -> None:
         """From now on it moves as `lead` says, not as it is simulated: velocities are of that."""
@@ -139,9 +138,7 @@ class SceneVehicle:
 
     def set_joints(self, values: Array) -> None:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
-        self._state.set_joints(self.index, values)
-        if self._placed is not None:
-            self._placed.record(self._step())
+        self.lead(None, values)
 
     def drift(self, world_from_base: Pose) -> None:
         """Set its pose: the water has carried it there; what it is displaced from stays."""
