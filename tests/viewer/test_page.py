@@ -54,9 +54,9 @@ def image(tab: Any, camera: dict[str, Any], water: dict[str, float]) -> npt.NDAr
 def test_curves_at_the_cursor_are_the_rows_of_the_log(replayed: Any, stored: Path) -> None:
     _, trial = journal.read_any(journal.path_of(stored, 0))
     samples = {  # where one level ends and the next one begins, the later one counts
-        round(row["ended_at"] - row["duration"] + sample[0], 6): sample[1]
+        round(row.ended_at - row.duration + sample[0], 6): sample[1]
         for row in trial.rows
-        for sample in row["logs"]["corners"]
+        for sample in row.logs["corners"]
     }
     chosen = random.Random(1).choices(list(samples.items()), k=100)
     script = "times => times.map(t => { uwsim.seek(t); return uwsim.curves().corners })"
