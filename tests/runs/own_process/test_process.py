@@ -220,6 +220,12 @@ def test_a_request_that_takes_too_long_ends_the_process() -> None:
             process.request(["parameters", {}], lambda asked: 0)
 
 
+@pytest.mark.parametrize("limit", [0.75, 1e30, float("inf")])
+def test_a_limit_may_be_as_long_as_one_likes(limit: float) -> None:
+    with OwnProcess(limit) as process:
+        assert is_there(process.pid)
+
+
 @pytest.mark.parametrize(
     ("algorithm", "limit", "why"),
     [

@@ -40,6 +40,8 @@ GLANCE = 1.0
 """The longest time between two looks at the clock [s]."""
 PATIENCE = 10.0
 """How long a process that has closed its socket may take to end [s of wall time]."""
+LONGEST = 1e9
+"""The longest limit that a socket is given; a longer one is none [s]."""
 MODULE = "uwsim.runs.own_process.child"
 
 
@@ -64,7 +66,8 @@ class OwnProcess:
             )
         if limit is not None:
             # no single read or write of a frame takes longer: seconds and microseconds
-            most = struct.pack("ll", int(limit), int(limit % 1.0 * 1e6) or 1)
+            longest = min(limit, LONGEST)
+            most = struct.pack("ll", int(longest), int(longest % 1.0 * 1e6) or 1)
             ours.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, most)
             ours.setsockopt(socket.SOL_SOCKET, socket.SO_SNDTIMEO, most)
         self._pipe = Connection(ours.detach())
