@@ -259,12 +259,17 @@ def test_a_journal_too_many_is_a_difference(
     assert "units/00007.jsonl: this run has no such trial" in said
 
 
+def result_json_alone(folder: Path) -> Path:
+    """Take away what the result is collected from; return its file."""
+    for name in ("units", "pictures"):
+        shutil.rmtree(folder / "out" / name)
+    return folder / "out" / "result.json"
+
+
 def test_of_result_json_alone_a_row_too_many_is_a_difference(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ("units", "pictures"):
-        shutil.rmtree(folder / "out" / name)
-    path = folder / "out" / "result.json"
+    path = result_json_alone(folder)
     document = json.loads(path.read_text())
     document["rows"].append(document["rows"][-1])
     path.write_text(json.dumps(document))
@@ -276,9 +281,7 @@ def test_of_result_json_alone_a_row_too_many_is_a_difference(
 def test_result_json_alone_can_be_verified_by_its_rows(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ("units", "pictures"):
-        shutil.rmtree(folder / "out" / name)
-    path = folder / "out" / "result.json"
+    path = result_json_alone(folder)
     path.write_text(path.read_text().replace('"ok"', '"lost"', 1))
     status, said = verify(capsys)
     assert status == 3

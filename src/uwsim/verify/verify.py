@@ -279,8 +279,8 @@ def _check_rows(found: Verification, result: Result, again: Run) -> None:
     expected = _rows_by_level(result, again.plan)
     names = {column.name for column in result.columns}
     known = {key for trial in again.plan.trials() for key in _keys(trial, again.plan)}
-    if len(result.rows) > len(known & expected.keys()):
-        n = len(known & expected.keys())
+    n = len(known & expected.keys())
+    if len(result.rows) > n:
         found.add("result.json", f"{len(result.rows)} rows; expected {n}, one for each level")
     for key, row in _rows_by_level(made, again.plan).items():
         for column, cell in zip(made.columns, made.rows[row], strict=True):

@@ -224,13 +224,19 @@ def seen_box(**camera: object) -> tuple[FakeWorld, FakeBody]:
     return FakeWorld({"box": body}, {"cam": FakeCamera(**camera)}), body  # type: ignore[arg-type]
 
 
-def test_a_log_shows_how_an_old_estimate_becomes_wrong_and_then_nothing() -> None:
+def started_on_the_box() -> tuple[FakeWorld, FakeBody, EuclideanNorm, np.ndarray]:
+    """`seen_box` with a measure that is on, and an estimate that is the truth."""
     world, body = seen_box()
     norm = corners_spec().bind(world)
     norm.start()
     seen = norm.ground_truth
     assert seen is not None
     say(world, norm, *seen)
+    return world, body, norm, seen
+
+
+def test_a_log_shows_how_an_old_estimate_becomes_wrong_and_then_nothing() -> None:
+    world, body, norm, seen = started_on_the_box()
     assert norm.log_values[0] == pytest.approx(0.0, abs=1e-4)
     body.move(0.1, 0.0, -1.05)  # the truth goes on, the estimate does not
     wait(world, norm, STEPS_PER_SECOND)
@@ -242,12 +248,7 @@ def test_a_log_shows_how_an_old_estimate_becomes_wrong_and_then_nothing() -> Non
 
 
 def test_a_log_has_a_gap_where_the_truth_is_gone() -> None:
-    world, body = seen_box()
-    norm = corners_spec().bind(world)
-    norm.start()
-    seen = norm.ground_truth
-    assert seen is not None
-    say(world, norm, *seen)
+    world, body, norm, _ = started_on_the_box()
     body.move(0.0, 0.0, 3.0)
     wait(world, norm, 1)
     assert norm.log_values == (None,) * 9
@@ -297,12 +298,7 @@ def test_if_nobody_takes_the_truth_that_is_noted_and_no_error() -> None:
 
 
 def test_the_truth_is_that_of_the_step_at_which_the_estimate_arrives() -> None:
-    world, body = seen_box()
-    norm = corners_spec().bind(world)
-    norm.start()
-    seen = norm.ground_truth
-    assert seen is not None
-    say(world, norm, *seen)
+    world, body, norm, seen = started_on_the_box()
     assert norm.value == pytest.approx(0.0, abs=1e-4)
     body.move(0.1, 0.0, -1.05)
     say(world, norm, *seen)

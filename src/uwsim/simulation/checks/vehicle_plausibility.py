@@ -7,7 +7,7 @@ Nothing here is wrong for certain: a lander sinks, a spar buoy is 60 m long. Wha
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -151,9 +151,8 @@ def places_said(one: Candidate) -> str:
     ]
     if not far:
         return ""
-    more = f" and {len(far) - 3} more" if len(far) > 3 else ""
     return (
-        f"far off its hull, which is {size:.3g} m long, lies {', '.join(far[:3])}{more}; expected "
+        f"far off its hull, which is {size:.3g} m long, lies {_shortened(far)}; expected "
         "on it (<position> is in metres, in the frame of the link)"
     )
 
@@ -231,9 +230,8 @@ def friction_said(one: Candidate) -> str:
     ]
     if not held:
         return ""
-    more = f" and {len(held) - 3} more" if len(held) > 3 else ""
     return (
-        f"the dry friction of its joint {', '.join(held[:3])}{more} is more than its effort: no "
+        f"the dry friction of its joint {_shortened(held)} is more than its effort: no "
         'servo moves it; expected less (<dynamics friction="..."> of the URDF, N m or N)'
     )
 
@@ -242,6 +240,12 @@ def _links(one: Candidate) -> Iterator[tuple[LinkSpec, float, BodyHydrodynamics 
     for link in one.robot.links:
         body = one.dynamics.body(link.name)
         yield link, link.mass if body is None or body.mass is None else body.mass, body
+
+
+def _shortened(items: Sequence[str]) -> str:
+    """Return the first three of a list in words, and how many more there are."""
+    more = f" and {len(items) - 3} more" if len(items) > 3 else ""
+    return f"{', '.join(items[:3])}{more}"
 
 
 def _list(values: object) -> str:
