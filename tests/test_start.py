@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import subprocess
 import sys
 from pathlib import Path
@@ -33,6 +34,7 @@ SCENE = """<?xml version="1.0"?>
 </UWSimScene>
 """
 FLOOR = "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3\nf 1 3 4\n"
+PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
 PROGRAM = """
 import sys
 import uwsim
@@ -52,3 +54,28 @@ def test_a_second_start_without_cameras_imports_no_library_that_it_does_not_use(
     subprocess.run(command, capture_output=True, check=True)  # fills the caches
     second = subprocess.run(command, capture_output=True, text=True, check=True)
     assert second.stdout.split() == []
+
+
+def imports_the_engine(module: Path) -> bool:
+    return any(
+        isinstance(node, ast.Import) and any(each.name == "mujoco" for each in node.names)
+        for node in ast.parse(module.read_text()).body
+    )
+
+
+def test_whatever_is_imported_first_the_engine_looks_for_no_windows() -> None:
+    # it does so in a process of its own, which shows a traceback when the run is ended
+    rooms = {module.relative_to(PACKAGE).parts[0] for module in PACKAGE.rglob("*.py")}
+    first = {
+        m.relative_to(PACKAGE).parts[0] for m in PACKAGE.rglob("*.py") if imports_the_engine(m)
+    }
+    assert first == {"physics"}  # whose first line has it imported by base/engine.py
+    packages = sorted(
+        f"uwsim.{room}" for room in rooms if (PACKAGE / room / "__init__.py").exists()
+    )
+    program = "import sys, importlib; importlib.import_module(sys.argv[1])\n"
+    program += "print('glfw' in sys.modules)"
+    for package in [*packages, "uwsim.model.scene_model", "uwsim.base.engine"]:
+        command = [sys.executable, "-c", program, package]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert (package, done.stdout) == (package, "False\n")

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-import mujoco
 import numpy as np
 
+from ..base.engine import mujoco
 from ..base.geometry import Pose, quaternion_from_rotation
 from ..devices.object_picker import ObjectPickerSpec
 from ..scene.hydrodynamics import VehicleHydrodynamics

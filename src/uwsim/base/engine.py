@@ -1,0 +1,13 @@
+"""The physics engine's library, imported so that it starts no process.
+
+To look for the library of its windows, which are not used here, MuJoCo would start one, which shows
+a traceback when the run is ended. Whoever wants them in the same program imports mujoco first.
+"""
+
+from __future__ import annotations
+
+from .environment import environment
+from .interrupts import ignoring_interrupts
+
+with environment({"MUJOCO_GL": "disable"}), ignoring_interrupts():
+    import mujoco as mujoco
