@@ -88,11 +88,11 @@ class Simulation:
         self.world = world = self._make_stage(model)
         """The world of the scene."""
         self._digest = ""  # of the scene; computed when it is needed
-        scene, state = world.scene, world.state
-        placed = [i for i in range(len(scene.vehicles)) if not state.is_simulated(i)]
+        scene, engine = world.scene, world.engine
+        placed = [i for i in range(len(scene.vehicles)) if not engine.is_simulated(i)]
         self._drifting = [world.numbered_vehicle(i) for i in placed]
         self._wet_names = tuple(
-            "" if i is None else scene.vehicles[i].name for i in state.submerged_vehicles()
+            "" if i is None else scene.vehicles[i].name for i in engine.submerged_vehicles()
         )
         self.images = {
             each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
@@ -195,8 +195,8 @@ class Simulation:
             delivery <= now
             or self._watchers
             or world.touch.is_laid
-            or not world.state.is_dynamic
-            or world.state.moves_by_step
+            or not world.engine.is_dynamic
+            or world.engine.moves_by_step
             or not world.water.is_uniform
             or (self._drifting and not world.water.is_still)
         ):
@@ -294,7 +294,7 @@ class Simulation:
             UwsimError: the vehicle is kinematic.
         """
         vehicle = self.world.vehicle(name)
-        if not self.world.state.is_simulated(vehicle.index):
+        if not self.world.engine.is_simulated(vehicle.index):
             raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
         return vehicle.velocity
 
@@ -343,7 +343,7 @@ class Simulation:
     @property
     def motion(self) -> Motion:
         """Positions and velocities of all bodies, as one row of numbers."""
-        return self.world.state.motion
+        return self.world.engine.motion
 
     def _publish(self) -> None:
         bus = self.bus
@@ -373,21 +373,21 @@ class Simulation:
 
     def _step_physics(self, n: int) -> None:
         """Advance the physics by some steps, in the flow of the water at their times."""
-        state, water = self.world.state, self.world.water
-        if not state.is_dynamic:
-            state.fall()
+        engine, water = self.world.engine, self.world.water
+        if not engine.is_dynamic:
+            engine.fall()
             self.world.below_ground.look(self.step)
             return
         first, half = self.step, 0.5 * self.timestep  # forces act in the middle of a step
         motion = None
         if not water.is_still:
             times = [(first + k) * self.timestep - half for k in range(n)]
-            motion = water.during(state.submerged_positions, times, self._wet_names)
-        before = state.n_steps
+            motion = water.during(engine.submerged_positions, times, self._wet_names)
+        before = engine.n_steps
         try:
-            state.step(n, motion)
+            engine.step(n, motion)
         finally:
-            self.bus.step = first + max(0, state.n_steps - before - 1)
+            self.bus.step = first + max(0, engine.n_steps - before - 1)
         self.world.below_ground.look(self.step)
 
     def _animate(self) -> None:

@@ -56,7 +56,7 @@ class SceneStage(SceneWorld):
     """
 
     STATE = (
-        *("_bus", "state", "scenery", "touch", "below_ground", "schedule", "_pending"),
+        *("_bus", "engine", "scenery", "touch", "below_ground", "schedule", "_pending"),
         *("_vehicles", "_sensors", "devices", "interfaces", "network"),
         *("markers", "trajectories", "_faulty_topics"),
     )
@@ -185,7 +185,7 @@ class SceneStage(SceneWorld):
         thing = objects.get(surface)
         if thing is None or self.scene.objects[thing].is_ground:
             return None
-        return thing if self.state.grips.can_hold(thing) else None
+        return thing if self.engine.grips.can_hold(thing) else None
 
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return what returns the UDP packets that have come to a port since its last call."""
@@ -228,7 +228,7 @@ class SceneStage(SceneWorld):
 
     def joints(self, vehicle: str) -> Array:
         """Return the joint vector of a vehicle, (n,) [rad or m]; UnknownName if there is none."""
-        return self.state.joints(self.vehicle(vehicle).index)
+        return self.engine.joints(self.vehicle(vehicle).index)
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
@@ -253,15 +253,15 @@ class SceneStage(SceneWorld):
         if name not in names:
             raise UnknownName("vehicle or object", name, [*self.vehicles, *names])
         index = names.index(name)
-        if not self.state.grips.can_hold(index):
+        if not self.engine.grips.can_hold(index):
             raise UwsimError(
                 f"{name!r} cannot be placed: it is fixed, or a vehicle holds it. Set "
                 f"object[{name}].position when the scene is loaded, or vary it with <u:vary>."
             )
-        mesh_from_object = self.body(name).world_from_body.inverse() @ self.state.poses.object(
+        mesh_from_object = self.body(name).world_from_body.inverse() @ self.engine.poses.object(
             index
         )
-        self.state.grips.place(index, world_from_body @ mesh_from_object)
+        self.engine.grips.place(index, world_from_body @ mesh_from_object)
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""
@@ -269,7 +269,7 @@ class SceneStage(SceneWorld):
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
-        frames = [*vehicle_frames(self.model, self._vehicles, self.state)]
+        frames = [*vehicle_frames(self.model, self._vehicles, self.engine)]
         return [*frames, *object_frames(self.scene, self.body)] if with_objects else frames
 
     def marker_frames(self) -> Sequence[Frame]:

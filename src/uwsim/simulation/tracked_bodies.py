@@ -23,7 +23,7 @@ class TrackedBodies:
     """
 
     def __init__(self, world: SceneWorld) -> None:
-        self._poses = world.state.poses
+        self._poses = world.engine.poses
         self._leaders = {i: leaders(robot) for i, robot in world.robots.items()}
         links = [
             (i, link)

@@ -31,7 +31,7 @@ class SceneVehicle:
     Args:
         index: its number in the scene.
         frames: the vehicle at its pose in the file.
-        state: where its links are.
+        engine: where its links are.
         step: returns how many steps the simulation has taken.
     """
 
@@ -39,9 +39,9 @@ class SceneVehicle:
     """Attributes of its state, for snapshots."""
 
     def __init__(
-        self, index: int, frames: MountFrames, state: Engine, step: Callable[[], int]
+        self, index: int, frames: MountFrames, engine: Engine, step: Callable[[], int]
     ) -> None:
-        self._frames, self._state, self._step = frames, state, step
+        self._frames, self._engine, self._step = frames, engine, step
         self.index = index
         """Its number in the scene."""
         self.name = frames.vehicle.name
@@ -67,7 +67,7 @@ class SceneVehicle:
 
     @property
     def _actuation(self) -> VehicleActuation | None:
-        return self._state.actuation.get(self.index)
+        return self._engine.actuation.get(self.index)
 
     @property
     def thrusters(self) -> tuple[str, ...]:
@@ -81,25 +81,25 @@ class SceneVehicle:
 
     def turn_fins(self, angles: Array) -> None:
         """Let its fins turn to these angles, (n,) [rad]."""
-        self._state.actuation[self.index].turn_fins(angles)
+        self._engine.actuation[self.index].turn_fins(angles)
 
     @property
     def world_from_base(self) -> Pose:
         """Where its base is now."""
-        return self._state.poses.vehicle(self.index)
+        return self._engine.poses.vehicle(self.index)
 
     @property
     def velocity(self) -> Array:
         """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
         if self._placed is None:
-            return self._state.vehicle_velocity(self.index)
+            return self._engine.vehicle_velocity(self.index)
         twist = self._placed.twist(self._step())
         return np.concatenate([turned_back(self.world_from_base.rotation, twist[:3]), twist[3:]])
 
     @property
     def joints(self) -> Array:
         """A copy of its joint vector, (n,) [rad or m]."""
-        return self._state.joints(self.index)
+        return self._engine.joints(self.index)
 
     def place(self, world_from_base: Pose) -> None:
         """Set its pose; a simulated one is at rest there, another has come there from the last.
@@ -111,7 +111,7 @@ class SceneVehicle:
     def follow(self) -> None:
         """From now on it moves as `lead` says, not as it is simulated: velocities are of that."""
         if self._placed is None:
-            self._placed = self._state.placed_motion(self.index)
+            self._placed = self._engine.placed_motion(self.index)
 
     def lead(
         self, world_from_base: Pose | None, joints: Array | None, starts: Collection[Source] = ()
@@ -125,14 +125,14 @@ class SceneVehicle:
         """
         if world_from_base is not None:
             self._centre = self._centre_of(world_from_base)
-            self._state.place_vehicle(self.index, world_from_base)
+            self._engine.place_vehicle(self.index, world_from_base)
         if joints is not None:
-            self._state.set_joints(self.index, joints)
+            self._engine.set_joints(self.index, joints)
         if self._placed is not None:
             self._placed.record(self._step(), starts)
 
     def _come_to(self, world_from_base: Pose) -> None:
-        self._state.place_vehicle(self.index, world_from_base)
+        self._engine.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.record(self._step())
 
@@ -142,7 +142,7 @@ class SceneVehicle:
 
     def drift(self, world_from_base: Pose) -> None:
         """Set its pose: the water has carried it there; what it is displaced from stays."""
-        self._state.place_vehicle(self.index, world_from_base)
+        self._engine.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.record_drift(self._step())
 
@@ -157,7 +157,7 @@ class SceneVehicle:
         self._rest_at(self._displaced_pose())
 
     def _rest_at(self, world_from_base: Pose) -> None:
-        self._state.place_vehicle(self.index, world_from_base)
+        self._engine.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.rest()
 
@@ -197,17 +197,17 @@ class SceneVehicle:
 
         def lose(loss: float) -> None:
             self._losses[number][own] = loss
-            self._state.actuation[self.index].set_loss(number, max(self._losses[number]))
+            self._engine.actuation[self.index].set_loss(number, max(self._losses[number]))
 
         return lose
 
     def hold(self, thing: int, link: str) -> None:
         """Fix an object, by its number, to a link of the vehicle, where it is now."""
-        self._state.grips.hold(thing, self.index, link)
+        self._engine.grips.hold(thing, self.index, link)
 
     def let_go(self, thing: int) -> None:
         """Release an object that is held."""
-        self._state.grips.let_go(thing)
+        self._engine.grips.let_go(thing)
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> SceneBody:
         """Fix something to its link; raises UnknownName if there is no such link."""
@@ -215,19 +215,19 @@ class SceneVehicle:
 
     def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
-        link, state = (self.index, spec.relative_to), self._state
+        link, engine = (self.index, spec.relative_to), self._engine
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
-        contacts = partial(state.contact_wrench, *link)
+        contacts = partial(engine.contact_wrench, *link)
         motion = partial(self._motion, spec.relative_to)
-        if not state.is_simulated(self.index):
+        if not engine.is_simulated(self.index):
             self.follow()
             return MountedBody(name, pose, contacts, lambda point: np.zeros(6), motion)
-        return MountedBody(name, pose, contacts, partial(state.joint_wrench.of, *link), motion)
+        return MountedBody(name, pose, contacts, partial(engine.joint_wrench.of, *link), motion)
 
     def _motion(self, link: str, point: Array) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on a link."""
         if self._placed is None:
-            return self._state.link_motion.of(self.index, link, point)
+            return self._engine.link_motion.of(self.index, link, point)
         return self._placed.of(link, point, self._step())
 
     def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
@@ -238,7 +238,7 @@ class SceneVehicle:
         link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
             spec, visual=visual
         )
-        return partial(self._state.poses.mounted, self.index, link, link_from_part)
+        return partial(self._engine.poses.mounted, self.index, link, link_from_part)
 
 
 def bind_vehicles(

@@ -65,19 +65,19 @@ class SceneWorld:
         self._bus = Bus()
         self.files = dict(model.hydrodynamics_files)
         """Hydrodynamics files of vehicles, and files of currents, by name."""
-        self.state = Engine(model)
+        self.engine = Engine(model)
         """Where everything is, and what moves it."""
         if model.dynamics or scene.has_uwsim_physics:
-            lift_from_ground(model, self.state)
-        self.below_ground = BelowGround(model, self.state)
+            lift_from_ground(model, self.engine)
+        self.below_ground = BelowGround(model, self.engine)
         """Whether a body has passed through the ground."""
-        self._vehicles = bind_vehicles(model, self.state, lambda: self._bus.step)
-        self.scenery = Scenery(model, self.state, pool)
+        self._vehicles = bind_vehicles(model, self.engine, lambda: self._bus.step)
+        self.scenery = Scenery(model, self.engine, pool)
         """The visual side of the scene."""
-        self.rays = SceneRays(model, self.state, self.scenery.heaps)
+        self.rays = SceneRays(model, self.engine, self.scenery.heaps)
         """Ray casting against the scene."""
-        self._bodies = name_bodies(model, self.state)
-        self.touch = Contacts(model, self.state)
+        self._bodies = name_bodies(model, self.engine)
+        self.touch = Contacts(model, self.engine)
         """Contacts between bodies."""
         self.water = water_motion(model, self.stream, runs_code=runs_code)
         """How its water moves."""
@@ -192,7 +192,7 @@ class SceneWorld:
 
     def actuators(self, name: str) -> Actuators | None:
         """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
-        actuation = self.state.actuation.get(self.vehicle(name).index)
+        actuation = self.engine.actuation.get(self.vehicle(name).index)
         return None if actuation is None else actuation.actuators()
 
     def camera(self, name: str) -> VirtualCamera:

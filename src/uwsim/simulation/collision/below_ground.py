@@ -52,17 +52,17 @@ class BelowGround:
 
     Args:
         model: of the scene.
-        state: where everything is.
+        engine: where everything is.
     """
 
     STATE = ("_looked", "_step", "_middles", "_below", "_above")
     """Attributes of its state, for snapshots."""
 
-    def __init__(self, model: SceneModel, state: Engine) -> None:
+    def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._timestep = model.timestep
         self._period = max(1, round(PERIOD / self._timestep))
         self._looked = self._step = 0  # periods that were over at the last look, and its step
-        self._bodies = [*_bodies(model.scene, model.robots, model.shapes, state)]
+        self._bodies = [*_bodies(model.scene, model.robots, model.shapes, engine)]
         self._grounds = model.grounds if self._bodies else ()
         self._start = [body.places() for body in self._bodies]
         self._middles = np.array([places[0] for places in self._start]).reshape(-1, 3)
@@ -132,17 +132,17 @@ def _bodies(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
     shapes: Mapping[str, Sequence[CollisionShape]],
-    state: Engine,
+    engine: Engine,
 ) -> Iterator[_Body]:
     """Simulated vehicles, by their bases, and loose objects."""
     for i, vehicle in enumerate(scene.vehicles):
         name = vehicle_body(i, robots[i].root)
-        if state.is_simulated(i) and name in shapes:
-            yield _body(vehicle.name, partial(state.poses.vehicle, i), shapes[name])
+        if engine.is_simulated(i) and name in shapes:
+            yield _body(vehicle.name, partial(engine.poses.vehicle, i), shapes[name])
     for i, thing in enumerate(scene.objects):
         name = object_body(i)
         if thing.solid.is_loose and name in shapes:
-            yield _body(thing.name, partial(state.poses.object, i), shapes[name])
+            yield _body(thing.name, partial(engine.poses.object, i), shapes[name])
 
 
 def _body(name: str, pose: Callable[[], Pose], shapes: Sequence[CollisionShape]) -> _Body:

@@ -26,14 +26,14 @@ class Contacts:
 
     Args:
         model: of the scene.
-        state: where everything is.
+        engine: where everything is.
     """
 
     STATE = ("_step", "_laid")
     """Attributes of its state, for snapshots."""
 
-    def __init__(self, model: SceneModel, state: Engine) -> None:
-        self._model, self._state = model, state
+    def __init__(self, model: SceneModel, engine: Engine) -> None:
+        self._model, self._engine = model, engine
         self._touching: KinematicContacts | None = None
         self._found: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
         self._step = 0
@@ -79,7 +79,7 @@ class Contacts:
             UwsimError: it cannot be touched.
         """
         kind, index = touchable(name, self._model.scene)
-        contacts = self._state.contacts(kind, index)
+        contacts = self._engine.contacts(kind, index)
         if contacts is None:
             if self._touching is None:
                 self._touching = self._lay()
@@ -98,19 +98,19 @@ class Contacts:
         """
         if name not in self._found:
             self._found[name] = touchable(name, self._model.scene)
-        return self._state.contact_forces(*self._found[name])
+        return self._engine.contact_forces(*self._found[name])
 
     def _lay(self) -> KinematicContacts:
-        scene, state, shapes = self._model.scene, self._state, self._model.all_shapes
+        scene, engine, shapes = self._model.scene, self._engine, self._model.all_shapes
         poses: dict[str, Callable[[], Pose]] = {}
         for body in shapes:
             kind, number, *link = body.split("/")
             poses[body] = (
-                partial(state.poses.link, int(number), "/".join(link))
+                partial(engine.poses.link, int(number), "/".join(link))
                 if kind == "vehicle"
-                else partial(state.poses.object, int(number))
+                else partial(engine.poses.object, int(number))
             )
         names = {f"vehicle/{i}": vehicle.name for i, vehicle in enumerate(scene.vehicles)}
         names |= {f"object/{i}": thing.name for i, thing in enumerate(scene.objects)}
         timestep = self._model.timestep
-        return KinematicContacts(shapes, poses, names, lambda: state.poses.version, timestep)
+        return KinematicContacts(shapes, poses, names, lambda: engine.poses.version, timestep)

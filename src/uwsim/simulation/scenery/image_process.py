@@ -27,7 +27,7 @@ from ..snapshot import packed, put_state, state_of, unpacked
 if TYPE_CHECKING:
     from ..simulation import Simulation
 
-SEEN = ("state", "scenery", "devices", "_sensors", "_vehicles")
+SEEN = ("engine", "scenery", "devices", "_sensors", "_vehicles")
 """What of a world's state images depend on."""
 SPARE = 2**20
 """Room for a state that grows [bytes]."""

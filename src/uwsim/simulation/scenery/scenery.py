@@ -44,16 +44,16 @@ class Scenery:
 
     Args:
         model: of the scene.
-        state: where everything is.
+        engine: where everything is.
         pool: lends the renderer; without one the scenery has a renderer of its own.
     """
 
     STATE = ("water", "light", "heaps")
     """Attributes of its state, for snapshots."""
 
-    def __init__(self, model: SceneModel, state: Engine, pool: RendererPool | None) -> None:
+    def __init__(self, model: SceneModel, engine: Engine, pool: RendererPool | None) -> None:
         scene = model.scene
-        self._state = state
+        self._engine = engine
         self._own_pool = RendererPool()
         self._pool = pool or self._own_pool
         self._renderer: Renderer | None = None
@@ -98,9 +98,9 @@ class Scenery:
         """The present pose of a part, with its scale, (4, 4) [m]."""
         if part.vehicle is None:
             assert part.object is not None
-            frame = self._state.poses.object(part.object).matrix
+            frame = self._engine.poses.object(part.object).matrix
         else:
-            frame = self._state.poses.link_frame(part.vehicle, part.link)
+            frame = self._engine.poses.link_frame(part.vehicle, part.link)
         return product(frame, part.frame_from_mesh)
 
     def corners(self, part: Part) -> Array:
@@ -211,12 +211,12 @@ class Scenery:
         renderer = self._open()
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
-        if self._drawn_version != self._state.poses.version:
+        if self._drawn_version != self._engine.poses.version:
             for part, handle in zip(self.parts, self._handles, strict=True):
                 renderer.place(handle, self.world_from_mesh(part))
             if self.mounted_projector is not None:
                 self._projector = _projecting(*self.mounted_projector)
-            self._drawn_version = self._state.poses.version
+            self._drawn_version = self._engine.poses.version
         self._draw_heaps(renderer)
         shining = [lamp for lamp in self.mounted_lamps if lamp.is_on]
         return renderer.draw(

@@ -44,7 +44,7 @@ RATE = 30.0
 """Rows a second of the wall clock [Hz]."""
 PROMPT = 0.01
 """A row goes out so long after an input has changed, when its vehicle has begun to move [s]."""
-MOVED = ("state", "scenery", "devices", "_vehicles")
+MOVED = ("engine", "scenery", "devices", "_vehicles")
 """What of a world goes back to its beginning at a reset."""
 IMAGE_RATE = 10.0
 """Images a second of the wall clock [Hz]."""
