@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from ..base.record import Record, assign, copied_record
 from ..errors import UwsimError
 from ..version import __version__
 
@@ -141,10 +142,16 @@ def _names(thing: object) -> tuple[str, ...]:
 
 
 def _has_state(value: object) -> bool:
-    return hasattr(type(value), "STATE")
+    return hasattr(type(value), "STATE") or _has_record(value)
+
+
+def _has_record(value: object) -> bool:
+    return isinstance(getattr(value, "state", None), Record)
 
 
 def _saved(value: Any) -> Any:
+    if _has_record(value):
+        return copied_record(value.state)
     if _has_state(value):
         return state_of(value)
     if isinstance(value, np.random.Generator):
@@ -158,7 +165,9 @@ def _saved(value: Any) -> Any:
 
 def _restored(now: Any, then: Any) -> bool:
     """Put a value back into what holds it; False where an attribute must be set instead."""
-    if _has_state(now):
+    if _has_record(now):
+        assign(now.state, then)
+    elif _has_state(now):
         put_state(now, then)
     elif isinstance(now, np.random.Generator):
         now.bit_generator.state = then
@@ -166,13 +175,13 @@ def _restored(now: Any, then: Any) -> bool:
         if set(now) != set(then):
             raise _of_another_scene()
         for key, each in now.items():
-            put_state(each, then[key])
+            _restored(each, then[key])
     elif isinstance(now, (list, tuple)) and any(map(_has_state, now)):
         if len(now) != len(then):
             raise _of_another_scene()
         for each, values in zip(now, then, strict=True):
             if _has_state(each):
-                put_state(each, values)
+                _restored(each, values)
     elif isinstance(now, np.ndarray) and now.flags.writeable and now.shape == np.shape(then):
         now[...] = then
     else:

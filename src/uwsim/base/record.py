@@ -1,0 +1,179 @@
+"""Records: all that changes of a part while a simulation runs.
+
+A part of a running scene keeps what changes in one record, its ``state``, and sets no other
+attribute after it was made. The records lie in each other as the parts do; the outermost is the
+state of a whole simulation. In a running one they hold what runs: arrays that compiled code writes,
+random generators, the engine's memory. `copied` returns a record of values alone, and `assign`
+writes such values back into what runs.
+
+A record is a dataclass with slots. Its fields hold numbers, texts, tuples and frozen dataclasses,
+which are never changed but replaced; arrays, lists, dictionaries and queues of them; generators;
+`Live` parts; and records, alone or in lists and dictionaries.
+"""
+
+from __future__ import annotations
+
+import abc
+import dataclasses
+from collections import deque
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ..errors import UwsimError
+
+R = TypeVar("R", bound="Record")
+
+
+class Record:
+    """The base of all records: ``@dataclass(slots=True) class GpsState(Record)``."""
+
+    __slots__: tuple[str, ...] = ()
+
+
+class Live(abc.ABC):
+    """Something that runs outside Python's objects, and whose values can be read and set."""
+
+    @abc.abstractmethod
+    def value(self) -> object:
+        """Return its present value, which does not change any more."""
+
+    @abc.abstractmethod
+    def set(self, value: object) -> None:
+        """Set the value; raises UwsimError where it is none of this part."""
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Drawn:
+    """How far a random generator has drawn."""
+
+    words: bytes
+    """Its counter, key and buffer, little-endian words of 64 bits."""
+    position: int
+    """How many words of the buffer are drawn."""
+    half: int | None
+    """The half of a word that is left."""
+
+    @staticmethod
+    def by(generator: np.random.Generator) -> Drawn:
+        """Read it from a generator of `uwsim.base.rng.stream`."""
+        state: Any = generator.bit_generator.state
+        words = np.concatenate([state["state"]["counter"], state["state"]["key"], state["buffer"]])
+        half = state["uinteger"] if state["has_uint32"] else None
+        return Drawn(words.tobytes(), state["buffer_pos"], half)
+
+    def set(self, generator: np.random.Generator) -> None:
+        """Let a generator go on from here."""
+        words = np.frombuffer(self.words, np.uint64)
+        generator.bit_generator.state = {
+            "bit_generator": "Philox",
+            "state": {"counter": words[:4], "key": words[4:6]},
+            "buffer": words[6:],
+            "buffer_pos": self.position,
+            "has_uint32": int(self.half is not None),
+            "uinteger": self.half or 0,
+        }
+
+
+def copied(value: Any) -> Any:
+    """Return a value that shares nothing that changes with this one."""
+    copy = _COPIES.get(type(value))
+    if copy is not None:
+        return copy(value)
+    if isinstance(value, Record):
+        return copied_record(value)
+    return value.value() if isinstance(value, Live) else value
+
+
+def copied_record(record: R) -> R:
+    """Return a record of values alone."""
+    copy = object.__new__(type(record))
+    for name in record.__slots__:
+        setattr(copy, name, copied(getattr(record, name)))
+    return copy
+
+
+def _copied_array(value: Any) -> Any:
+    return value.copy() if value.flags.writeable else value
+
+
+_COPIES: dict[type, Callable[[Any], Any]] = {
+    np.ndarray: _copied_array,
+    np.random.Generator: Drawn.by,
+    list: lambda value: [copied(each) for each in value],
+    dict: lambda value: {key: copied(each) for key, each in value.items()},
+    deque: lambda value: deque(map(copied, value), value.maxlen),
+    **dict.fromkeys((int, float, bool, str, bytes, type(None), tuple), lambda value: value),
+}
+
+
+def assign(record: Record, values: Record) -> None:
+    """Write the values of a copied record into one that runs.
+
+    Raises:
+        UwsimError: they are those of another part.
+    """
+    if type(record) is not type(values):
+        raise of_another_scene()
+    for name in record.__slots__:
+        now, then = getattr(record, name), getattr(values, name)
+        if not _is_assigned(now, then):
+            setattr(record, name, copied(then))
+
+
+def _is_assigned(now: Any, then: Any) -> bool:
+    """Write a value into what holds it; False where the field must be set instead."""
+    if isinstance(now, Record):
+        assign(now, then)
+    elif isinstance(now, np.random.Generator):
+        _checked(then, Drawn).set(now)
+    elif isinstance(now, Live):
+        now.set(then)
+    elif isinstance(now, np.ndarray) and now.flags.writeable:
+        if not isinstance(then, np.ndarray) or (then.shape, then.dtype) != (now.shape, now.dtype):
+            return False
+        now[...] = then
+    elif isinstance(now, dict) and any(isinstance(each, Record) for each in now.values()):
+        if list(_checked(then, dict)) != list(now):
+            raise of_another_scene()
+        for key, each in now.items():
+            assign(each, then[key])
+    elif isinstance(now, list) and any(isinstance(each, Record) for each in now):
+        if len(_checked(then, list)) != len(now):
+            raise of_another_scene()
+        for each, values in zip(now, then, strict=True):
+            assign(each, values)
+    else:
+        return False
+    return True
+
+
+def is_same(first: Any, second: Any) -> bool:
+    """Whether two copied values are the same to the bit; nan is the same as nan."""
+    if type(first) is not type(second):
+        return False
+    if isinstance(first, np.ndarray):
+        is_alike = (first.shape, first.dtype) == (second.shape, second.dtype)
+        return is_alike and first.tobytes() == second.tobytes()
+    if isinstance(first, Record):
+        return all(is_same(getattr(first, n), getattr(second, n)) for n in first.__slots__)
+    if dataclasses.is_dataclass(first):
+        fields = [each.name for each in dataclasses.fields(first) if each.compare]
+        return all(is_same(getattr(first, name), getattr(second, name)) for name in fields)
+    if isinstance(first, dict):
+        return list(first) == list(second) and all(is_same(first[k], second[k]) for k in first)
+    if isinstance(first, list | tuple | deque):
+        return len(first) == len(second) and all(map(is_same, first, second))
+    return bool(first == second) or (first != first and second != second)
+
+
+def of_another_scene() -> UwsimError:
+    """Return the error of a state that belongs to other parts."""
+    return UwsimError("The saved simulation is not of this scene.")
+
+
+def _checked(value: Any, kind: type) -> Any:
+    if not isinstance(value, kind):
+        raise of_another_scene()
+    return value
