@@ -32,6 +32,28 @@ class Record:
     __slots__: tuple[str, ...] = ()
 
 
+@dataclasses.dataclass(slots=True)
+class NoState(Record):
+    """The record of a part that does not change."""
+
+
+@dataclasses.dataclass(slots=True)
+class RandomState(Record):
+    """The record of a part that changes by what it draws alone."""
+
+    random: np.random.Generator
+    """The generator that it draws from."""
+
+
+class Item(Record):
+    """The base of what lies in the queues and tables of records.
+
+    No part has it as its ``state``, so `assign` replaces it, and what it lies in, as a whole.
+    """
+
+    __slots__ = ()
+
+
 class Live(abc.ABC):
     """Something that runs outside Python's objects, and whose values can be read and set."""
 
@@ -124,7 +146,7 @@ def assign(record: Record, values: Record) -> None:
 
 def _is_assigned(now: Any, then: Any) -> bool:
     """Write a value into what holds it; False where the field must be set instead."""
-    if isinstance(now, Record):
+    if _is_parts(now):
         assign(now, then)
     elif isinstance(now, np.random.Generator):
         _checked(then, Drawn).set(now)
@@ -134,12 +156,12 @@ def _is_assigned(now: Any, then: Any) -> bool:
         if not isinstance(then, np.ndarray) or (then.shape, then.dtype) != (now.shape, now.dtype):
             return False
         now[...] = then
-    elif isinstance(now, dict) and any(isinstance(each, Record) for each in now.values()):
+    elif isinstance(now, dict) and any(map(_is_parts, now.values())):
         if list(_checked(then, dict)) != list(now):
             raise of_another_scene()
         for key, each in now.items():
             assign(each, then[key])
-    elif isinstance(now, list) and any(isinstance(each, Record) for each in now):
+    elif isinstance(now, list) and any(map(_is_parts, now)):
         if len(_checked(then, list)) != len(now):
             raise of_another_scene()
         for each, values in zip(now, then, strict=True):
@@ -147,6 +169,11 @@ def _is_assigned(now: Any, then: Any) -> bool:
     else:
         return False
     return True
+
+
+def _is_parts(value: object) -> bool:
+    """Whether it is the record of a part."""
+    return isinstance(value, Record) and not isinstance(value, Item)
 
 
 def is_same(first: Any, second: Any) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 from ..base.geometry import Pose
+from ..base.record import Record
 from ..schema import Spec
 from ..world import Body, MovingBody, SensorWorld
 
@@ -102,8 +103,9 @@ class Carrier(Protocol):
 class Sensor(Protocol):
     """A bound sensor."""
 
-    STATE: ClassVar[tuple[str, ...]]
-    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+    @property
+    def state(self) -> Record:
+        """All that changes of it as time goes by; `Simulation.save` keeps it."""
 
     def sample(self, time: float) -> object:
         """Measure now, at ``time`` [s]: a message of its spec's ``message_type``, None for none."""

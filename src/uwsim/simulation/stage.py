@@ -220,7 +220,7 @@ class SceneStage(SceneWorld):
     def set_camera_noise(self, std: float) -> None:
         """Set the noise [0..1] of every colour camera."""
         for name in self.cameras:
-            self.camera(name).std = std
+            self.camera(name).state.std = std
 
     def set_current(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""

@@ -47,7 +47,7 @@ class TrackedState:
             signals += self._water_at(engine.poses.vehicle(index).position, vehicle).tolist()
             if index in engine.actuation:
                 signals += engine.actuation[index].commands().tolist()
-        signals += [lamp.brightness for lamp in self._lamps]
+        signals += [lamp.state.brightness for lamp in self._lamps]
         return np.concatenate([rows.reshape(-1), signals])
 
     def _water_at(self, place: Array, vehicle: str) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Intrinsics, Pose
+from ..base.record import NoState, Record
 from ..bus import Bus
 from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
@@ -92,8 +93,8 @@ def sample_rate(rate: float, world: World) -> float:
 class Interface:
     """A bound interface: it publishes or subscribes from the time it is bound."""
 
-    STATE: ClassVar[tuple[str, ...]] = ()
-    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+    state: Record = NoState()
+    """All that changes of it as time goes by; `Simulation.save` keeps it."""
 
 
 @runtime_checkable

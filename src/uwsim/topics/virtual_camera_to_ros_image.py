@@ -59,7 +59,7 @@ class ImagePublisher(Interface):
     ) -> None:
         self.camera = camera
         """The camera whose images these are."""
-        camera.n_images = camera.n_images or 0
+        camera.state.n_images = camera.n_images or 0
         self.n_frames = 0
         """Images published."""
         self.last: npt.NDArray[np.uint8] | None = None
@@ -85,7 +85,7 @@ class ImagePublisher(Interface):
 
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
-        self.camera.n_images = (self.camera.n_images or 0) + 1
+        self.camera.state.n_images = (self.camera.n_images or 0) + 1
         time, bus = self._world.time, self._world.bus
         if bus.has_readers(self._info_topic):
             self._publish_info(self.camera.info(time))
