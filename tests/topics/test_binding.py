@@ -10,6 +10,7 @@ from typing import ClassVar
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.base.record import NoState
 from uwsim.devices import DEVICES
 from uwsim.messages import Float64
 from uwsim.scene.reader import read_scene
@@ -75,7 +76,7 @@ class DepthSpec(PressureSensorSpec):
 
 
 class Depth:
-    STATE: ClassVar[tuple[str, ...]] = ()
+    state = NoState()
 
     def __init__(self, mount: Body) -> None:
         self._mount = mount

@@ -16,8 +16,8 @@ from __future__ import annotations
 import abc
 import dataclasses
 from collections import deque
-from collections.abc import Callable
-from typing import Any, TypeVar
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
@@ -64,6 +64,47 @@ class Live(abc.ABC):
     @abc.abstractmethod
     def set(self, value: object) -> None:
         """Set the value; raises UwsimError where it is none of this part."""
+
+
+class Part(Protocol):
+    """A part of a running scene."""
+
+    @property
+    def state(self) -> Record:
+        """All that changes of it."""
+
+
+P = TypeVar("P", bound=Part)
+
+
+class Lazy(Live, Generic[P]):
+    """A part that is made when it is first needed, and with it its record.
+
+    Args:
+        make: makes it.
+    """
+
+    def __init__(self, make: Callable[[], P]) -> None:
+        self._make = make
+        self.part: P | None = None
+        """The part; None before it was needed."""
+
+    def made(self) -> P:
+        """Return the part; make it if it is not there."""
+        if self.part is None:
+            self.part = self._make()
+        return self.part
+
+    def value(self) -> Record | None:
+        """Return the record of the part; None before it was needed."""
+        return None if self.part is None else copied_record(self.part.state)
+
+    def set(self, value: object) -> None:
+        """Set the record of the part, which is made or given up as needed."""
+        if value is None:
+            self.part = None
+            return
+        assign(self.made().state, _checked(value, Record))
 
 
 @dataclasses.dataclass(frozen=True, slots=True)
@@ -138,9 +179,22 @@ def assign(record: Record, values: Record) -> None:
     """
     if type(record) is not type(values):
         raise of_another_scene()
-    for name in record.__slots__:
-        now, then = getattr(record, name), getattr(values, name)
-        if not _is_assigned(now, then):
+    assign_fields(record, {name: getattr(values, name) for name in values.__slots__})
+
+
+def copied_fields(record: Record, names: Collection[str]) -> dict[str, Any]:
+    """Return the values of some fields of a record, by name."""
+    return {name: copied(getattr(record, name)) for name in names}
+
+
+def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
+    """Write the copied values of some fields into a record that runs.
+
+    Raises:
+        UwsimError: they are those of another part.
+    """
+    for name, then in values.items():
+        if not _is_assigned(getattr(record, name), then):
             setattr(record, name, copied(then))
 
 

@@ -112,13 +112,6 @@ class Modem:
         deliver: called with each packet received and its time [ns].
     """
 
-    STATE = (
-        *("queue", "n_queued_bytes", "n_packets", "is_busy", "sends_until"),
-        *("outgoing", "arriving"),
-        *("time_sending", "time_receiving", "last_delivery", "counts"),
-    )
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self,
         settings: ModemSettings,

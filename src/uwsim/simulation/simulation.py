@@ -20,6 +20,7 @@ from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 from ..base.geometry import Array, Pose
+from ..base.record import assign
 from ..bus import Algorithm, Bus
 from ..errors import BadSetting, UwsimError
 from ..model.scene_model import SceneModel
@@ -35,8 +36,8 @@ from .access.topics import TopicAccess
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scenery.renderer_pool import RendererPool
-from .snapshot import digest_of, opened, put_state, saved, state_of
 from .stage import SceneStage
+from .state.state import OwnIdentity, State
 
 MAX_RUN = 1000
 """Steps that are taken at once at most: Ctrl-C is heard after them."""
@@ -87,7 +88,6 @@ class Simulation:
         """Open a model at step 0 and read some topics."""
         self.world = world = self._make_stage(model)
         """The world of the scene."""
-        self._digest = ""  # of the scene; computed when it is needed
         scene, engine = world.scene, world.engine
         placed = [i for i in range(len(scene.vehicles)) if not engine.is_simulated(i)]
         self._drifting = [world.numbered_vehicle(i) for i in placed]
@@ -99,8 +99,33 @@ class Simulation:
         }
         """What publishes images, by topic."""
         self._access = TopicAccess(self.bus, read)
-        self._is_started = False
+        self.state = self._make_state()
+        """All that changes of it; it changes while the simulation runs, a ``copy()`` does not."""
         self._animate()
+
+    def _make_state(self) -> State:
+        """Put together the records of all parts."""
+        world = self.world
+        return State(
+            identity=OwnIdentity(self.model),
+            bus=world.bus.state,
+            engine=world.engine.state,
+            vehicles=[vehicle.state for vehicle in world.every_vehicle],
+            sensors=[sensor.state for sensor in world.every_sensor],
+            devices=[device.state for device in world.devices],
+            interfaces=[interface.state for interface in world.interfaces],
+            faults=[topic.state for topic in world.faulty_topics],
+            scenery=world.scenery.state,
+            water=world.water.state,
+            contacts=world.touch.state,
+            below_ground=world.below_ground.state,
+            schedule=world.schedule.state,
+            network=world.network.state,
+            markers=world.markers.state,
+            trajectories=[trajectory.state for trajectory in world.trajectories],
+            access=self._access.state,
+            nodes=[],
+        )
 
     def reset(self, seed: int | None = None) -> None:
         """Start again at step 0, with the variations (``<u:vary>``) of a seed.
@@ -149,7 +174,7 @@ class Simulation:
 
     def start(self) -> None:
         """Publish the first samples, at step 0; the first `advance` does so, too."""
-        self._is_started = True
+        self._access.state.is_started = True
         self._publish()
 
     def advance(self, seconds: float | None = None) -> None:
@@ -159,7 +184,7 @@ class Simulation:
             BadSetting: the time is negative or not finite.
             RunFailed: the engine cannot continue.
         """
-        if not self._is_started:
+        if not self._access.state.is_started:
             self.start()
         if seconds is None:
             self._advance()
@@ -201,7 +226,7 @@ class Simulation:
             or (self._drifting and not world.water.is_still)
         ):
             return 1
-        dues = [delivery, world.schedule.due if world.network.is_idle else now]
+        dues = [delivery, world.schedule.state.due if world.network.is_idle else now]
         dues += [each.timer.due for each in self.images.values()]
         dues += [world.below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self.time - self.timestep
@@ -423,6 +448,7 @@ class Simulation:
             calls=calls,
         )
         self._nodes.append(node)
+        self.state.nodes.append(node.state)
         node.run(algorithm)
         return node
 
@@ -432,41 +458,26 @@ class Simulation:
             raise UwsimError(f"Cannot be {action}: {names} is attached, with a state of its own.")
 
     def save(self) -> bytes:
-        """Return the state as bytes, exact to the bit; `uwsim.simulation.snapshot` lists its parts.
+        """Return the state as bytes, exact to the bit: those of `state`.
 
         Raises:
-            UwsimError: an algorithm is attached, whose state cannot be saved.
+            UwsimError: an algorithm is attached that does not offer ``save`` and ``restore``.
         """
-        self._refuse_if_attached("saved")
-        newest, world = self._access.newest, state_of(self.world)
-        values = {"is_open": self._is_started, "newest": newest, "world": world}
-        return saved(values, self._identity)
+        return self.state.to_bytes()
 
-    def restore(self, data: bytes) -> None:
+    def restore(self, data: bytes | State) -> None:
         """Go back, or on, to a saved state of the same scene, seed and timestep.
+
+        Args:
+            data: what `save` has returned, or a copy of `state`.
 
         Raises:
             UwsimError: the bytes are damaged, of another scene, seed or timestep, or of another
                 version.
         """
-        values = opened(data, {"is_open", "newest", "world"}, self._identity)
-        put_state(self.world, values["world"])
-        self._is_started = values["is_open"]
-        self._access.newest = values["newest"]
+        state = data if isinstance(data, State) else State.from_bytes(data)
+        assign(self.state, state)
         self.world.scenery.redraw()
-
-    @property
-    def _identity(self) -> dict[str, str]:
-        """What bytes of it are of, besides the version."""
-        if not self._digest:
-            self._digest = digest_of(self.world.scene)
-        quirks = ", ".join(sorted(self.world.compatibility)) or "none"
-        return {
-            "seed": str(self.model.seed),
-            "timestep": f"{self.timestep:.12g} s",
-            "compatibility": quirks,
-            "scene": self._digest,
-        }
 
     def close(self) -> None:
         """Release the graphics context and disconnect the algorithms."""

@@ -42,7 +42,7 @@ class TrackedState:
             rows[(rows[:, 3:] * self._before).sum(axis=1) < 0.0, 3:] *= -1.0
         self._before = rows[:, 3:].copy()
         scenery, engine = self._world.scenery, self._world.engine
-        signals = [scenery.water.fog, scenery.light.rate]
+        signals = [scenery.state.water.fog, scenery.state.light.rate]
         for index, vehicle in enumerate(self._world.vehicles):
             signals += self._water_at(engine.poses.vehicle(index).position, vehicle).tolist()
             if index in engine.actuation:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import turned_back
+from ..base.record import Lazy, Record
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
 from ..model.scene_model import SceneModel
@@ -23,6 +25,20 @@ from .bodies import SceneBody
 from .moving_bodies import MountedBody
 
 
+@dataclass(slots=True)
+class VehicleState(Record):
+    """What changes of a vehicle besides the engine's."""
+
+    placed: Lazy[PlacedMotion]
+    """Its motion where it is not simulated and a sensor reads it, or it follows a recording."""
+    centre: tuple[Sequence[float], Sequence[float]] | None = None
+    """The position [m] and angles [rad] that it is displaced from; None: those of the file."""
+    offsets: list[tuple[int, float]] = field(default_factory=list)
+    """The axis of each displacer, and the displacement [m or rad]."""
+    losses: dict[int, list[float]] = field(default_factory=dict)
+    """The losses of each thruster, one a setter [1]."""
+
+
 class SceneVehicle:
     """One vehicle of a scene (`uwsim.vehicle.Vehicle`, `uwsim.sensors.sensor.Carrier`).
 
@@ -35,9 +51,6 @@ class SceneVehicle:
         step: returns how many steps the simulation has taken.
     """
 
-    STATE = ("_offsets", "_centre", "_losses", "_placed")
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, index: int, frames: MountFrames, engine: Engine, step: Callable[[], int]
     ) -> None:
@@ -48,12 +61,13 @@ class SceneVehicle:
         """Its name in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable)
         """Names of the joints of the joint vector."""
-        self._offsets: list[tuple[int, float]] = []  # axis and [m or rad], one a displacer
-        # position [m] and angles Rx Ry Rz [rad]; None: those of the file
-        self._centre: tuple[Sequence[float], Sequence[float]] | None = None
-        self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
-        # where it is not simulated and a sensor reads it, or follows a recording
-        self._placed: PlacedMotion | None = None
+        self._lazy_motion = Lazy(lambda: engine.placed_motion(index))
+        self.state = VehicleState(self._lazy_motion)
+        """What changes of it besides the engine's."""
+
+    @property
+    def _placed(self) -> PlacedMotion | None:
+        return self._lazy_motion.part
 
     @property
     def autopilot(self) -> Autopilot | None:
@@ -110,8 +124,7 @@ class SceneVehicle:
 
     def follow(self) -> None:
         """From now on it moves as `lead` says, not as it is simulated: velocities are of that."""
-        if self._placed is None:
-            self._placed = self._engine.placed_motion(self.index)
+        self._lazy_motion.made()
 
     def lead(
         self, world_from_base: Pose | None, joints: Array | None, starts: Collection[Source] = ()
@@ -124,7 +137,7 @@ class SceneVehicle:
             starts: what was never led before: it has not come there, its motion starts there.
         """
         if world_from_base is not None:
-            self._centre = self._centre_of(world_from_base)
+            self.state.centre = self._centre_of(world_from_base)
             self._engine.place_vehicle(self.index, world_from_base)
         if joints is not None:
             self._engine.set_joints(self.index, joints)
@@ -148,12 +161,12 @@ class SceneVehicle:
 
     def put(self, world_from_base: Pose) -> None:
         """Set its pose, at rest; it is displaced from there from now on."""
-        self._centre = self._centre_of(world_from_base)
+        self.state.centre = self._centre_of(world_from_base)
         self._rest_at(world_from_base)
 
     def put_back(self) -> None:
         """Put it where the scene puts it now, at rest."""
-        self._centre = None
+        self.state.centre = None
         self._rest_at(self._displaced_pose())
 
     def _rest_at(self, world_from_base: Pose) -> None:
@@ -163,25 +176,25 @@ class SceneVehicle:
 
     def _centre_of(self, world_from_base: Pose) -> tuple[Sequence[float], Sequence[float]] | None:
         """What it is displaced from where it is displaced to a pose now; None: never displaced."""
-        if not self._offsets:
+        if not self.state.offsets:
             return None
         localized_from_base = self._frames.world_from_localized.inverse() @ world_from_base
-        return undisplaced(localized_from_base, self._offsets)
+        return undisplaced(localized_from_base, self.state.offsets)
 
     def _displaced_pose(self) -> Pose:
         """Where it is by the displacements of now, ``world_from_base``."""
         spec = self._frames.vehicle
-        position, angles = self._centre or (spec.position, spec.orientation)
-        return self._frames.world_from_localized @ displaced(position, angles, self._offsets)
+        position, angles = self.state.centre or (spec.position, spec.orientation)
+        return self._frames.world_from_localized @ displaced(position, angles, self.state.offsets)
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return a function that displaces it along or about an axis; displacements add up."""
-        own = len(self._offsets)
-        self._offsets.append((axis, 0.0))
+        own = len(self.state.offsets)
+        self.state.offsets.append((axis, 0.0))
 
         def displace(offset: float) -> None:
-            self._offsets[own] = (axis, offset)
-            if own == len(self._offsets) - 1:
+            self.state.offsets[own] = (axis, offset)
+            if own == len(self.state.offsets) - 1:
                 self._come_to(self._displaced_pose())
 
         return displace
@@ -191,13 +204,13 @@ class SceneVehicle:
         if thruster not in self.thrusters:
             raise UnknownName("thruster", thruster, self.thrusters)
         number = self.thrusters.index(thruster)
-        losses = self._losses.setdefault(number, [])
+        losses = self.state.losses.setdefault(number, [])
         own = len(losses)
         losses.append(0.0)
 
         def lose(loss: float) -> None:
-            self._losses[number][own] = loss
-            self._engine.actuation[self.index].set_loss(number, max(self._losses[number]))
+            self.state.losses[number][own] = loss
+            self._engine.actuation[self.index].set_loss(number, max(self.state.losses[number]))
 
         return lose
 

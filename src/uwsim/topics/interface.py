@@ -75,8 +75,8 @@ class TopicWorld(World, Protocol):
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
 
-    def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
-        """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
+    def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
+        """Return what has ``apply(message)`` called at the start of the next step."""
 
 
 def rate_element() -> Any:

@@ -189,7 +189,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
         bodies.add(part, models)
     names = unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
     sand = [_sand(*each, bodies, models) for each in zip(names, world.scenery.heaps, strict=True)]
-    water, light = world.scenery.water, world.scenery.light
+    water, light = world.scenery.state.water, world.scenery.state.light
     return {
         "uwsim_head": VERSION,
         "title": title,
