@@ -17,6 +17,7 @@ import abc
 import dataclasses
 from collections import deque
 from collections.abc import Callable, Collection, Mapping
+from operator import attrgetter
 from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
@@ -122,9 +123,10 @@ class Drawn:
     def by(generator: np.random.Generator) -> Drawn:
         """Read it from a generator of `uwsim.base.rng.stream`."""
         state: Any = generator.bit_generator.state
-        words = np.concatenate([state["state"]["counter"], state["state"]["key"], state["buffer"]])
+        counter, key = state["state"].values()
+        words = counter.tobytes() + key.tobytes() + state["buffer"].tobytes()
         half = state["uinteger"] if state["has_uint32"] else None
-        return Drawn(words.tobytes(), state["buffer_pos"], half)
+        return Drawn(words, state["buffer_pos"], half)
 
     def set(self, generator: np.random.Generator) -> None:
         """Let a generator go on from here."""
@@ -141,34 +143,61 @@ class Drawn:
 
 def copied(value: Any) -> Any:
     """Return a value that shares nothing that changes with this one."""
-    copy = _COPIES.get(type(value))
-    if copy is not None:
-        return copy(value)
-    if isinstance(value, Record):
-        return copied_record(value)
-    return value.value() if isinstance(value, Live) else value
+    return _COPIES[type(value)](value)
 
 
 def copied_record(record: R) -> R:
     """Return a record of values alone."""
-    copy = object.__new__(type(record))
-    for name in record.__slots__:
-        setattr(copy, name, copied(getattr(record, name)))
-    return copy
+    kind, copies = type(record), _COPIES
+    return kind(*[copies[type(each)](each) for each in _FIELDS[kind](record)])
+
+
+def fields_of(record: object) -> tuple[Any, ...]:
+    """Return the values of the fields of a dataclass with slots, as they are."""
+    found: tuple[Any, ...] = _FIELDS[type(record)](record)
+    return found
+
+
+class _Fields(dict[type, Callable[[Any], Any]]):
+    """What returns the values of the fields, by the type of dataclass."""
+
+    def __missing__(self, kind: type) -> Callable[[Any], Any]:
+        names = [each.name for each in dataclasses.fields(kind)]
+        several = attrgetter(*names) if len(names) > 1 else None
+        self[kind] = several or (lambda one: tuple(getattr(one, name) for name in names))
+        return self[kind]
+
+
+class _Copies(dict[type, Callable[[Any], Any]]):
+    """What copies a value, by its type."""
+
+    def __missing__(self, kind: type) -> Callable[[Any], Any]:
+        self[kind] = _itself
+        if issubclass(kind, Record):
+            self[kind] = copied_record
+        elif issubclass(kind, Live):
+            self[kind] = kind.value
+        return self[kind]
+
+
+def _itself(value: Any) -> Any:
+    return value
 
 
 def _copied_array(value: Any) -> Any:
     return value.copy() if value.flags.writeable else value
 
 
-_COPIES: dict[type, Callable[[Any], Any]] = {
-    np.ndarray: _copied_array,
-    np.random.Generator: Drawn.by,
-    list: lambda value: [copied(each) for each in value],
-    dict: lambda value: {key: copied(each) for key, each in value.items()},
-    deque: lambda value: deque(map(copied, value), value.maxlen),
-    **dict.fromkeys((int, float, bool, str, bytes, type(None), tuple), lambda value: value),
-}
+_FIELDS = _Fields()
+_COPIES: _Copies = _Copies(
+    {
+        np.ndarray: _copied_array,
+        np.random.Generator: Drawn.by,
+        list: lambda value: [_COPIES[type(each)](each) for each in value],
+        dict: lambda value: {key: _COPIES[type(each)](each) for key, each in value.items()},
+        deque: lambda value: deque(map(copied, value), value.maxlen),
+    }
+)
 
 
 def assign(record: Record, values: Record) -> None:
@@ -179,7 +208,7 @@ def assign(record: Record, values: Record) -> None:
     """
     if type(record) is not type(values):
         raise of_another_scene()
-    assign_fields(record, {name: getattr(values, name) for name in values.__slots__})
+    assign_fields(record, dict(zip(values.__slots__, fields_of(values), strict=True)))
 
 
 def copied_fields(record: Record, names: Collection[str]) -> dict[str, Any]:

@@ -63,7 +63,7 @@ class ModemSettings:
         return self.sends_on == self.listens_to
 
 
-@dataclass(kw_only=True, slots=True)
+@dataclass(slots=True)
 class Waiting(Item):
     """A packet that waits to be sent."""
 

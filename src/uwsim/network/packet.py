@@ -41,7 +41,7 @@ class Packet:
         return max(len(self.data), 1)
 
 
-@dataclass(kw_only=True, slots=True)
+@dataclass(slots=True)
 class Reception(Item):
     """A packet that arrives at a device."""
 
@@ -59,7 +59,7 @@ class Reception(Item):
     """Why it is lost; None while it is not."""
 
 
-@dataclass(kw_only=True, slots=True)
+@dataclass(slots=True)
 class Counts(Record):
     """What became of the packets of a device."""
 

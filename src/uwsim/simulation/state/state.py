@@ -48,12 +48,15 @@ class OwnIdentity(Live):
 
     def __init__(self, model: SceneModel) -> None:
         self._model = model
+        self._identity: Identity | None = None
 
     def value(self) -> Identity:
         """Return the identity."""
-        model = self._model
-        quirks = ", ".join(sorted(model.compatibility)) or "none"
-        return Identity(model.seed, model.timestep, quirks, model.digest)
+        if self._identity is None:
+            model = self._model
+            quirks = ", ".join(sorted(model.compatibility)) or "none"
+            self._identity = Identity(model.seed, model.timestep, quirks, model.digest)
+        return self._identity
 
     def set(self, value: object) -> None:
         """Raise UwsimError where a state is of another simulation."""
