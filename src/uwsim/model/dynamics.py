@@ -30,7 +30,7 @@ from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from ..world import GRAVITY
 from .inertias import MAX_BUOYANCY, MIN_MASS, inertias_refused
-from .named_sensors import carried, sensor_error
+from .named_sensors import NamedSensors
 from .robots import find_file
 
 Severity = Literal["error", "warning"]
@@ -88,6 +88,7 @@ class Search:
         self.found: list[Diagnostic] = []
         """All that is wrong or worth knowing."""
         self._scene, self._data_path = scene, data_path
+        self._sensors = NamedSensors(scene)
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.dynamics is not None and index in robots:
                 self._read(index, vehicle.dynamics, robots[index])
@@ -281,7 +282,7 @@ class Search:
         types = {measured_by(type(part)) for part in named} - {None}
         for interface in self._scene.ros_interfaces:
             if fault.sensor in (_name(interface), getattr(interface, "camera_name", None)):
-                types |= set(carried(interface, self._scene).values())
+                types |= set(self._sensors.carried(interface).values())
         known = [path for each in types if each is not None for path in number_fields(each())]
         if fault.field is None or not named or fault.field in known:
             return None
@@ -323,9 +324,9 @@ class Search:
             )
             if named[0] not in (None, *vehicles) or named[1] not in (None, *cameras):
                 continue  # left out, as in the original
-            if said := sensor_error(interface, self._scene):
+            if said := self._sensors.error(interface):
                 self._say(f"<{element}>: {said}", interface)
-            for field, message in carried(interface, self._scene).items():
+            for field, message in self._sensors.carried(interface).items():
                 topic = str(getattr(interface, field))
                 other, first = topics.setdefault(topic.strip("/"), (message, element))
                 if other is not message:

@@ -141,7 +141,7 @@ def _check_interface(
     diagnostics: Diagnostics,
 ) -> None:
     if isinstance(interface, SensorToROSSpec):
-        return  # not left out as in the original: `named_sensors.sensor_error` reports it
+        return  # not left out as in the original: `NamedSensors.error` reports it
     element = element_of(interface)
     wanted = next(
         (
