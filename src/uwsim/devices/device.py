@@ -47,6 +47,8 @@ class DeviceSpec(Spec, abc.ABC):
 
     is_left_out: ClassVar[bool] = False
     """Whether the scene goes without it where what it names is not there, as in the original."""
+    is_pure: ClassVar[bool] = False
+    """Whether a sample changes nothing in the device, so that it need not be taken for nobody."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:

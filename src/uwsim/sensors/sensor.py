@@ -29,6 +29,8 @@ class SensorSpec(Spec):
 
     frame_rpy: ClassVar[tuple[float, float, float]] = (0.0, 0.0, 0.0)
     """Axes of its frame in ROS, in the sensor: fixed-axis roll, pitch, yaw [rad]."""
+    is_pure: ClassVar[bool] = False
+    """Whether a sample changes nothing in the sensor, so that it need not be taken for nobody."""
 
     name: str
     """Its name, by which interfaces and benchmarks find it."""

@@ -31,6 +31,7 @@ class VirtualRangeImageSpec(SensorSpec):
     """A ``<virtualRangeImage>``; geometry as that of a `VirtualCameraSpec`."""
 
     message_type: ClassVar[type] = Image
+    is_pure: ClassVar[bool] = True
     frame_rpy: ClassVar[tuple[float, float, float]] = OPTICAL_AXES
 
     resw: int = element(default=160, minimum=1, maximum=16384)
