@@ -15,6 +15,7 @@ import typer
 from ..analysis.repeats_note import repeats_note
 from ..base.files.file_names import file_names
 from ..base.interrupts import raise_from_now_on
+from ..base.system_errors import as_run_failed
 from ..base.terminal import warn
 from ..errors import AllErrors, BadSetting, RunFailed
 from ..runs.executors.choose import n_at_once
@@ -22,7 +23,6 @@ from ..runs.foreign_code import announce_code
 from ..runs.planning.make_plan import make_plan, say_warnings
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.timing import Stopwatch, Timing
-from .exit_status import running
 from .options.client_options import ClientOptions
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, in_group
@@ -170,7 +170,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
         print(note, file=sys.stderr)
     with (
-        running(),
+        as_run_failed(),
         looked_at(options.live, plans) as onlooker,  # first: a port that is taken changes nothing
         prepared(options.directory, **how, results=folders),
     ):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..base.interrupts import raise_from_now_on
+from ..base.system_errors import as_run_failed
 from ..base.terminal import printable, warn
 from ..envelope.directory import check_out, prepared
 from ..envelope.search_request import SearchRequest, search_request
@@ -19,7 +20,6 @@ from ..runs.planning.make_plan import make_plan, say_warnings
 from ..runs.planning.option_values import chosen_level
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.timing import Stopwatch
-from .exit_status import running
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group
 from .options.options import CodeOptions, SettingOptions, TaskOptions, WorkerOptions, request_of
@@ -231,7 +231,7 @@ def search_and_write(
     raise_from_now_on()
     watch = Stopwatch()
     asked = request.asked(options.seeds, options.search.confidence)
-    with running(), prepared(directory, resume=options.resume, overwrite=options.overwrite):
+    with as_run_failed(), prepared(directory, resume=options.resume, overwrite=options.overwrite):
         if message := save_beginning(command, directory):
             warn(message)
         title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm.name}), at most"

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Protocol
 
 from ...base.interrupts import is_of_user, raise_if_interrupted
+from ...base.system_errors import system_error_text
 from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimError
 from ...results.journal import path_of
 from ...results.result import Result
@@ -172,7 +173,7 @@ def found_by_running(error: Exception) -> Exception:
     if isinstance(error, UwsimError) and not isinstance(error, RUN_ERRORS):
         failed = RunFailed(str(error))
     elif isinstance(error, OSError) and error.filename is not None:
-        failed = RunFailed(f"{error.strerror}: {error.filename}")
+        failed = RunFailed(system_error_text(error))
     else:
         return error
     failed.__cause__ = error
