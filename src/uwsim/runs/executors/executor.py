@@ -245,6 +245,12 @@ class Outcome:
     failures: tuple[tuple[Run, Exception], ...]
     """Runs that failed, and why, in the order in which it happened."""
 
+    def finished(self, runs: Sequence[Run]) -> list[tuple[Run, Result]]:
+        """Return those of the runs that did not fail, with their results."""
+        failed = {id(run) for run, _ in self.failures}
+        pairs = zip(runs, self.results, strict=True)
+        return [(run, result) for run, result in pairs if id(run) not in failed]
+
 
 def run_each(
     runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None

@@ -192,6 +192,8 @@ def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
 
     if request.client is not None:
         return LockStepClient
+    if request.algorithm_class is not None:
+        return request.algorithm_class
     wanted, spec = _wanted(request, read.benchmark), read.benchmark
     file = request.algorithm_is_from or ("" if request.algorithm or spec is None else spec.path)
     if file and ":" in wanted:
