@@ -224,6 +224,17 @@ def test_a_class_is_what_is_tested_also_where_the_benchmark_names_none(tmp_path:
     assert result.run.algorithm == "tests.test_api:Tuned"
 
 
+def test_a_program_that_does_all_in_its_process_needs_no_guard(tmp_path: Path) -> None:
+    program = tmp_path / "program.py"
+    call = f"uwsim.bench({str(write_benchmark(tmp_path, '0.2'))!r}, levels={{'fog': [0]}}, out='o')"
+    program.write_text(f"import uwsim\nprint('begun')\n{call}\n")
+    done = subprocess.run(
+        [sys.executable, program], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert (done.stdout, done.stderr) == ("begun\n", "")
+    assert (tmp_path / "o" / "report.html").is_file()
+
+
 def test_progress_is_reported_from_none_to_all_levels(tmp_path: Path) -> None:
     seen: list[tuple[int, int]] = []
     uwsim.bench(

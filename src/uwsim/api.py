@@ -93,10 +93,10 @@ def bench(
 ) -> Result:
     """Run a benchmark as ``uwsim bench`` does.
 
-    With the same options every file of ``out`` has the same bytes as a file of the command, but for
-    what differs between two runs of the command: ``provenance.json`` (date, durations, load, the
-    command that was typed, which is empty here), and in ``report.html`` this table and the
-    command's line. What the command prints on standard error about files is printed here, too.
+    With the same options ``out`` has the same files with the same bytes, but for what two runs of
+    the command do not share either: date, durations and load in ``provenance.json``, where the
+    typed command is empty here, and the same facts in ``report.html``. Warnings about files, and
+    the Python code that they name, are printed on standard error.
 
     Args:
         benchmark: a benchmark file or a bundled name.
