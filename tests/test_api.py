@@ -220,10 +220,15 @@ def test_a_class_is_what_is_tested_also_where_the_benchmark_names_none(tmp_path:
     with pytest.raises(uwsim.UwsimError, match="no parameter 'gain'"):
         uwsim.bench(benchmark, algorithm=Tuned, settings={"algorithm.gain": 1})
     benchmark.write_text(benchmark.read_text().replace(' u:algorithm="esm"', ""))
-    result = uwsim.bench(benchmark, algorithm=Tuned, settings={"algorithm.kp": 1}, levels=CLEAR)
+    kp = {"algorithm.kp": 1}
+    result = uwsim.bench(benchmark, algorithm=Tuned, settings=kp, levels=CLEAR)
     assert result.run.algorithm == "tests.test_api:Tuned"
+    own = type("Own", (Tuned,), {"__module__": "scripted"})  # no pilot of an earlier result
+    result = uwsim.bench(benchmark, algorithm=own, settings=kp, levels=CLEAR)
+    assert result.run.algorithm == "scripted:Own"
 
 
+@pytest.mark.slow
 def test_a_program_that_does_all_in_its_process_needs_no_guard(tmp_path: Path) -> None:
     program = tmp_path / "program.py"
     call = f"uwsim.bench({str(write_benchmark(tmp_path, '0.2'))!r}, levels={{'fog': [0]}}, out='o')"
@@ -262,6 +267,7 @@ def test_a_directory_into_which_another_run_writes_is_refused(tmp_path: Path) ->
         uwsim.bench(write_benchmark(tmp_path, "0.2"), levels=CLEAR, out=tmp_path / "out")
 
 
+@pytest.mark.slow
 def test_a_run_that_failed_in_python_is_resumed_by_the_command(tmp_path: Path) -> None:
     def interrupt(done: int, total: int) -> None:
         if done == 1:

@@ -75,7 +75,9 @@ def make_plan(request: PlanRequest) -> Plan:
         if scene is not None and request.no_code:
             refuse_code(scene)
     with wrong.kept():
-        if not (request.algorithm or "").startswith(PREFIX):  # else it has been said what is wrong
+        kind = request.algorithm_class
+        name = request.algorithm or ""
+        if kind is None and not name.startswith(PREFIX):  # else it has been said what is wrong
             kind = _algorithm(request, read)
     with wrong.kept():
         check_client(request, parameters)
@@ -192,8 +194,6 @@ def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
 
     if request.client is not None:
         return LockStepClient
-    if request.algorithm_class is not None:
-        return request.algorithm_class
     wanted, spec = _wanted(request, read.benchmark), read.benchmark
     file = request.algorithm_is_from or ("" if request.algorithm or spec is None else spec.path)
     if file and ":" in wanted:
