@@ -11,6 +11,7 @@ import pytest
 import uwsim
 from uwsim.currents import Constant
 from uwsim.messages import CameraInfo, TwistStamped, Vector3
+from uwsim.simulation.state.saved_bytes import with_checksum
 
 SCENES = ["currents-scene", "visibility-moving-scene", "cirs"]
 
@@ -87,7 +88,10 @@ def test_bytes_of_another_scene_or_of_none_are_refused() -> None:
     with uwsim.load("currents-scene") as simulation, uwsim.load("visibility-scene") as other:
         with pytest.raises(uwsim.UwsimError, match="not of this scene"):
             other.restore(simulation.save())
-        for damaged in (b"", b"x" * 50, simulation.save()[:200], pickle.dumps([1])):
+        saved = simulation.save()
+        changed = saved[:300] + bytes([saved[300] ^ 1]) + saved[301:]
+        none = with_checksum(pickle.dumps([1]))
+        for damaged in (b"", b"x" * 50, saved[:200], changed, none):
             with pytest.raises(uwsim.UwsimError, match="no saved simulation"):
                 simulation.restore(damaged)
 
@@ -132,7 +136,7 @@ class Evil:
 def test_bytes_that_would_run_code_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with uwsim.load("visibility-scene") as simulation:
         with pytest.raises(uwsim.UwsimError, match=r"builtins\.print has no place"):
-            simulation.restore(pickle.dumps({"uwsim": Evil()}))
+            simulation.restore(with_checksum(pickle.dumps({"uwsim": Evil()})))
         assert capsys.readouterr().out == ""
 
 

@@ -6,6 +6,7 @@ import dataclasses
 import importlib
 import io
 import pickle
+import zlib
 from collections import deque
 from collections.abc import Callable
 from typing import Any, TypeVar
@@ -27,6 +28,9 @@ ALLOWED = {
 }
 """Types allowed in bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
 
+CHECKSUM = 4
+"""Bytes of a checksum."""
+
 
 def pack(value: object) -> bytes:
     """Return a copied value as bytes, with the version of uwsim.
@@ -38,9 +42,14 @@ def pack(value: object) -> bytes:
         pickler = pickle.Pickler(stream := io.BytesIO(), protocol=5)
         pickler.fast = True  # the same bytes whichever values are one object
         pickler.dump((__version__, _FLAT[type(value)](value)))
-        return stream.getvalue()
+        return with_checksum(stream.getvalue())
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise UwsimError(f"The state cannot be saved: {error}.") from None
+
+
+def with_checksum(payload: bytes) -> bytes:
+    """Return bytes with their checksum behind them."""
+    return payload + zlib.crc32(payload).to_bytes(CHECKSUM, "little")
 
 
 def unpack(data: bytes, kind: type[T]) -> T:
@@ -49,8 +58,11 @@ def unpack(data: bytes, kind: type[T]) -> T:
     Raises:
         UwsimError: these are no such bytes, or another version of uwsim wrote them.
     """
+    payload = data[:-CHECKSUM]
+    if len(data) <= CHECKSUM or with_checksum(payload) != data:
+        raise UwsimError("These bytes are no saved simulation, or they were changed.")
     try:
-        version, flat = _Unpickler(io.BytesIO(data)).load()
+        version, flat = _Unpickler(io.BytesIO(payload)).load()
         value = _raised(flat)
     except Exception as error:  # whatever damaged bytes make of themselves
         raise UwsimError(f"These bytes are no saved simulation: {error}.") from None
