@@ -28,7 +28,7 @@ class KinematicBodyState(Record):
 
     now: Pose
     """Where it is."""
-    before: Pose
+    pose_before: Pose
     """Where it was before its last displacement."""
     jumps: JumpState
     """When it was displaced."""
@@ -141,14 +141,14 @@ class _KinematicBody:
         pose, state = self._pose(), self.state
         is_there = np.array_equal(pose.position, state.now.position)
         if not is_there or not np.array_equal(pose.rotation, state.now.rotation):
-            state.before, state.now = state.now, pose
+            state.pose_before, state.now = state.now, pose
             self._jumps.add(step)
 
     def velocity(self, point: Array, step: int) -> Array:
         """Velocity of its point at ``point``, W, (3,) [m/s]."""
         if self._jumps.age(step) >= self._jumps.n_steps:
             return np.zeros(3)
-        was_at = (self.state.before @ self.state.now.inverse()).transform(point[None])[0]
+        was_at = (self.state.pose_before @ self.state.now.inverse()).transform(point[None])[0]
         velocity: Array = (point - was_at) / self._jumps.duration
         return without_placement(velocity, length(velocity))
 
