@@ -2,7 +2,7 @@
 
 .. code-block:: text
 
-    apply_commands -> step_devices -> advect_kinematic -> step_physics -> animate
+    apply_commands -> step_devices -> advect_kinematic -> forces -> step_physics -> animate
       -> update_contacts -> publish: samples that are due (images first), messages on the bus,
          algorithms' callbacks -> observers
 
@@ -32,6 +32,7 @@ from ..world import Flow
 from .access import arguments
 from .access.boxes import OrientedBox, oriented_boxes
 from .access.topics import TopicAccess
+from .forces import engine_wrenches
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scenery.renderer_pool import RendererPool
@@ -187,13 +188,15 @@ class Simulation:
         """How many steps from this one on the forces may act alone, of those wanted.
 
         In the step after them a command, a sample, a timer or a device may be due; observers,
-        water that is not the same everywhere and what drifts with it have to do in every step.
+        forces, water that is not the same everywhere and what drifts with it have to do in every
+        step.
         """
         world, now = self.world, self.step
         delivery = self.bus.next_delivery
         if (
             delivery <= now
             or self._watchers
+            or world.forces
             or world.touch.is_laid
             or not world.state.is_dynamic
             or world.state.moves_by_step
@@ -374,6 +377,8 @@ class Simulation:
     def _step_physics(self, n: int) -> None:
         """Advance the physics by some steps, in the flow of the water at their times."""
         state, water = self.world.state, self.world.water
+        if self.world.forces:
+            state.push(engine_wrenches(self.world.forces, self.time - self.timestep))
         if not state.is_dynamic:
             state.fall()
             self.world.below_ground.look(self.step)

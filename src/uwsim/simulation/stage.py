@@ -30,6 +30,7 @@ from ..topics.interface import Binds, Interface
 from ..world import Flow
 from .datagrams import Datagrams
 from .faulty_topic import FaultyTopic, faults_of
+from .forces import bind_forces
 from .frames import object_frames, vehicle_frames
 from .markers import SERVICE, Markers
 from .scenery.renderer_pool import RendererPool
@@ -57,7 +58,7 @@ class SceneStage(SceneWorld):
 
     STATE = (
         *("_bus", "state", "scenery", "touch", "below_ground", "schedule", "_pending"),
-        *("_vehicles", "_sensors", "devices", "interfaces", "network"),
+        *("_vehicles", "_sensors", "devices", "forces", "interfaces", "network"),
         *("markers", "trajectories", "_faulty_topics"),
     )
     """Attributes of its state, for snapshots."""
@@ -90,6 +91,8 @@ class SceneStage(SceneWorld):
         self._faulty_topics: list[FaultyTopic] = []
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
+        self.forces = bind_forces(self)
+        """What acts on bodies besides the water, in the file's order."""
         place = Path(self.scene.path) if self.scene.path else None
         self.markers = Markers(
             lambda: self.time, partial(has_model, named_by=place, data_path=model.data_path)
