@@ -67,7 +67,12 @@ def apply(page: str, folder: Path) -> tuple[list[Path], str]:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("page", "n_files"),
-    [("adding-a-sensor.md", 7), ("adding-a-device.md", 2), ("adding-a-water-law.md", 3)],
+    [
+        ("adding-a-sensor.md", 7),
+        ("adding-a-device.md", 2),
+        ("adding-a-force.md", 2),
+        ("adding-a-water-law.md", 3),
+    ],
 )
 def test_a_page_says_all_that_must_be_done(page: str, n_files: int, tmp_path: Path) -> None:
     copy_of_the_package(tmp_path)

@@ -21,6 +21,7 @@ from uwsim.forces.docking_magnet import MagnetSpec
 from uwsim.runs.check import diagnostics_of
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
+from uwsim.scene.settings import apply_setting
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.writer import write_scene
@@ -455,6 +456,14 @@ def test_a_scene_with_a_magnet_is_read_and_written_back(tmp_path: Path) -> None:
     again = tmp_path / "again.xml"
     again.write_text(write_scene(scene))
     assert read_scene(again).forces == scene.forces
+
+
+def test_a_number_of_a_force_can_be_set(tmp_path: Path) -> None:
+    scene = read_scene(scene_file(tmp_path))
+    changed = apply_setting(scene, "forces.dockingMagnet[latch].first.moment.x", "7")
+    [force] = changed.forces
+    assert isinstance(force, DockingMagnetSpec)
+    assert force.first.moment == (7.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize(

@@ -28,6 +28,7 @@ class SceneAttachment:
         pose: where the frame is.
         motion: how it moves.
         engine_body: number of the engine's body; None where forces do not move it.
+        on_body: where the frame's origin is in the frame of that body, (3,) [m].
     """
 
     def __init__(
@@ -37,11 +38,14 @@ class SceneAttachment:
         pose: Callable[[], Pose],
         motion: Callable[[], BodyMotion],
         engine_body: int | None,
+        on_body: Array,
     ) -> None:
         self.name, self.vehicle = name, vehicle
         self._pose, self.motion = pose, motion
         self.engine_body = engine_body
         """Number of the engine's body; None where forces do not move it."""
+        self.on_body = on_body
+        """Where the frame's origin is in the frame of that body, (3,) [m]."""
 
     @property
     def world_from_body(self) -> Pose:
@@ -96,6 +100,7 @@ class SceneForceWorld:
             lambda: mount.world_from_body,
             mount.motion,
             engine.poses.link_body(index, link) if engine.is_simulated(index) else None,
+            np.array([x, y, z]),
         )
 
     def _on_object(self, name: str, index: int, position: Array) -> SceneAttachment:
@@ -111,7 +116,8 @@ class SceneForceWorld:
                 return BodyMotion(np.zeros(3), np.zeros(3), np.zeros(3))
             return engine.link_motion.of_body(body, pose().position)
 
-        return SceneAttachment(name, "", pose, motion, body)
+        on_body = engine.poses.object(index).inverse().transform(pose().position[None])[0]
+        return SceneAttachment(name, "", pose, motion, body, on_body)
 
     def water_density(self, points: Array) -> Array:
         """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 above it."""
@@ -160,5 +166,4 @@ def engine_wrenches(forces: Sequence[Force], time: float) -> Iterator[tuple[int,
                     "attach() of its ForceWorld has returned."
                 )
             if attachment.engine_body is not None:
-                point = attachment.world_from_body.position
-                yield attachment.engine_body, point, wrench
+                yield attachment.engine_body, attachment.on_body, wrench
