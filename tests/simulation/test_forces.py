@@ -14,7 +14,7 @@ import pytest
 
 from tests.simulation.girona500 import SCENE
 from tests.support.opened import open_scene
-from uwsim.base.geometry import Array
+from uwsim.base.geometry import Array, Pose
 from uwsim.errors import SceneError, SimulationFailed, UnknownName, UwsimError
 from uwsim.forces import DockingMagnetSpec, Force, ForceSpec
 from uwsim.forces.docking_magnet import MagnetSpec
@@ -118,6 +118,18 @@ def box(name: str = "box", x: float = 0.0, **physics: Any) -> ObjectSpec:
         BLACKBOX, name=name, is_solid=None, position=(x, 0.0, 2.0), orientation=(0.0, 0.0, 0.0),
         physics=body,
     )  # fmt: skip
+
+
+def middle() -> tuple[float, float, float]:
+    """Where in the mesh frame of a box its centre of mass is."""
+    mesh = box().object_from_mesh
+    x, y, z = (
+        Pose(np.array(BLACKBOX.scale_factor) * mesh.position, mesh.rotation).inverse().position
+    )
+    return float(x), float(y), float(z)
+
+
+MIDDLE = middle()
 
 
 def falling(*objects: ObjectSpec, forces: tuple[ForceSpec, ...] = ()) -> Simulation:
@@ -306,18 +318,6 @@ def magnets(moment: float, *, second: str = "right") -> DockingMagnetSpec:
     )
 
 
-def middle() -> tuple[float, float, float]:
-    """Where in the mesh frame of a box its centre of mass is."""
-    with falling(box()) as simulation:
-        mesh = simulation.world.body("box").world_from_body
-        place = simulation.world.state.poses.object(0).position
-        x, y, z = mesh.inverse().transform(place[None])[0].tolist()
-        return x, y, z
-
-
-MIDDLE = middle()
-
-
 def test_two_magnets_in_line_gain_the_energy_of_their_field_and_no_momentum() -> None:
     """Their energy is -mu m1 m2 / (2 pi r^3); of equal masses m each gets the half."""
     left, right = box("left"), box("right", x=2.0)
@@ -388,13 +388,35 @@ def test_a_scene_without_forces_touches_nothing_of_the_engine() -> None:
         assert data.xfrc_applied[1, 2] == 1.0
 
 
-def test_a_force_that_is_no_number_ends_the_run_with_its_name() -> None:
-    pull = PullSpec(body="box", wrench=(math.nan, 0, 0, 0, 0, 0))
+@pytest.mark.parametrize("wrench", [(math.nan, 0, 0, 0, 0, 0), (0, 0, 1.0)])
+def test_a_force_that_is_no_six_numbers_ends_the_run_with_its_name(
+    wrench: tuple[float, ...],
+) -> None:
     with (
-        falling(box(), forces=(pull,)) as simulation,
-        pytest.raises(SimulationFailed, match=r"Pull acts on 'box' with \[nan, 0.0.*at 0 s"),
+        falling(box(), forces=(PullSpec(body="box", wrench=wrench),)) as simulation,
+        pytest.raises(SimulationFailed, match=r"Pull acts on 'box' with \[.*at 0 s; expected six"),
     ):
         simulation.advance()
+
+
+def test_an_object_is_found_although_a_link_has_its_name() -> None:
+    pull = PullSpec(body="part0", at=(0.1, 0.2, 0.3), wrench=(1.0, 0, 0, 0, 0, 0))
+    with in_water(box("part0"), forces=(pull,)) as simulation:
+        here = simulation.world.forces[0].attachment.world_from_body
+        assert np.linalg.norm(here.position[:2]) < 2.0  # the vehicle is far away
+        simulation.advance()
+        assert velocity(simulation)[0] > 0.0
+
+
+def test_the_frame_of_an_object_is_that_of_its_mesh() -> None:
+    scaled = replace(box(), scale_factor=(2.0, 1.0, 0.5), orientation=(0.1, 0.2, 0.3))
+    probe = PullSpec(body="box", at=(0.1, 0.2, 0.3), wrench=(0.0,) * 6)
+    with falling(scaled, forces=(probe,)) as simulation:
+        mesh = simulation.world.body("box").world_from_body
+        here = simulation.world.forces[0].attachment.world_from_body
+        assert here.rotation == pytest.approx(mesh.rotation)
+        expected = mesh.position + mesh.rotation @ [0.1, 0.2, 0.3]
+        assert here.position == pytest.approx(expected, abs=1e-12)
 
 
 def test_a_force_that_acts_on_what_it_has_not_attached_is_an_error() -> None:

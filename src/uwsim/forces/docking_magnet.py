@@ -27,7 +27,7 @@ from .force import Force, ForceSpec
 MAGNETIC_CONSTANT = 1e-7
 """The vacuum permeability by 4 pi [N/A2]; water has the same to 1e-5."""
 MAX_MOMENT = 1e5
-"""Greatest magnetic moment: that of 0.1 m3 of neodymium [A m2]."""
+"""The greatest magnetic moment: that of 0.1 m3 of neodymium [A m2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,9 +37,9 @@ class MagnetSpec(Spec):
     body: str = element(refers_to="body")
     """A vehicle (its base), a link ``vehicle/link``, or an object."""
     position: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """Of its middle in the frame of the body [m]."""
+    """The middle of the magnet in the frame of the body [m]."""
     moment: Triple = element(minimum=-MAX_MOMENT, maximum=MAX_MOMENT)
-    """Magnetic moment, from its south to its north pole, in the axes of the body [A m2]."""
+    """The magnetic moment, from the south to the north pole, in the axes of the body [A m2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,7 +51,7 @@ class DockingMagnetSpec(ForceSpec):
     second: MagnetSpec
     """The other magnet."""
     closest: float = element(above=0.0, maximum=100.0)
-    """Distance of the middles of the magnets when they touch; nearer, the force grows no more
+    """The distance of the middles of the magnets when they touch; nearer, the force grows no more
     [m]."""
 
     def bind(self, world: ForceWorld) -> DockingMagnet:

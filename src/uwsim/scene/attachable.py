@@ -15,7 +15,7 @@ class AttachableBody:
     """A vehicle's link or an object."""
 
     kind: Literal["vehicle", "object"]
-    """Which of them."""
+    """The kind of body."""
     index: int
     """The number of the vehicle or object in the scene."""
     link: str = ""

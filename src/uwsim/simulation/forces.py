@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..base.geometry import Array, Pose
+from ..base.numerics.linear import turned
 from ..errors import SceneError, SimulationFailed, UnknownName, UwsimError
 from ..forces import Force
 from ..scene.attachable import attachable_bodies
@@ -104,20 +105,20 @@ class SceneForceWorld:
         )
 
     def _on_object(self, name: str, index: int, position: Array) -> SceneAttachment:
-        engine, thing = self._world.state, self._world.body(name)
-        body = engine.poses.loose_body(index)
+        engine, thing = self._world.state, self._world.scene.objects[index]
+        body, mesh = engine.poses.loose_body(index), thing.object_from_mesh
+        origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
+        object_from_frame = Pose(origin + turned(mesh.rotation, position), mesh.rotation)
 
         def pose() -> Pose:
-            world_from_object = thing.world_from_body
-            return Pose(world_from_object.transform(position[None])[0], world_from_object.rotation)
+            return engine.poses.object(index) @ object_from_frame
 
         def motion() -> BodyMotion:
             if body is None:
                 return BodyMotion(np.zeros(3), np.zeros(3), np.zeros(3))
             return engine.link_motion.of_body(body, pose().position)
 
-        on_body = engine.poses.object(index).inverse().transform(pose().position[None])[0]
-        return SceneAttachment(name, "", pose, motion, body, on_body)
+        return SceneAttachment(name, "", pose, motion, body, object_from_frame.position)
 
     def water_density(self, points: Array) -> Array:
         """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 above it."""
@@ -154,7 +155,7 @@ def engine_wrenches(forces: Sequence[Force], time: float) -> Iterator[tuple[int,
     """
     for force in forces:
         for attachment, wrench in force.wrenches(time):
-            if not np.isfinite(wrench).all():
+            if np.shape(wrench) != (6,) or not np.isfinite(wrench).all():
                 raise SimulationFailed(
                     f"{type(force).__name__} acts on {attachment.name!r} with "
                     f"{np.asarray(wrench).tolist()} at {time:.6g} s; expected six finite numbers "
