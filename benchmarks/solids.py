@@ -46,7 +46,7 @@ opened = time.process_time() - began
 steps.drive(simulation, 1, 50)
 batches = sorted(steps.drive(simulation, 1, 40) for _ in range(9))
 print(json.dumps({"open_s": opened, "step_us": 1e6 * batches[4] / 200,
-                  "shapes": simulation.world.state._model.ngeom}))
+                  "shapes": simulation.world.engine._model.ngeom}))
 """
 
 Array = npt.NDArray[np.float64]

@@ -173,7 +173,7 @@ def drive(simulation: Simulation, n_vehicles: int, periods: int) -> float:
 
 def bare(simulation: Simulation, cpu_s: float) -> float:
     """CPU microseconds of MuJoCo's step of this model, always from the same state."""
-    engine = simulation.world.state
+    engine = simulation.world.engine
     model, data = engine._model, engine._data
     state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION))
     mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
@@ -207,11 +207,11 @@ def row(name: str) -> dict[str, object]:
         periods = max(2, round(n / 2 * CPU_S / spent))
         found = [drive(simulation, n_vehicles, periods) for _ in range(BATCHES)]
         step_us = median(found) * 1e6 / (periods * round(PERIOD / simulation.timestep))
-        contacts = int(simulation.world.state._data.ncon)
+        contacts = int(simulation.world.engine._data.ncon)
         engine_us = bare(simulation, CPU_S)
         simulation.close()
     figures: dict[str, object] = {
-        "dof": int(simulation.world.state._model.nv),
+        "dof": int(simulation.world.engine._model.nv),
         "contacts": contacts,
         "built_s": round(built, 2),
         "step_us": round(step_us, 2),

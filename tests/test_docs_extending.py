@@ -40,13 +40,28 @@ def patched(text: str, diff: str) -> str:
     return text
 
 
+def write_message_classes(folder: Path) -> str:
+    """Run ``scripts/messages`` on the copy; returns what it prints, with paths of the copy."""
+    package = folder / "src/uwsim/messages"
+    for module in package.glob("*.py"):
+        put(module, module.read_text())  # no link to ours any more
+    command = [sys.executable, "-m", "scripts.reference.message_classes", str(package)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=200)
+    assert done.returncode == 0, done.stderr
+    return done.stdout.replace(f"{folder}/", "")
+
+
 def apply(page: str, folder: Path) -> tuple[list[Path], str]:
-    """Do what a page says; returns the files that it touches, and the output it promises."""
+    """Do what a page says; returns the file of each place, and the output it promises."""
     touched: list[Path] = []
     expected = ""
     for found in BLOCK.finditer((ROOT / "docs" / page).read_text()):
         before, language, block = found["before"], found["language"], found["text"]
         new, below = NEW.match(before), BELOW.match(before)
+        if block.startswith("$ scripts/messages\n"):
+            printed = write_message_classes(folder)
+            assert block == f"$ scripts/messages\n{printed}"
+            touched += map(Path, printed.split())
         if new is not None:
             put(folder / new[1], block)
         if language == "diff" and below is not None:
@@ -60,24 +75,29 @@ def apply(page: str, folder: Path) -> tuple[list[Path], str]:
         elif language == "text":
             expected = block  # the last is what the program prints
         if place := new or below:
-            touched.append(Path(place[1]))
-    return [path for path in dict.fromkeys(touched) if path.suffix != ".xml"], expected
+            n_places = 1 + block.count("@@\n") if language == "diff" else 1
+            touched += n_places * [Path(place[1])]
+    return [path for path in touched if path.suffix != ".xml"], expected
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("page", "n_files"),
+    ("page", "n_files", "n_places"),
     [
-        ("adding-a-sensor.md", 7),
-        ("adding-a-device.md", 2),
-        ("adding-a-force.md", 2),
-        ("adding-a-water-law.md", 3),
+        ("adding-a-sensor.md", 4, 5),
+        ("adding-a-device.md", 2, 3),
+        ("adding-a-force.md", 2, 3),
+        ("adding-a-water-law.md", 3, 7),
     ],
 )
-def test_a_page_says_all_that_must_be_done(page: str, n_files: int, tmp_path: Path) -> None:
+def test_a_page_says_all_that_must_be_done(
+    page: str, n_files: int, n_places: int, tmp_path: Path
+) -> None:
     copy_of_the_package(tmp_path)
     touched, expected = apply(page, tmp_path)
-    assert len(touched) == n_files
+    assert (len(set(touched)), len(touched)) == (n_files, n_places)
+    if page == "adding-a-sensor.md":
+        assert f"{n_files} files, {n_places} places" in (ROOT / "docs" / page).read_text()
     environment = {**os.environ, "PYTHONPATH": str(tmp_path / "src")}
     for command, output in ((["-m", "uwsim", "check", "scene.xml"], ""), (["use.py"], expected)):
         done = subprocess.run(

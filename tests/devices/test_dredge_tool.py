@@ -11,7 +11,7 @@ import pytest
 from tests.simulation.small_robots import scene_of, shape, write_robot
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose, rotation_from_rpy
-from uwsim.devices.dredge_tool import DredgeToolSpec
+from uwsim.devices.dredge_tool import DredgeTool, DredgeToolSpec
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.vehicle import VehicleSpec
@@ -83,8 +83,8 @@ def test_a_tool_uncovers_an_object_for_rays_and_cameras(tmp_path: Path) -> None:
         buried.world.vehicle("rov").place(place)
         buried.advance(0.1)
         assert buried.world.scenery.heaps[0].height(0.0, 0.0) < top - 0.02
-        tool = next(d for d in buried.world.devices if hasattr(d, "n_taken"))
-        assert tool.n_taken > 1000
+        tool = next(d for d in buried.world.devices if isinstance(d, DredgeTool))
+        assert tool.state.n_taken > 1000
         after = buried.image("eye")
         assert before.ids is not None
         assert after.ids is not None

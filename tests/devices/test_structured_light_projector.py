@@ -47,7 +47,7 @@ def test_the_images_of_the_original_are_bundled(name: str) -> None:
 def test_a_laser_is_seen_by_cameras_and_moves_with_its_vehicle() -> None:
     with open_scene(scene("data/textures/laser_square.png")) as simulation:
         before = n_green(simulation)
-        state = simulation.world.state
+        state = simulation.world.engine
         turned = state.poses.vehicle(0) @ Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.5))
         state.place_vehicle(0, turned)
         after = n_green(simulation)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from tests.network.links import Line
+from uwsim.base.record import assign, copied_record
 from uwsim.errors import UnknownName
 from uwsim.network import BitErrors, EnergyModel, Mac, RateErrors, WaterChannel
-from uwsim.simulation.snapshot import put_state, state_of
 
 BYTES_25 = bytes(25)  # 0.2 s at 1000 bit/s
 
@@ -233,7 +233,8 @@ def test_a_restored_network_goes_on_to_the_same_bits() -> None:
     for i in range(20):
         first.send("a", bytes([i]), at=0.03 * i)
         first.send("b", bytes([100 + i]), at=0.03 * i)
-    put_state(second.network, pickle.loads(pickle.dumps(state_of(first.network))))
+    saved = copied_record(first.network.state)
+    assign(second.network.state, pickle.loads(pickle.dumps(saved)))
     first.received.clear()
     assert first.run(9.0) == second.run(9.0)
     assert len(first.received) > 5

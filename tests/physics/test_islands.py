@@ -35,7 +35,7 @@ def boxes(n: int, *, dropped_from: float = 0.0) -> Simulation:
 
 
 def solves_together(simulation: Simulation) -> bool:
-    return bool(simulation.world.state._model.opt.disableflags & WITHOUT)
+    return bool(simulation.world.engine._model.opt.disableflags & WITHOUT)
 
 
 def motion(simulation: Simulation) -> np.ndarray:
@@ -45,7 +45,7 @@ def motion(simulation: Simulation) -> np.ndarray:
 
 
 def rows(simulation: Simulation) -> int:
-    return int(simulation.world.state._data.nefc)
+    return int(simulation.world.engine._data.nefc)
 
 
 @pytest.mark.slow
@@ -63,7 +63,7 @@ def test_a_box_that_tumbles_among_many_at_rest_moves_as_with_islands_alone() -> 
     free, held = (boxes(20, dropped_from=0.3) for _ in range(2))
     was_together = [False, False]
     for _ in range(1500):
-        held.world.state._model.opt.disableflags &= ~WITHOUT
+        held.world.engine._model.opt.disableflags &= ~WITHOUT
         free.advance()
         held.advance()
         was_together[solves_together(free)] = True

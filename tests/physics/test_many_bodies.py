@@ -67,7 +67,7 @@ def test_what_stands_fixed_is_no_body_of_the_engine() -> None:
     fixed = replace(BLACKBOX, physics=PhysicsSpec(mass=0.0))
     some = make(objects=tuple(replace(fixed, name=f"box {i}") for i in range(20)))
     alone = make()
-    assert some.world.state._model.nbody == alone.world.state._model.nbody
+    assert some.world.engine._model.nbody == alone.world.engine._model.nbody
 
 
 def test_a_box_at_rest_stays_awake() -> None:
@@ -80,4 +80,4 @@ def test_a_box_at_rest_stays_awake() -> None:
     )
     simulation = make(objects=(floor, lying))
     run(simulation, 1.0)
-    assert simulation.world.state._data.tree_awake.tolist() == [1, 1]
+    assert simulation.world.engine._data.tree_awake.tolist() == [1, 1]

@@ -138,7 +138,7 @@ def test_to_measure_leaves_the_velocities_of_contacts_as_they_are() -> None:
     simulation = simulation_with(OFF_AXIS, rate=1)
     command(simulation, 0.5, -0.3)
     run(simulation, 0.1)
-    data = simulation.world.state._data
+    data = simulation.world.engine._data
     before = data.cvel.copy(), data.subtree_com.copy()
     simulation.world.sensor("imu", ("imu",)).sample(simulation.time)
     assert np.array_equal(data.cvel, before[0])

@@ -65,7 +65,7 @@ def momentum(simulation: Simulation) -> np.ndarray:
     The first three coordinates move everything along the axes of W: what belongs to them in
     M qvel, where M has the added mass, is the momentum of the whole.
     """
-    model, data = simulation.world.state._model, simulation.world.state._data
+    model, data = simulation.world.engine._model, simulation.world.engine._data
     now = mujoco.MjData(model)
     mujoco.mj_copyData(now, model, data)
     mujoco.mj_forward(model, now)
@@ -76,7 +76,7 @@ def momentum(simulation: Simulation) -> np.ndarray:
 
 def energy(simulation: Simulation) -> float:
     """Kinetic energy, the water's included, and potential energy of weight and buoyancy [J]."""
-    model, data = simulation.world.state._model, simulation.world.state._data
+    model, data = simulation.world.engine._model, simulation.world.engine._data
     now = mujoco.MjData(model)
     mujoco.mj_copyData(now, model, data)
     mujoco.mj_forward(model, now)
@@ -115,10 +115,10 @@ def test_a_limp_arm_in_still_water_gains_no_energy(tmp_path: Path) -> None:
     simulation = adrift(tmp_path, has_drag=True)
     command(simulation, effort=[0.0] * 5)
     run(simulation, 0.01)
-    found, joints = [energy(simulation)], simulation.world.state.joints(0)
+    found, joints = [energy(simulation)], simulation.world.engine.joints(0)
     for _ in range(40):
         run(simulation, 0.05)
         found.append(energy(simulation))
-    assert np.abs(simulation.world.state.joints(0) - joints).max() > 0.5
+    assert np.abs(simulation.world.engine.joints(0) - joints).max() > 0.5
     assert found[0] - found[-1] > 10.0  # J; it has fallen through the water
     assert np.diff(found).max() < 1e-3

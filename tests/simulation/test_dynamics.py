@@ -150,7 +150,7 @@ def test_motion_beyond_all_bounds_is_an_error_that_says_where() -> None:
 def test_a_body_beyond_100_m_s_or_100_rad_s_ends_the_run(dof: int) -> None:
     simulation = make()
     simulation.advance()
-    simulation.world.state._data.qvel[dof] = 400.0
+    simulation.world.engine._data.qvel[dof] = 400.0
     with pytest.raises(RunFailed, match=r"'girona500/.*' moves at .* at 0\.004 s"):
         simulation.advance()
 
@@ -158,7 +158,7 @@ def test_a_body_beyond_100_m_s_or_100_rad_s_ends_the_run(dof: int) -> None:
 def test_an_integrator_may_be_chosen() -> None:
     scene = read_scene(SCENE).nominal
     simulation = open_scene(scene, integrator="RK4", is_blind=True)
-    assert simulation.world.state._model.opt.integrator == 1
+    assert simulation.world.engine._model.opt.integrator == 1
     with pytest.raises(BadSetting, match="expected implicitfast or RK4"):
         open_scene(scene, integrator="Euler")  # type: ignore[arg-type]
 

@@ -88,7 +88,7 @@ def test_any_position_leaves_a_finite_angle(value: float, dynamics: str, tmp_pat
         simulation.publish("/arm", JointState(name=["spin"], position=np.array([value])))
         simulation.advance(0.2)
         assert np.isfinite(simulation.world.joints("boat")).all()
-        simulation.world.state.set_joints(0, np.array([value]))
+        simulation.world.engine.set_joints(0, np.array([value]))
         simulation.advance(0.2)
         angle = float(simulation.world.joints("boat")[0])
     assert abs(angle) < 10.0

@@ -15,6 +15,7 @@ import pytest
 from tests.simulation.girona500 import SCENE
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Array, Pose
+from uwsim.base.record import RandomState
 from uwsim.errors import SceneError, SimulationFailed, UnknownName, UwsimError
 from uwsim.forces import DockingMagnetSpec, Force, ForceSpec
 from uwsim.forces.docking_magnet import MagnetSpec
@@ -58,7 +59,7 @@ class Pull(Force):
 
 @dataclass(frozen=True, kw_only=True)
 class GustSpec(ForceSpec):
-    """A force that wanders at random."""
+    """A force that is drawn at random in each step."""
 
     body: str
 
@@ -67,15 +68,11 @@ class GustSpec(ForceSpec):
 
 
 class Gust(Force):
-    STATE = ("_random", "_force")
-
     def __init__(self, attachment: Attachment, random: np.random.Generator) -> None:
-        self._attachment, self._random = attachment, random
-        self._force = np.zeros(6)  # [N, N m]
+        self._attachment, self.state = attachment, RandomState(random)
 
     def wrenches(self, time: float) -> Iterable[tuple[Attachment, Array]]:
-        self._force[:3] += self._random.standard_normal(3)
-        yield self._attachment, self._force
+        yield self._attachment, np.array([*self.state.random.standard_normal(3), 0.0, 0.0, 0.0])
 
 
 class Probe(Force):
@@ -151,7 +148,7 @@ def in_water(
 
 
 def engine(simulation: Simulation) -> tuple[mujoco.MjModel, mujoco.MjData]:
-    return simulation.world.state._model, simulation.world.state._data
+    return simulation.world.engine._model, simulation.world.engine._data
 
 
 def velocity(simulation: Simulation, number: int = 0) -> np.ndarray:
@@ -193,7 +190,7 @@ def test_a_force_off_the_centre_of_mass_also_turns_the_object() -> None:
     thing = box(inertia=(1.0, 1.0, 1.0))
     with falling(thing, forces=(pull,)) as simulation:
         attached = simulation.world.forces[0].attachment.world_from_body.position
-        lever = attached - simulation.world.state.poses.object(0).position
+        lever = attached - simulation.world.engine.poses.object(0).position
         simulation.advance()
         torque = np.cross(lever, [3.0, 0, 0]) + np.array([0, 0, 0.25])
         assert velocity(simulation)[3:] == pytest.approx(torque * STEP, abs=1e-8)
@@ -240,7 +237,7 @@ def test_a_force_is_what_is_applied_by_hand_also_to_a_sensor_in_the_joint() -> N
     pull = PullSpec(body="girona0/end_effector", wrench=tuple(wrench))
     with in_water() as plain, in_water(forces=(pull,)) as simulation:
         (model, data), link = engine(plain), "vehicle/0/end_effector"
-        readings, poses = [], plain.world.state.poses
+        readings, poses = [], plain.world.engine.poses
         for _ in range(20):
             place, body = poses.link(0, "end_effector").position, model.body(link).id
             data.xfrc_applied[body, :3] = wrench[:3]
@@ -249,12 +246,12 @@ def test_a_force_is_what_is_applied_by_hand_also_to_a_sensor_in_the_joint() -> N
             plain.advance()
             simulation.advance()
         for each in (plain, simulation):
-            place = each.world.state.poses.link(0, "end_effector").position
-            readings.append(each.world.state.joint_wrench.of(0, "end_effector", place))
+            place = each.world.engine.poses.link(0, "end_effector").position
+            readings.append(each.world.engine.joint_wrench.of(0, "end_effector", place))
         assert engine(simulation)[1].qpos == pytest.approx(data.qpos, abs=1e-12)
         assert readings[1] == pytest.approx(readings[0], abs=1e-9)
         data.xfrc_applied[:] = 0.0
-        without = plain.world.state.joint_wrench.of(0, "end_effector", place)
+        without = plain.world.engine.joint_wrench.of(0, "end_effector", place)
         assert readings[0][:3] - without[:3] == pytest.approx(wrench[:3], abs=1e-9)
 
 
@@ -301,7 +298,7 @@ def test_the_velocity_of_a_point_of_a_loose_object_has_its_turning_in_it() -> No
         dof = int(model.body_dofadr[model.body("object/0").id])
         data.qvel[dof + 5] = 2.0  # about z, its own and W's
         place = simulation.world.forces[0]._attachment.world_from_body.position
-        middle = simulation.world.state.poses.object(0).position
+        middle = simulation.world.engine.poses.object(0).position
         simulation.advance()
         seen = simulation.world.forces[0].seen[0]
         assert seen["velocity"] == pytest.approx(np.cross([0, 0, 2.0], place - middle), abs=1e-9)
@@ -337,7 +334,7 @@ def test_two_magnets_in_line_gain_the_energy_of_their_field_and_no_momentum() ->
 
 
 def distance(simulation: Simulation) -> float:
-    poses = simulation.world.state.poses
+    poses = simulation.world.engine.poses
     return float(np.linalg.norm(poses.object(1).position - poses.object(0).position))
 
 

@@ -210,7 +210,7 @@ def test_the_weight_of_a_held_box_is_what_the_fingers_feel_to_two_percent() -> N
 def test_the_fingers_stay_mirror_images_of_each_other() -> None:
     grasp = Grasp()
     grasp.lift()
-    model, data = grasp.simulation.world.state._model, grasp.simulation.world.state._data
+    model, data = grasp.simulation.world.engine._model, grasp.simulation.world.engine._data
     data.xfrc_applied[model.body("object/0").id, :2] = 20.0  # across the jaw and along it [N]
     run(grasp.simulation, 1.0)
     first, second = (

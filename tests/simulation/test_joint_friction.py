@@ -44,9 +44,9 @@ def slewing(folder: Path, dynamics: str) -> Simulation:
 
 
 def speed(simulation: Simulation) -> float:
-    before = float(simulation.world.state.joints(0)[0])
+    before = float(simulation.world.engine.joints(0)[0])
     run(simulation, 0.1)
-    return (float(simulation.world.state.joints(0)[0]) - before) / 0.1
+    return (float(simulation.world.engine.joints(0)[0]) - before) / 0.1
 
 
 def test_a_damped_joint_turns_at_effort_over_damping(tmp_path: Path) -> None:

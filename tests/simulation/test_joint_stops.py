@@ -69,7 +69,7 @@ def loaded(folder: Path, robot: str) -> uwsim.Simulation:
 
 def pull_down(simulation: uwsim.Simulation, newtons: float, seconds: float) -> float:
     """Pull the sled; how far it comes out [m]."""
-    data, farthest = simulation.world.state._data, 0.0
+    data, farthest = simulation.world.engine._data, 0.0
     data.xfrc_applied[-1, 2] = -newtons
     for _ in range(round(seconds / 0.01)):
         simulation.advance(0.01)
@@ -143,7 +143,7 @@ def test_a_servo_that_comes_to_its_limit_under_a_load_does_not_touch_the_stop(
 
 def test_a_continuous_joint_without_limits_has_no_stop_while_it_is_held(tmp_path: Path) -> None:
     simulation = turning(tmp_path, "continuous", "")
-    data = simulation.world.state._data
+    data = simulation.world.engine._data
     data.qvel[-1] = 20.0
     for _ in range(100):
         data.qfrc_applied[-1] = 3000.0

@@ -64,7 +64,7 @@ def test_a_lamp_lights_the_black_box_at_night() -> None:
 def test_the_light_goes_with_the_vehicle() -> None:
     simulation = open_scene(night(LAMP))
     before = brightness(simulation)
-    state = simulation.world.state
+    state = simulation.world.engine
     higher = Pose(np.array([0.0, 0.0, 0.5]), np.eye(3)) @ state.poses.vehicle(0)
     state.place_vehicle(0, higher)
     after = brightness(simulation)

@@ -54,7 +54,7 @@ def track(scene: SceneSpec) -> str:
             simulation.motion.read(row)
             digest.update(row.tobytes())
             n_contacts += len(simulation.world.contacts("v0"))
-        assert simulation.world.state._model.ngeom < MAX_SHAPES
+        assert simulation.world.engine._model.ngeom < MAX_SHAPES
     assert n_contacts > 0
     return digest.hexdigest()
 

@@ -50,13 +50,13 @@ def with_pilot(simulation: Simulation) -> None:
 
 
 def driving_an_arm(simulation: Simulation) -> None:
-    servos = simulation.world.state.actuation[0].servos
+    servos = simulation.world.engine.actuation[0].servos
     servos.drive({0: 0.3, 2: -0.4})
     servos.push({1: 3.0})
 
 
 def adrift(simulation: Simulation) -> None:
-    simulation.world.state.actuation[0].autopilot.push(np.array([20.0, 3.0, 1.0]), np.zeros(3))
+    simulation.world.engine.actuation[0].autopilot.push(np.array([20.0, 3.0, 1.0]), np.zeros(3))
 
 
 def still(simulation: Simulation) -> None:
@@ -97,9 +97,9 @@ def test_the_engine_is_called_once_for_many_steps_that_nothing_comes_between(
     simulation = make()
     simulation.advance()
     taken: list[int] = []
-    step = simulation.world.state.step
+    step = simulation.world.engine.step
     monkeypatch.setattr(
-        simulation.world.state, "step", lambda n, water: (taken.append(n), step(n, water))
+        simulation.world.engine, "step", lambda n, water: (taken.append(n), step(n, water))
     )
     simulation.advance(0.1)
     assert taken == [50]
@@ -152,14 +152,14 @@ def test_water_that_comes_to_rest_is_still() -> None:
             simulation.advance(0.1 if at_once else None)
         ends.append(simulation.velocity("girona500").tolist())
     assert ends[0] == ends[1]
-    assert not simulation.world.state._data.userdata.any()
+    assert not simulation.world.engine._data.userdata.any()
 
 
 @pytest.mark.parametrize("at_once", [True, False])
 def test_a_run_that_fails_ends_at_the_step_that_failed(*, at_once: bool) -> None:
     simulation = open_scene(read_scene(SCENE).nominal, is_blind=True)
     simulation.advance(0.01)
-    data = simulation.world.state._data
+    data = simulation.world.engine._data
     data.qfrc_applied[3] = 4e6  # soon it spins too fast
 
     def go_on() -> None:

@@ -40,7 +40,7 @@ def joints(simulation: Simulation) -> np.ndarray:
 
 def pull(simulation: Simulation, link: str, force: float) -> None:
     """Let something pull a link down [N]."""
-    state = simulation.world.state
+    state = simulation.world.engine
     state._data.xfrc_applied[state._model.body(f"vehicle/0/{link}").id, 2] = -force
 
 
@@ -105,7 +105,7 @@ def test_a_load_beyond_its_strength_bends_the_arm() -> None:
     pull(simulation, "part3", 600.0)
     for _ in range(round(1.0 / simulation.timestep)):
         simulation.advance()
-        efforts.append(simulation.world.state.actuation[0].servos.efforts)
+        efforts.append(simulation.world.engine.actuation[0].servos.efforts)
     assert np.abs(efforts).max(axis=0)[[SHOULDER, ELBOW]].max() == pytest.approx(100.0)
     assert np.abs(np.array(efforts)[:, OPENING]).max() <= 10.0
 
@@ -119,7 +119,7 @@ def test_a_joint_that_was_let_go_is_held_where_it_is_found() -> None:
     there = joints(simulation)
     run(simulation, 6.0)
     assert joints(simulation) == pytest.approx(there, abs=0.05)
-    assert np.abs(simulation.world.state.actuation[0].servos.velocities).max() < 1e-3
+    assert np.abs(simulation.world.engine.actuation[0].servos.velocities).max() < 1e-3
 
 
 def test_an_effort_ends_at_that_of_the_urdf() -> None:
@@ -127,4 +127,4 @@ def test_an_effort_ends_at_that_of_the_urdf() -> None:
     command(simulation, effort=[0.0, -1e9, 0.0, 0.0, 0.0])
     simulation.advance()
     simulation.advance()
-    assert simulation.world.state.actuation[0].servos.efforts[SHOULDER] == pytest.approx(-100.0)
+    assert simulation.world.engine.actuation[0].servos.efforts[SHOULDER] == pytest.approx(-100.0)

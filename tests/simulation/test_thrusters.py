@@ -224,7 +224,7 @@ def test_what_is_not_finite_is_passed_over(simulation: Simulation) -> None:
 def test_thrusts_and_wrenches_act_on_the_next_step(kind: str, simulation: Simulation) -> None:
     """Between two ticks of the autopilot, which are 20 ms apart."""
     run(simulation, 0.024)
-    controls = simulation.world.state._data.ctrl
+    controls = simulation.world.engine._data.ctrl
     before = controls.copy()
     if kind == "thrusters":
         thrust(simulation, 0.5, 0.5, 0.0, 0.0, 0.0)
@@ -241,7 +241,7 @@ def test_a_command_beyond_its_limit_counts_as_the_limit_in_the_track_too() -> No
         with make(INTERFACES) as simulation:
             thrust(simulation, most, -most, 0.25, -most, most)
             run(simulation, 0.04)
-            shares = simulation.world.state.actuation[0].commands().tolist()
+            shares = simulation.world.engine.actuation[0].commands().tolist()
             ends.append((shares, position(simulation).tobytes()))
     assert ends[0] == ends[1] == ends[2]
     assert ends[0][0] == [1.0, -1.0, 0.25, -1.0, 1.0]

@@ -118,13 +118,13 @@ def test_a_torpedo_with_a_stern_thruster_alone_lets_go_what_it_cannot_hold(
     assert np.abs(seen[:, 1]).max() < 40.0
     assert np.abs(seen[:, 0] - 5.5).max() < (1.8 if surge == 0.0 else 2.5)
     if surge == 0.0:  # nothing is tried: the thruster stands still, the hull drifts up upright
-        assert simulation.world.state._data.ctrl == pytest.approx([0.0], abs=0.05)
+        assert simulation.world.engine._data.ctrl == pytest.approx([0.0], abs=0.05)
 
 
 def test_what_was_let_go_does_not_wind_up(tmp_path: Path) -> None:
     simulation = torpedo(tmp_path, STERN)
     drive(simulation, 0.5, 30.0)
-    autopilot = simulation.world.state.actuation[0].autopilot
+    autopilot = simulation.world.engine.actuation[0].autopilot
     assert autopilot._state["integral"][0, 1:] == pytest.approx(np.zeros(5), abs=0.0)
 
 
@@ -216,11 +216,11 @@ def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() 
 
     scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal
     simulation = open_scene(scene)
-    model, data = simulation.world.state._model, simulation.world.state._data
+    model, data = simulation.world.engine._model, simulation.world.engine._data
     vehicle = read_vehicle(find_vehicle("g500_physical"))
     balance = balance_of(simulation.world.robots[0], vehicle, scene.vehicles[0].joint_values)
     mujoco.mj_forward(model, data)
-    base = simulation.world.state.poses.base(0)
+    base = simulation.world.engine.poses.base(0)
     rotation = data.xmat[base].reshape(3, 3).copy()
     world = data.xpos[base] + rotation @ balance.centre_of_mass
     # the engine gives 10 g to each link without a mass

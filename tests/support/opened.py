@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from uwsim.assets.bundled import bundled
+from uwsim.base.digest import digest_of
 from uwsim.model.scene_model import SceneModel
 from uwsim.physics.compile_scene import compile_scene
 from uwsim.scene.sim_params import Integrator
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
-from uwsim.simulation.snapshot import digest_of
 from uwsim.world import TIMESTEP
 
 N_MODELS = 6

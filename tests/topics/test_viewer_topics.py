@@ -49,13 +49,13 @@ def test_the_newest_image_of_the_right_size_is_kept() -> None:
         for wrong in (PIXELS[:1], PIXELS[..., 0]):
             simulation.publish("/seen", image(wrong, time=0.0))
             simulation.advance()
-            assert "expected" in shown.problem
+            assert "expected" in shown.state.problem
         simulation.publish("/seen", Image(width=3, height=2, encoding="rgb8"))
         simulation.advance()
-        assert shown.problem == "the image is not of 18 bytes"
+        assert shown.state.problem == "the image is not of 18 bytes"
         assert np.array_equal(shown.pixels, PIXELS)
         simulation.restore(saved)
-        assert shown.problem is None
+        assert shown.state.problem is None
 
 
 def coloured(places: np.ndarray, colours: np.ndarray, frame: str) -> PointCloud2:
@@ -81,13 +81,13 @@ def test_a_cloud_stays_where_its_frame_was_when_it_came() -> None:
         (loader,) = of(simulation, PointClouds)
         simulation.publish("/cloud", coloured(places, colours, "girona500"))
         simulation.advance()
-        (cloud,) = loader.clouds
+        (cloud,) = loader.state.clouds
         pose = simulation.pose("girona500")
         assert cloud.points == pytest.approx(pose.transform(places[:2]), abs=1e-5)
         assert cloud.colours.tolist() == [[255, 0, 1], [2, 3, 4]]
         simulation.publish("/cloud", point_cloud(places[:2], frame_id="girona500/base_link"))
         simulation.advance()
-        (cloud,) = loader.clouds
+        (cloud,) = loader.state.clouds
         assert cloud.colours.tolist() == jet(places[:2, 2]).tolist()
 
 
@@ -97,8 +97,8 @@ def test_without_del_last_pcd_clouds_add_up_and_unknown_frames_are_named() -> No
         for frame in ("girona500", "girona500", "nowhere"):
             simulation.publish("/cloud", point_cloud(np.zeros((2, 3)), frame_id=frame))
         simulation.advance()
-        assert len(loader.clouds) == 2
-        assert "'nowhere'" in loader.problem
+        assert len(loader.state.clouds) == 2
+        assert "'nowhere'" in loader.state.problem
 
 
 def test_heights_are_coloured_by_the_ramp() -> None:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
+
+from .record import Record
 
 
 def sample_step(n: int, rate: float, timestep: float) -> int:
@@ -11,21 +14,35 @@ def sample_step(n: int, rate: float, timestep: float) -> int:
     return math.ceil(n / (rate * timestep) - 1e-9)
 
 
+@dataclass(slots=True)
+class TimerState(Record):
+    """How far a timer is."""
+
+    start: int
+    """The step of the first sample."""
+    n_samples: int
+    """The samples taken."""
+    due: int
+    """The step of the next sample."""
+
+
 class SampleTimer:
     """Calls a function at the samples of a rate."""
 
-    STATE = ("_start", "_n_samples", "due")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
-        self._start, self._rate, self._timestep, self._call = start, rate, timestep, call
-        self._n_samples = 0
-        self.due = start
+        self._rate, self._timestep, self._call = rate, timestep, call
+        self.state = TimerState(start, 0, start)
+        """How far it is."""
+
+    @property
+    def due(self) -> int:
         """Step of the next sample."""
+        return self.state.due
 
     def tick(self, step: int) -> None:
         """Call the function if a sample is due at this step."""
-        if step >= self.due:
-            self._n_samples += 1
-            self.due = self._start + sample_step(self._n_samples, self._rate, self._timestep)
+        state = self.state
+        if step >= state.due:
+            state.n_samples += 1
+            state.due = state.start + sample_step(state.n_samples, self._rate, self._timestep)
             self._call()

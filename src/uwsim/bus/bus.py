@@ -11,10 +11,12 @@ from __future__ import annotations
 import math
 from collections import deque
 from collections.abc import Callable
-from typing import TypeVar
+from dataclasses import dataclass, field
+from typing import TypeVar, cast
 
 from ..base.inbox import Inbox
 from ..base.message_fields import freeze, unfit
+from ..base.record import Record
 from ..base.terminal import warn
 from ..errors import BadMessage, BadSetting, UwsimError, did_you_mean
 from .names import is_exactly, type_name, without_slash
@@ -30,6 +32,22 @@ def say_on_standard_error(topic: str, text: str) -> None:
     warn(f"/{topic}: {text}")
 
 
+@dataclass(slots=True)
+class BusState(Record):
+    """What is on its way, and when."""
+
+    step: int = 0
+    """The current step; set by the owner of the clock."""
+    due_now: deque[tuple[str, object]] = field(default_factory=deque)
+    """The topic and message of all that is delivered next."""
+    due_later: list[tuple[int, int, str, object]] = field(default_factory=list)
+    """The step, number, topic and message of all that is delivered at a later step."""
+    n_posted: int = 0
+    """The messages for a later step so far."""
+    kept: dict[str, object] = field(default_factory=dict)
+    """The newest message of each topic that a latched inbox has asked for."""
+
+
 class Bus:
     """Named topics and services; delivery only when `deliver` is called.
 
@@ -37,23 +55,26 @@ class Bus:
     ``uwsim/camera1`` are one, as they are for a ROS node in the root namespace.
     """
 
-    STATE = ("step", "_due_now", "_due_later", "_posted")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self) -> None:
         self._topics: dict[str, Topic] = {}
-        self._due_now: deque[tuple[str, object]] = deque()
-        self._due_later: list[tuple[int, int, str, object]] = []
-        self._posted = 0
         self._withheld: set[str] = set()
         self._observers: list[Callable[[str, type], None]] = []
         self._revision = 0
-        self.step = 0
-        """The current step; set by the owner of the clock."""
+        self.state = BusState()
+        """What is on its way, and when."""
         self.services = Services()
         """Those offered; they answer at once."""
         self.keeps_unread = True
         """Whether somebody may ask for `unread`; else nobody needs what has no subscriber."""
+
+    @property
+    def step(self) -> int:
+        """The current step; set by the owner of the clock."""
+        return self.state.step
+
+    @step.setter
+    def step(self, step: int) -> None:
+        self.state.step = step
 
     def subscribe(
         self,
@@ -129,12 +150,13 @@ class Bus:
         inbox: Inbox[M] = Inbox()
         if latched:
             entry = self._typed(topic, type)
-            if entry.kept is None:
-                entry.kept = deque(maxlen=1)
-                entry.readers.append(entry.kept.append)
+            name = without_slash(topic)
+            if not entry.is_kept:
+                entry.is_kept = True
+                entry.readers.append(lambda message: self.state.kept.update({name: message}))
                 entry.owners.append(None)
-            for message in entry.kept:
-                inbox.receive(message, self.step)
+            if (newest := self.state.kept.get(name)) is not None:
+                inbox.receive(cast("M", newest), self.step)
         stop = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
         inbox.stop_with(stop)
         return inbox
@@ -166,6 +188,8 @@ class Bus:
             entry.writers.append(owner)
             self._revision += 1
 
+        state = self.state
+
         def publish(message: M) -> None:
             if not is_exactly(message, type):
                 wrong_class = _but_not(type, message.__class__)
@@ -185,10 +209,10 @@ class Bus:
                 if (text := entry.said_once(remark(message))) is not None:
                     say(name, text)
             if delay_steps:
-                self._posted += 1
-                self._due_later.append((self.step + delay_steps, self._posted, name, message))
+                state.n_posted += 1
+                state.due_later.append((state.step + delay_steps, state.n_posted, name, message))
             else:
-                self._due_now.append((name, message))
+                state.due_now.append((name, message))
 
         return publish
 
@@ -243,16 +267,16 @@ class Bus:
 
     def deliver(self) -> None:
         """Deliver every message that is due at the current step, in the order of publishing."""
-        if not self._due_now and not self._due_later:
+        if not self.state.due_now and not self.state.due_later:
             return
-        if self._due_later:
-            due = sorted(post for post in self._due_later if post[0] <= self.step)
-            self._due_later = [post for post in self._due_later if post[0] > self.step]
-            self._due_now.extend((topic, message) for _, _, topic, message in due)
+        if self.state.due_later:
+            due = sorted(post for post in self.state.due_later if post[0] <= self.step)
+            self.state.due_later = [post for post in self.state.due_later if post[0] > self.step]
+            self.state.due_now.extend((topic, message) for _, _, topic, message in due)
         for _ in range(MAX_MESSAGES_PER_STEP):
-            if not self._due_now:
+            if not self.state.due_now:
                 return
-            topic, message = self._due_now.popleft()
+            topic, message = self.state.due_now.popleft()
             entry = self._topics[topic]
             for reader in (*entry.readers, *entry.hearers):
                 reader(message)
@@ -269,9 +293,9 @@ class Bus:
     @property
     def next_delivery(self) -> float:
         """The step at which `deliver` has something to hand out; inf where nothing waits."""
-        if self._due_now:
+        if self.state.due_now:
             return self.step
-        return min((post[0] for post in self._due_later), default=math.inf)
+        return min((post[0] for post in self.state.due_later), default=math.inf)
 
     @property
     def topics(self) -> dict[str, str]:

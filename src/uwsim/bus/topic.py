@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
@@ -34,8 +33,8 @@ class Topic:
     """What was expected in the remarks so far."""
     writers: list[object] = field(default_factory=list)
     """Who publishes, each once; None for anyone."""
-    kept: deque[Any] | None = None
-    """The newest message, kept from the first request on."""
+    is_kept: bool = False
+    """Whether its newest message is kept, for inboxes that come later."""
     unread: Any = None
     """The newest message that was published while the topic had no subscriber."""
 

@@ -32,6 +32,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..base.record import Record
 from ..messages import BatteryState, header
 from ..schema import element
 from ..world import Actuators, Stage
@@ -83,10 +84,22 @@ class BatterySpec(DeviceSpec):
         return battery
 
 
+@dataclass(slots=True)
+class BatteryRecord(Record):
+    """What a battery has given."""
+
+    drawn: float
+    """The charge that was drawn [A s]."""
+    current: float
+    """The current when it was last looked at [A]."""
+    time: float
+    """When that was [s]."""
+    is_overloaded: bool = False
+    """Whether the load is more than it can feed."""
+
+
 class Battery(Device):
     """The charge that is left, and the voltage and current of now."""
-
-    STATE = ("_drawn", "_current", "_time", "_is_overloaded")
 
     def __init__(
         self,
@@ -96,9 +109,8 @@ class Battery(Device):
         cuts: tuple[Callable[[float], None], ...],
     ) -> None:
         self._spec, self._stage, self._actuators, self._cuts = spec, stage, actuators, cuts
-        self._drawn = (1.0 - spec.charge) * self._full  # [A s]
-        self._current, self._time = 0.0, stage.time
-        self._is_overloaded = False
+        drawn = (1.0 - spec.charge) * self._full
+        self.state: BatteryRecord = BatteryRecord(drawn, 0.0, stage.time)
         greatest = 0.0 if actuators is None else actuators.greatest_power
         self._can_overload = bool(cuts) and spec.hotel_load + greatest > spec.greatest_load
 
@@ -110,16 +122,17 @@ class Battery(Device):
     def drain(self) -> None:
         """Take what was drawn since the last time, by the trapezoidal rule."""
         now, current = self._stage.time, self._current_of(self._load())
-        self._drawn += 0.5 * (self._current + current) * (now - self._time)
-        self._drawn = min(self._drawn, self._full)
-        self._current, self._time = current, now
+        state = self.state
+        state.drawn += 0.5 * (state.current + current) * (now - state.time)
+        state.drawn = min(state.drawn, self._full)
+        state.current, state.time = current, now
         if self._is_empty:
             self._cut(1.0)
 
     @property
     def _is_empty(self) -> bool:
         """Whether it is empty and stops the thrusters then."""
-        return self._spec.stops_thrusters and self._drawn >= self._full
+        return self._spec.stops_thrusters and self.state.drawn >= self._full
 
     def rests_until(self, time: float) -> float:
         """Return when it looks at the load again: at the next step, if that may be too much."""
@@ -139,14 +152,14 @@ class Battery(Device):
         assert self._actuators is not None
         n, share = len(self._actuators.thrusters), 1.0
         self._cut(0.0)
-        self._is_overloaded = False
+        self.state.is_overloaded = False
         for _ in range(ROUNDS):
             powers = self._actuators.powers().tolist()
             thrusters = math.fsum(powers[:n])
             left = self._spec.greatest_load - self._spec.hotel_load - math.fsum(powers[n:])
             if thrusters - left <= TOLERANCE * self._spec.greatest_load:
                 return
-            self._is_overloaded = True
+            self.state.is_overloaded = True
             if left <= 0.0 or thrusters <= 0.0:
                 self._cut(1.0)
                 return
@@ -173,12 +186,12 @@ class Battery(Device):
         """Read it now, at ``time`` [s]."""
         load = self._load()
         current = self._current_of(load)
-        left = max(self._full - self._drawn, 0.0)
+        left = max(self._full - self.state.drawn, 0.0)
         greatest = self._spec.greatest_load * (1.0 + 1e-6)
         health = BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
         if left <= 0.0:
             health = BatteryState.POWER_SUPPLY_HEALTH_DEAD
-        elif self._is_overloaded or load > greatest:
+        elif self.state.is_overloaded or load > greatest:
             health = BatteryState.POWER_SUPPLY_HEALTH_UNSPEC_FAILURE
         return BatteryState(
             header=header(time, self._spec.name),

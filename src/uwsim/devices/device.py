@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
+from ..base.record import NoState, Record
 from ..schema import Spec
 from ..sensors.sensor import Carrier
 from ..vehicle import Vehicle
@@ -46,6 +47,8 @@ class DeviceSpec(Spec, abc.ABC):
 
     is_left_out: ClassVar[bool] = False
     """Whether the scene goes without it where what it names is not there, as in the original."""
+    is_pure: ClassVar[bool] = False
+    """Whether a sample changes nothing in the device, so that it need not be taken for nobody."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
@@ -60,8 +63,8 @@ class DeviceSpec(Spec, abc.ABC):
 class Device:
     """A bound device; each kind implements one of these methods."""
 
-    STATE: ClassVar[tuple[str, ...]] = ()
-    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+    state: Record = NoState()
+    """All that changes of it as time goes by; `Simulation.save` keeps it."""
 
     def step(self, time: float) -> None:
         """Act before the forces, in the step that begins at ``time`` [s]."""

@@ -14,6 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..base.record import Record
 from ..schema import REQUIRED, element
 from ..world import Body, Stage
 from .device import Device, DeviceSpec, DeviceVehicle
@@ -53,16 +54,21 @@ class _Place:
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
+@dataclass(slots=True)
+class DredgeState(Record):
+    """What a dredge tool has taken."""
+
+    n_taken: int = 0
+    """The columns of sand that lost some, added up."""
+
+
 class DredgeTool(Device):
     """A tool that takes sand where it is."""
 
-    STATE = ("n_taken",)
-
     def __init__(self, stage: Stage, mount: Body) -> None:
         self._stage, self._mount = stage, mount
-        self.n_taken = 0
-        """How many columns of sand lost some, added up."""
+        self.state: DredgeState = DredgeState()
 
     def dig(self) -> None:
         """Take 0.01 m of each column of sand whose top is within 0.1 m."""
-        self.n_taken += self._stage.dig(self._mount.world_from_body.position)
+        self.state.n_taken += self._stage.dig(self._mount.world_from_body.position)

@@ -28,7 +28,7 @@ from ..errors import UnknownName
 from ..schema import element
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
-from .fault_times import FaultTimes
+from .fault_times import FaultState, FaultTimes
 
 Kind = Literal["loss", "dropout", "freeze", "bias", "latency", "outliers"]
 """What fails."""
@@ -104,12 +104,10 @@ class FaultSpec(DeviceSpec):
 class ThrusterFault(Device):
     """A thruster that fails at the times given in the scene."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_times",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, spec: FaultSpec, lose: Callable[[float], None], times: FaultTimes) -> None:
         self._loss = 1.0 if spec.kind == "dropout" else spec.loss
         self._lose, self._times = lose, times
+        self.state: FaultState = times.state
 
     def step(self, time: float) -> None:
         """Set the loss of the step that begins at ``time`` [s]."""

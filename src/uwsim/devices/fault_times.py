@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import ClassVar, Protocol
+from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
+
+from ..base.record import Record
 
 EARLY = 1e-9
 """Tolerance of times [s]."""
@@ -31,22 +34,34 @@ class Timed(Protocol):
         """How long it stays each time; 0: one sample [s]."""
 
 
+@dataclass(slots=True)
+class FaultState(Record):
+    """When a fault occurs."""
+
+    random: np.random.Generator
+    """The generator of its times."""
+    next: float
+    """When it occurs next [s]."""
+    until: float
+    """When the last occurrence ends [s]."""
+
+
 class FaultTimes:
     """The times of one fault; asked at times that rise.
 
     With a rate it begins as a Poisson process does: the times between are exponential.
     """
 
-    STATE: ClassVar[tuple[str, ...]] = ("_random", "_next", "_until")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, spec: Timed, random: np.random.Generator) -> None:
-        self._spec, self._random = spec, random
-        self._next = math.inf if spec.rate is None else spec.start + self._wait()
-        self._until = -math.inf
+        self._spec = spec
+        self.state = FaultState(random, math.inf, -math.inf)
+        """When it occurs."""
+        if spec.rate is not None:
+            self.state.next = spec.start + self._wait()
 
     def _wait(self) -> float:
-        return float(self._random.exponential(1.0 / self._spec.rate)) if self._spec.rate else 0.0
+        rate = self._spec.rate
+        return float(self.state.random.exponential(1.0 / rate)) if rate else 0.0
 
     def acts(self, time: float) -> bool:
         """Whether the fault is present at ``time`` [s]."""
@@ -56,13 +71,13 @@ class FaultTimes:
         if spec.rate is None:
             return True
         has_begun = False
-        while self._next <= time:
+        while self.state.next <= time:
             has_begun = has_begun or spec.duration == 0.0
-            self._until = max(self._until, self._next + spec.duration)
-            self._next += self._wait()
-        return has_begun or time < self._until
+            self.state.until = max(self.state.until, self.state.next + spec.duration)
+            self.state.next += self._wait()
+        return has_begun or time < self.state.until
 
     def next_change(self, time: float) -> float:
         """Return when it may begin or end next, after ``time`` [s]."""
-        ends = (self._spec.start, self._spec.end, self._next, self._until)
+        ends = (self._spec.start, self._spec.end, self.state.next, self.state.until)
         return min((end for end in ends if end is not None and end > time), default=math.inf)

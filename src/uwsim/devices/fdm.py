@@ -34,10 +34,11 @@ import numpy as np
 from ..base.external_values import MAX_COMMAND
 from ..base.geodesy import Geodetic
 from ..base.geometry import Pose, rotation_from_rpy
+from ..base.record import Record
 from ..vehicle import Vehicle, go_or_place
 from ..world import Stage
 from .device import Device, DeviceSpec, DeviceVehicle
-from .tf import HeardFrames
+from .tf import HeardFrames, HeardState
 
 LAYOUT = struct.Struct(">II3d4f")
 VERSION = 24
@@ -85,6 +86,18 @@ def read_packet(data: bytes, origin: Geodetic) -> Pose | None:
     return Pose(position, rotation_from_rpy(roll, pitch, yaw))
 
 
+@dataclass(slots=True)
+class FdmState(Record):
+    """What has come from the autopilot."""
+
+    frames: HeardState
+    """What has been on ``/tf``."""
+    n_taken: int = 0
+    """The packets that could be read."""
+    n_dropped: int = 0
+    """The packets that could not be read."""
+
+
 class FdmInput(Device):
     """Puts a vehicle where the newest packet says; one that is simulated goes there.
 
@@ -97,8 +110,6 @@ class FdmInput(Device):
         world_from_localized: W from L.
     """
 
-    STATE = ("_frames", "n_taken", "n_dropped")
-
     def __init__(
         self,
         vehicle: Vehicle,
@@ -109,8 +120,7 @@ class FdmInput(Device):
     ) -> None:
         self._vehicle, self._receive, self._origin = vehicle, receive, origin
         self._frames, self._world_from_localized = frames, world_from_localized
-        self.n_taken, self.n_dropped = 0, 0
-        """Packets that could be read, and those that could not."""
+        self.state: FdmState = FdmState(frames.state)
 
     def rests_until(self, time: float) -> float:
         """Return when it looks for packets again: at the next step, or never."""
@@ -122,8 +132,8 @@ class FdmInput(Device):
             return
         poses = [read_packet(data, self._origin) for data in self._receive()]
         sound = [pose for pose in poses if pose is not None]
-        self.n_taken += len(sound)
-        self.n_dropped += len(poses) - len(sound)
+        self.state.n_taken += len(sound)
+        self.state.n_dropped += len(poses) - len(sound)
         if sound:
             ned_from_vehicle = sound[-1]
             go_or_place(self._vehicle, self._world_from_ned() @ ned_from_vehicle)

@@ -38,6 +38,7 @@ class ForceSensorSpec(DeviceSpec):
     """
 
     message_type: ClassVar[type] = WrenchStamped
+    is_pure: ClassVar[bool] = True
 
     name: str
     """Its name."""

@@ -16,6 +16,7 @@ import math
 from dataclasses import dataclass
 
 from ..base.geometry import Pose
+from ..base.record import Record
 from ..bus import Remark
 from ..messages import Float64
 from ..schema import element
@@ -88,16 +89,21 @@ def odd_brightness(message: Float64) -> Remark | None:
     return None
 
 
+@dataclass(slots=True)
+class LampState(Record):
+    """How a lamp shines."""
+
+    brightness: float = 1.0
+    """The share of its intensity that it gives, 0..1."""
+
+
 class MountedLamp(Device):
     """A lamp on a link."""
-
-    STATE = ("brightness",)
 
     def __init__(self, spec: LampSpec, mount: Body) -> None:
         self.spec = spec
         """How it shines."""
-        self.brightness = 1.0
-        """Share of its intensity that it gives now [0..1]."""
+        self.state: LampState = LampState()
         self._mount = mount
 
     @property
@@ -113,14 +119,14 @@ class MountedLamp(Device):
     @property
     def is_on(self) -> bool:
         """Whether it shines now."""
-        return self.brightness > 0.0
+        return self.state.brightness > 0.0
 
     @property
     def intensity(self) -> float:
         """What it gives to a white surface facing it at 1 m now [1: full scale]."""
-        return self.brightness * self.spec.intensity
+        return self.state.brightness * self.spec.intensity
 
     def command(self, message: Float64) -> None:
         """Shine as brightly as told, from 0 to 1; what is no number is passed over."""
         if not math.isnan(message.data):
-            self.brightness = min(1.0, max(0.0, float(message.data)))
+            self.state.brightness = min(1.0, max(0.0, float(message.data)))

@@ -19,6 +19,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Pose
+from ..base.record import Record
 from ..messages import LedLight
 from ..schema import REQUIRED, element
 from ..world import Body, Stage
@@ -90,17 +91,31 @@ class LedArraySpec(DeviceSpec):
         return LedArray(tuple(leds))
 
 
+@dataclass(slots=True)
+class LedState(Record):
+    """How long a signal lamp shines."""
+
+    until: float = 0.0
+    """The time before which it shines [s]."""
+
+
+@dataclass(slots=True)
+class LedArrayState(Record):
+    """How long signal lamps shine."""
+
+    leds: list[LedState]
+    """How long each does."""
+
+
 class Led:
     """One signal lamp."""
-
-    STATE = ("_until",)
-    """Names of the attributes that change as time goes by."""
 
     def __init__(self, spec: LampSpec, mount: Body, clock: Callable[[], float]) -> None:
         self.spec = spec
         """How it shines."""
         self._mount, self._clock = mount, clock
-        self._until = 0.0  # it shines before this time [s]
+        self.state = LedState()
+        """How long it shines."""
 
     @property
     def link(self) -> str:
@@ -115,7 +130,7 @@ class Led:
     @property
     def is_on(self) -> bool:
         """Whether it shines now."""
-        return self._clock() < self._until
+        return self._clock() < self.state.until
 
     @property
     def intensity(self) -> float:
@@ -124,14 +139,13 @@ class Led:
 
     def command(self, message: LedLight) -> None:
         """Shine from now on for a time, whatever was said before."""
-        self._until = self._clock() + message.duration.sec + 1e-9 * message.duration.nanosec
+        self.state.until = self._clock() + message.duration.sec + 1e-9 * message.duration.nanosec
 
 
 class LedArray(Device):
     """A red and a green lamp."""
 
-    STATE = ("leds",)
-
     def __init__(self, leds: tuple[Led, ...]) -> None:
         self.leds = leds
         """The lamps."""
+        self.state: LedArrayState = LedArrayState([led.state for led in leds])

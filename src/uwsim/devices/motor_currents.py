@@ -17,6 +17,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.record import RandomState
 from ..messages import JointState, header
 from ..schema import element
 from ..world import Actuators, Stage
@@ -45,12 +46,11 @@ class MotorCurrentsSpec(DeviceSpec):
 class MotorCurrents(Device):
     """Currents of thrusters and joints."""
 
-    STATE = ("_random",)
-
     def __init__(
         self, spec: MotorCurrentsSpec, actuators: Actuators | None, random: np.random.Generator
     ) -> None:
-        self._spec, self._actuators, self._random = spec, actuators, random
+        self._spec, self._actuators = spec, actuators
+        self.state: RandomState = RandomState(random)
 
     def sample(self, time: float) -> JointState:
         """Measure now, at ``time`` [s]."""
@@ -59,6 +59,6 @@ class MotorCurrents(Device):
             return JointState(header=stamp)
         currents = self._actuators.powers() / self._spec.voltage
         if self._spec.std > 0.0:
-            currents += self._spec.std * self._random.standard_normal(len(currents))
+            currents += self._spec.std * self.state.random.standard_normal(len(currents))
         names = [*self._actuators.thrusters, *self._actuators.joints]
         return JointState(header=stamp, name=names, effort=currents)

@@ -14,6 +14,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.record import Record
 from ..messages import Bool, Range, header
 from ..schema import element
 from ..sensors.sensor import LookAt
@@ -72,44 +73,51 @@ class ObjectPickerSpec(DeviceSpec):
         return picker
 
 
+@dataclass(slots=True)
+class PickerState(Record):
+    """What an object picker holds."""
+
+    distance: float
+    """The distance at which it took it [m]."""
+    held: int | None = None
+    """The number of the object that it holds."""
+    is_released: bool = False
+    """Whether it takes nothing."""
+
+
 class ObjectPicker(Device):
     """A ray that takes what it hits; it measures the distance to it, as a range sensor does.
 
     Not modelled: how it holds; whatever is within the range of its ray is fixed to its link.
     """
 
-    STATE = ("held", "_distance", "_is_released")
-
     def __init__(
         self, spec: ObjectPickerSpec, mount: Body, stage: Stage, vehicle: DeviceVehicle
     ) -> None:
         self._spec, self._mount, self._stage, self._vehicle = spec, mount, stage, vehicle
-        self.held: int | None = None
-        """Number of the object that it holds."""
-        self._distance = spec.range  # at which it took it [m]
-        self._is_released = False
+        self.state: PickerState = PickerState(spec.range)
 
     def command(self, message: Bool) -> None:
         """Release what it holds, or look for an object again."""
-        self._is_released = bool(message.data)
-        if self._is_released and self.held is not None:
-            self._vehicle.let_go(self.held)
-            self.held = None
+        self.state.is_released = bool(message.data)
+        if self.state.is_released and self.state.held is not None:
+            self._vehicle.let_go(self.state.held)
+            self.state.held = None
 
     def look(self) -> None:
         """Take the first object in its ray, if it holds none."""
-        if self.held is not None or self._is_released:
+        if self.state.held is not None or self.state.is_released:
             return
         distance, surface = self._cast()
         thing = self._stage.catchable(surface)
         if thing is not None and distance <= self._spec.range:
             self._vehicle.hold(thing, self._spec.relative_to)
-            self.held, self._distance = thing, distance
+            self.state.held, self.state.distance = thing, distance
 
     def sample(self, time: float) -> Range:
         """Measure now, at ``time`` [s]: the distance at which it took what it holds."""
-        spec = self._spec
-        distance = self._distance if self.held is not None else min(self._cast()[0], spec.range)
+        spec, state = self._spec, self.state
+        distance = min(self._cast()[0], spec.range) if state.held is None else state.distance
         return Range(
             header=header(time, spec.name),
             radiation_type=Range.ULTRASOUND,

@@ -12,11 +12,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import ClassVar
+from dataclasses import dataclass, field
 
 from ..base.external_values import EXPECTED_POSE, read_position, read_quaternion
 from ..base.geometry import Pose
+from ..base.record import Record
 from ..bus import Bus, Remark
 from ..messages import TFMessage, TransformStamped
 from ..schema import MAX_DISTANCE, element
@@ -54,24 +54,41 @@ class TfSpec(DeviceSpec):
         )
 
 
+@dataclass(slots=True)
+class HeardState(Record):
+    """What has been on ``/tf``."""
+
+    parents: dict[str, tuple[str, Pose]] = field(default_factory=dict)
+    """The parent of each frame, and ``parent_from_frame``."""
+    n_heard: int = 0
+    """The transforms so far."""
+
+
+@dataclass(slots=True)
+class FollowerState(Record):
+    """What a vehicle has followed."""
+
+    frames: HeardState
+    """What has been on ``/tf``."""
+    n_followed: int = 0
+    """The transforms that it has followed."""
+
+
 class HeardFrames:
     """The newest transform to each frame that was on ``/tf``; what is no transform is left out."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_parents", "n_heard")
-    """Names of the attributes that change as time goes by."""
-
     def __init__(self, bus: Bus) -> None:
-        self._parents: dict[str, tuple[str, Pose]] = {}
-        self.n_heard = 0
-        """So many transforms have come so far."""
+        self.state = HeardState()
+        """What has been there."""
         bus.subscribe("/tf", TFMessage, self._hear, remark=_odd_transform)
 
     def _hear(self, message: TFMessage) -> None:
         for each in message.transforms:
             pose = _pose_of(each)
             if pose is not None:
-                self._parents[_plain(each.child_frame_id)] = (_plain(each.header.frame_id), pose)
-                self.n_heard += 1
+                parent = _plain(each.header.frame_id)
+                self.state.parents[_plain(each.child_frame_id)] = parent, pose
+                self.state.n_heard += 1
 
     def find(self, frame: str, parent: str = WORLD) -> Pose | None:
         """Return ``parent_from_frame``; None where no chain of transforms leads there."""
@@ -79,9 +96,9 @@ class HeardFrames:
         for _ in range(MAX_DEPTH):
             if name == parent:
                 return pose
-            if name not in self._parents:
+            if name not in self.state.parents:
                 return None
-            name, parent_from_child = self._parents[name]
+            name, parent_from_child = self.state.parents[name]
             pose = parent_from_child @ pose
         return None
 
@@ -97,8 +114,6 @@ class TfFollower(Device):
         world_from_localized: W from L.
     """
 
-    STATE = ("_frames", "_n_followed")
-
     def __init__(
         self,
         vehicle: Vehicle,
@@ -110,7 +125,7 @@ class TfFollower(Device):
         self._vehicle, self._frames, self._frame = vehicle, frames, frame
         self._frame_from_vehicle = frame_from_vehicle
         self._world_from_localized = world_from_localized
-        self._n_followed = 0
+        self.state: FollowerState = FollowerState(frames.state)
 
     def rests_until(self, time: float) -> float:
         """Return inf: it does something only where a message has been delivered."""
@@ -118,9 +133,9 @@ class TfFollower(Device):
 
     def step(self, time: float) -> None:
         """Follow what has come since the last step."""
-        if self._n_followed == self._frames.n_heard:
+        if self.state.n_followed == self._frames.state.n_heard:
             return
-        self._n_followed = self._frames.n_heard
+        self.state.n_followed = self._frames.state.n_heard
         localized_from_frame = self._frames.find(self._frame)
         if localized_from_frame is not None:
             localized_from_vehicle = localized_from_frame @ self._frame_from_vehicle

@@ -10,9 +10,9 @@ from __future__ import annotations
 import abc
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import ClassVar
 
 from ..base.geometry import Array
+from ..base.record import NoState, Record
 from ..schema import Spec
 from ..world import Attachment, ForceWorld
 
@@ -41,8 +41,8 @@ class Force(abc.ABC):
     with the first power of the step, and a damping c on a mass m needs a step below 2 m/c.
     """
 
-    STATE: ClassVar[tuple[str, ...]] = ()
-    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+    state: Record = NoState()
+    """All that changes of it as time goes by; `Simulation.save` keeps it."""
 
     @abc.abstractmethod
     def wrenches(self, time: float) -> Iterable[tuple[Attachment, Array]]:

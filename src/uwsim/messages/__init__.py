@@ -2,10 +2,10 @@
 
 Messages are dataclasses of ROS 2 (Jazzy), one module a ROS package. Each field has the default that
 ROS gives it: 0, False, an empty text or list, arrays of zeros in their length, and for a quaternion
-that of no rotation, w = 1, so that ``Twist()`` is one that is all zero. Names, order, units and
-constants are ROS's own; a test compares them with the definitions that rosbags ships. Services and
-the types of the UWSim packages are in this package; a test compares them with the ``.srv`` text.
-Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
+that of no rotation, w = 1, so that ``Twist()`` is one that is all zero. ``scripts/messages`` writes
+their modules: types of ROS from the definitions that rosbags ships, those of other packages from
+the ``.msg`` texts in their folders. Services of UWSim are in ``services.py``; a test compares them
+with their ``.srv`` texts. Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
 """
 
 from __future__ import annotations

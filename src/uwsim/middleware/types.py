@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import importlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -187,11 +188,23 @@ def is_fieldless(name: str) -> bool:
 
 @functools.cache
 def _classes() -> dict[str, type]:
-    """Full name -> class of the bus, of all messages and of both halves of the services."""
+    """Full name -> class of the bus, of all messages and of both halves of the services.
+
+    A message that `uwsim.messages` does not list is in the module of its package.
+    """
     public = [getattr(messages, name) for name in messages.__all__]
     public += MESSAGES
     public += [half for each in SERVICES.values() for half in (each.request, each.response)]
-    return {each.__msgtype__: each for each in public if hasattr(each, "__msgtype__")}
+    found = {each.__msgtype__: each for each in public if hasattr(each, "__msgtype__")}
+    modules = {
+        name.split("/")[0]: kind.__module__ for name, kind in found.items() if "/msg/" in name
+    }
+    for path in FOLDER.glob("*/msg/*.msg"):
+        package, name = path.parts[-3], f"{path.parts[-3]}/msg/{path.stem}"
+        if name not in found:
+            module = modules.get(package, f"{messages.__name__}.{package}")
+            found[name] = getattr(importlib.import_module(module), path.stem)
+    return found
 
 
 def _register_ours(store: Any) -> None:

@@ -30,6 +30,7 @@ from ..topics import element_of
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from ..world import GRAVITY
 from .inertias import MAX_BUOYANCY, MIN_MASS, inertias_refused
+from .named_sensors import NamedSensors
 from .robots import find_file
 
 Severity = Literal["error", "warning"]
@@ -87,6 +88,7 @@ class Search:
         self.found: list[Diagnostic] = []
         """All that is wrong or worth knowing."""
         self._scene, self._data_path = scene, data_path
+        self._sensors = NamedSensors(scene)
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.dynamics is not None and index in robots:
                 self._read(index, vehicle.dynamics, robots[index])
@@ -280,7 +282,7 @@ class Search:
         types = {measured_by(type(part)) for part in named} - {None}
         for interface in self._scene.ros_interfaces:
             if fault.sensor in (_name(interface), getattr(interface, "camera_name", None)):
-                types |= set(interface.carries().values())
+                types |= set(self._sensors.carried(interface).values())
         known = [path for each in types if each is not None for path in number_fields(each())]
         if fault.field is None or not named or fault.field in known:
             return None
@@ -309,7 +311,7 @@ class Search:
         cameras = {
             spec.name for one in self._scene.vehicles for spec in one.parts_of(VirtualCameraSpec)
         }
-        carried: dict[str, tuple[type, str]] = {}
+        topics: dict[str, tuple[type, str]] = {}
         for interface in self._scene.ros_interfaces:
             element = element_of(interface).replace(U, "u:")
             if isinstance(interface, AutopilotTopicSpec) and (
@@ -322,9 +324,11 @@ class Search:
             )
             if named[0] not in (None, *vehicles) or named[1] not in (None, *cameras):
                 continue  # left out, as in the original
-            for field, message in interface.carries().items():
+            if said := self._sensors.error(interface):
+                self._say(f"<{element}>: {said}", interface)
+            for field, message in self._sensors.carried(interface).items():
                 topic = str(getattr(interface, field))
-                other, first = carried.setdefault(topic.strip("/"), (message, element))
+                other, first = topics.setdefault(topic.strip("/"), (message, element))
                 if other is not message:
                     self._say(
                         f"<{element}>: the topic {topic!r} carries {_type_name(message)}, but of "

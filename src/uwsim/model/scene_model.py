@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..base.digest import digest_of
 from ..base.engine import mujoco
 from ..base.geometry import Pose, quaternion_from_rotation
 from ..devices.object_picker import ObjectPickerSpec
@@ -53,6 +54,11 @@ class SceneModel:
     """The collision shapes of what is simulated, by the name of its body."""
     engine_model: mujoco.MjModel
     """The model of the physics engine; each engine steps a copy."""
+
+    @cached_property
+    def digest(self) -> str:
+        """The hash of the scene, with its variations; of the spec, wherever its file lies."""
+        return digest_of(self.scene)
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:

@@ -6,6 +6,8 @@ import heapq
 from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
+from ..base.record import Record
+
 NANOSECONDS = 1_000_000_000
 
 T = TypeVar("T")
@@ -24,27 +26,34 @@ class _Entry(Generic[T]):
     event: T = field(compare=False)
 
 
+@dataclass(slots=True)
+class EventsState(Record, Generic[T]):
+    """The events of a queue."""
+
+    heap: list[_Entry[T]] = field(default_factory=list)
+    """The events, as a heap."""
+    n_added: int = 0
+    """The events added so far."""
+
+
 class EventQueue(Generic[T]):
     """Events with integer times [ns]."""
 
-    STATE = ("_heap", "_n_added")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self) -> None:
-        self._heap: list[_Entry[T]] = []
-        self._n_added = 0
+        self.state: EventsState[T] = EventsState()
+        """The events."""
 
     def add(self, time: int, event: T, *, rank: int = 0) -> None:
         """Add an event at ``time`` [ns]; at equal times the lowest rank comes first."""
-        self._n_added += 1
-        heapq.heappush(self._heap, _Entry(time, rank, self._n_added, event))
+        self.state.n_added += 1
+        heapq.heappush(self.state.heap, _Entry(time, rank, self.state.n_added, event))
 
     def __len__(self) -> int:
-        return len(self._heap)
+        return len(self.state.heap)
 
     def take(self, until: int) -> tuple[int, T] | None:
         """Take out the next event and its time, if that is not after ``until`` [ns]."""
-        if not self._heap or self._heap[0].time > until:
+        if not self.state.heap or self.state.heap[0].time > until:
             return None
-        entry = heapq.heappop(self._heap)
+        entry = heapq.heappop(self.state.heap)
         return entry.time, entry.event

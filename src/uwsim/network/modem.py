@@ -7,11 +7,12 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from ..base.geometry import Array
+from ..base.record import Item, Record
 from .channel import Channel, Path
 from .energy import EnergyModel
 from .events import nanoseconds
 from .mac import Mac
-from .packet import Counts, Packet, Reception
+from .packet import Counts, Packet
 from .packet_errors import ErrorModel
 
 
@@ -62,8 +63,8 @@ class ModemSettings:
         return self.sends_on == self.listens_to
 
 
-@dataclass(kw_only=True)
-class Waiting:
+@dataclass(slots=True)
+class Waiting(Item):
     """A packet that waits to be sent."""
 
     packet: Packet
@@ -72,6 +73,34 @@ class Waiting:
     """From when on it may be sent [ns]."""
     n_tries: int = 0
     """How often the protocol has been asked whether it may be sent."""
+
+
+@dataclass(slots=True)
+class ModemState(Record):
+    """What changes of a device."""
+
+    queue: deque[Waiting] = field(default_factory=deque)
+    """What waits to be sent; the first of them may be on its way."""
+    n_queued_bytes: int = 0
+    """Their size."""
+    n_packets: int = 0
+    """The packets that were handed over."""
+    is_busy: bool = False
+    """Whether the first of the queue is about to be sent, or being sent."""
+    sends_until: int = 0
+    """When the packet that is being sent ends [ns]."""
+    outgoing: list[int] = field(default_factory=list)
+    """The receptions of the packet that is being sent, at each device that hears it."""
+    arriving: list[int] = field(default_factory=list)
+    """The receptions of what arrives."""
+    time_sending: int = 0
+    """The time spent sending [ns]."""
+    time_receiving: int = 0
+    """The time spent receiving [ns]."""
+    last_delivery: int = 0
+    """When the last packet was handed on [ns]."""
+    counts: Counts = field(default_factory=Counts)
+    """What became of its packets."""
 
 
 class Modem:
@@ -83,13 +112,6 @@ class Modem:
         deliver: called with each packet received and its time [ns].
     """
 
-    STATE = (
-        *("queue", "n_queued_bytes", "n_packets", "is_busy", "sends_until"),
-        *("outgoing", "arriving"),
-        *("time_sending", "time_receiving", "last_delivery", "counts"),
-    )
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self,
         settings: ModemSettings,
@@ -97,33 +119,20 @@ class Modem:
         deliver: Callable[[Packet, int], None],
     ) -> None:
         self.settings, self.position, self.deliver = settings, position, deliver
-        self.queue: deque[Waiting] = deque()
-        """What waits to be sent; the first of them may be on its way."""
-        self.n_queued_bytes = 0
-        """Their size."""
-        self.n_packets = 0
-        """So many have been handed over."""
-        self.is_busy = False
-        """Whether the first of the queue is about to be sent, or being sent."""
-        self.sends_until = 0
-        """When the packet that is being sent ends [ns]."""
-        self.outgoing: list[Reception] = []
-        """What becomes of the packet that is being sent, at each device that hears it."""
-        self.arriving: list[Reception] = []
-        """What arrives now."""
-        self.time_sending, self.time_receiving = 0, 0
-        """So far [ns]."""
-        self.last_delivery = 0
-        """When the last packet was handed on [ns]."""
-        self.counts = Counts()
+        self.state = ModemState()
+        """What changes of it."""
+
+    @property
+    def counts(self) -> Counts:
         """What became of its packets."""
+        return self.state.counts
 
     def energy(self, now: int) -> float | None:
         """Return what is left of its energy [J]; None if it has no limit."""
         model = self.settings.energy
         if model is None:
             return None
-        return model.left(now, sent=self.time_sending, received=self.time_receiving)
+        return model.left(now, sent=self.state.time_sending, received=self.state.time_receiving)
 
     def is_dead(self, now: int) -> bool:
         """Whether its energy is used up."""

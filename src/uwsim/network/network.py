@@ -15,17 +15,18 @@ the packet: one device more changes nothing of what the others draw.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Literal
 
 import numpy as np
 
 from ..base.numerics.linear import length
+from ..base.record import Record
 from ..errors import UnknownName
 from .channel import Channel, Path
-from .events import NANOSECONDS, EventQueue, nanoseconds
-from .modem import Modem, Waiting
+from .events import NANOSECONDS, EventQueue, EventsState, nanoseconds
+from .modem import Modem, ModemState, Waiting
 from .packet import EVERYONE, Outcome, Packet, Reception
 
 MAX_DEPTH = 12_000.0
@@ -41,7 +42,23 @@ class _Event:
 @dataclass(frozen=True)
 class _Arrival:
     kind: Literal["begin", "end", "deliver"]
-    reception: Reception
+    reception: int
+
+
+@dataclass(slots=True)
+class NetworkState(Record):
+    """What is on its way."""
+
+    modems: list[ModemState]
+    """What changes of each device."""
+    events: EventsState[_Event | _Arrival]
+    """What happens next."""
+    receptions: dict[int, Reception] = field(default_factory=dict)
+    """What becomes of each packet that is on its way, at each device that hears it."""
+    n_receptions: int = 0
+    """The receptions so far."""
+    now: int = 0
+    """The time up to which everything has happened [ns]."""
 
 
 class Network:
@@ -52,9 +69,6 @@ class Network:
         surface: height of the water surface in W [m].
         channels: what devices send on, by name.
     """
-
-    STATE = ("_modems", "_events", "_now")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -70,12 +84,13 @@ class Network:
         self._stream, self._surface = stream, surface
         self._modems: list[Modem] = []
         self._events: EventQueue[_Event | _Arrival] = EventQueue()
-        self._now = 0
+        self.state = NetworkState([], self._events.state)
+        """What is on its way."""
 
     @property
     def now(self) -> int:
         """Time up to which everything has happened [ns]."""
-        return self._now
+        return self.state.now
 
     @property
     def is_idle(self) -> bool:
@@ -86,6 +101,7 @@ class Network:
         """Add a device; returns ``send(data, destination)``."""
         number = len(self._modems)
         self._modems.append(modem)
+        self.state.modems.append(modem.state)
         return lambda data, destination: self._queue(number, data, destination)
 
     def modem(self, name: str) -> Modem:
@@ -100,9 +116,9 @@ class Network:
         if not self._modems:
             return
         while (due := self._events.take(now)) is not None:
-            self._now, event = due
+            self.state.now, event = due
             self._happen(event)
-        self._now = max(self._now, now)
+        self.state.now = max(self.now, now)
 
     def _happen(self, event: _Event | _Arrival) -> None:
         if isinstance(event, _Event):
@@ -112,44 +128,44 @@ class Network:
         elif event.kind == "end":
             self._end(event.reception)
         else:
-            reception = event.reception
+            reception = self.state.receptions.pop(event.reception)
             modem = self._modems[reception.receiver]
             self._count(modem, "received", reception.sender, reception.packet)
-            modem.deliver(reception.packet, self._now)
+            modem.deliver(reception.packet, self.now)
 
     def _queue(self, number: int, data: bytes, destination: int) -> None:
         """Put a packet into the queue of a device, if there is room."""
         modem = self._modems[number]
-        settings, index = modem.settings, modem.n_packets
-        modem.n_packets += 1
+        settings, state, index = modem.settings, modem.state, modem.state.n_packets
+        state.n_packets += 1
         packet = Packet(number=index, source=settings.address, destination=destination, data=data)
         self._count(modem, "queued", number, packet)
-        if modem.is_dead(self._now):
+        if modem.is_dead(self.now):
             self._count(modem, "no_energy", number, packet)
             return
-        if modem.n_queued_bytes + packet.room > settings.queue_size:
+        if state.n_queued_bytes + packet.room > settings.queue_size:
             self._count(modem, "queue_full", number, packet)
             return
         delay = settings.send_delay
         if settings.send_jitter > 0.0:
             delay += settings.send_jitter * self._draw(f"{settings.name}/{index}/send").random()
-        modem.queue.append(Waiting(packet=packet, ready=self._now + nanoseconds(delay)))
-        modem.n_queued_bytes += packet.room
-        if not modem.is_busy:
+        state.queue.append(Waiting(packet=packet, ready=self.now + nanoseconds(delay)))
+        state.n_queued_bytes += packet.room
+        if not state.is_busy:
             self._plan_next(number)
 
     def _plan_next(self, number: int) -> None:
         """Try to send the first packet of a device's queue as soon as it may be."""
-        modem = self._modems[number]
-        modem.is_busy = bool(modem.queue)
-        if modem.queue:
-            self._events.add(max(modem.queue[0].ready, self._now), _Event("try", number))
+        state = self._modems[number].state
+        state.is_busy = bool(state.queue)
+        if state.queue:
+            self._events.add(max(state.queue[0].ready, self.now), _Event("try", number))
 
     def _try(self, number: int) -> None:
         """Send the first packet of the queue, or try again when the protocol says."""
         modem = self._modems[number]
-        waiting, settings = modem.queue[0], modem.settings
-        if modem.is_dead(self._now):
+        waiting, settings = modem.state.queue[0], modem.settings
+        if modem.is_dead(self.now):
             self._count(modem, "no_energy", number, waiting.packet)
             self._drop_first(modem)
             self._plan_next(number)
@@ -157,11 +173,11 @@ class Network:
         name = f"{settings.name}/{waiting.packet.number}/backoff/{waiting.n_tries}"
         waiting.n_tries += 1
         time = settings.mac.send_time(
-            self._now,
-            hears=bool(modem.arriving),
+            self.now,
+            hears=bool(modem.state.arriving),
             draw=lambda below: int(self._draw(name).integers(below)),
         )
-        if time > self._now:
+        if time > self.now:
             self._events.add(time, _Event("try", number))
         else:
             self._send(number, waiting.packet)
@@ -169,67 +185,77 @@ class Network:
     def _send(self, number: int, packet: Packet) -> None:
         """Send a packet to all that hear the device."""
         sender = self._modems[number]
-        settings = sender.settings
+        settings, state = sender.settings, sender.state
         duration = settings.airtime(len(packet.data))
-        sender.sends_until = self._now + duration
-        sender.time_sending += duration
+        state.sends_until = self.now + duration
+        state.time_sending += duration
         self._count(sender, "sent", number, packet)
         if settings.is_half_duplex:
-            for reception in sender.arriving:
-                reception.lost = reception.lost or "half_duplex"
-        self._events.add(sender.sends_until, _Event("sent", number))
-        sender.outgoing = [
-            self._reception(number, other, packet)
+            for arriving in state.arriving:
+                self._lose(arriving, "half_duplex")
+        self._events.add(state.sends_until, _Event("sent", number))
+        state.outgoing = [
+            self._add_reception(number, other, packet)
             for other, receiver in enumerate(self._modems)
             if other != number and receiver.settings.listens_to == settings.sends_on
             if sender.reaches(self._path(sender, receiver))
         ]
-        for reception in sender.outgoing:
-            self._events.add(reception.arrival, _Arrival("begin", reception), rank=1)
+        for outgoing in state.outgoing:
+            arrival = self.state.receptions[outgoing].arrival
+            self._events.add(arrival, _Arrival("begin", outgoing), rank=1)
 
-    def _reception(self, sender: int, receiver: int, packet: Packet) -> Reception:
+    def _lose(self, number: int, why: Outcome) -> None:
+        reception = self.state.receptions[number]
+        reception.lost = reception.lost or why
+
+    def _add_reception(self, sender: int, receiver: int, packet: Packet) -> int:
         settings = self._modems[sender].settings
         path = self._path(self._modems[sender], self._modems[receiver])
-        return Reception(
+        self.state.n_receptions += 1
+        self.state.receptions[self.state.n_receptions] = Reception(
             packet=packet,
             sender=sender,
             receiver=receiver,
-            arrival=self._now + nanoseconds(settings.channel.delay(path)),
+            arrival=self.now + nanoseconds(settings.channel.delay(path)),
             error_probability=settings.errors.probability(path, len(packet.data)),
         )
+        return self.state.n_receptions
 
     def _sent(self, number: int) -> None:
         """The last bit is sent: it arrives over the distance that there is now."""
         modem = self._modems[number]
-        for reception in modem.outgoing:
+        for outgoing in modem.state.outgoing:
+            reception = self.state.receptions[outgoing]
             path = self._path(modem, self._modems[reception.receiver])
-            end = self._now + nanoseconds(modem.settings.channel.delay(path))
-            self._events.add(max(end, reception.arrival + 1), _Arrival("end", reception))
-        modem.outgoing = []
+            end = self.now + nanoseconds(modem.settings.channel.delay(path))
+            self._events.add(max(end, reception.arrival + 1), _Arrival("end", outgoing))
+        modem.state.outgoing = []
         self._drop_first(modem)
         self._plan_next(number)
 
     def _drop_first(self, modem: Modem) -> None:
-        modem.n_queued_bytes -= modem.queue.popleft().packet.room
+        modem.state.n_queued_bytes -= modem.state.queue.popleft().packet.room
 
-    def _begin(self, reception: Reception) -> None:
+    def _begin(self, number: int) -> None:
         """Begin to receive a packet; what arrives already is lost with it."""
+        reception = self.state.receptions[number]
         modem = self._modems[reception.receiver]
-        if modem.is_dead(self._now):
+        if modem.is_dead(self.now):
             reception.lost = "no_energy"
-        elif modem.settings.is_half_duplex and modem.sends_until > self._now:
+        elif modem.settings.is_half_duplex and modem.state.sends_until > self.now:
             reception.lost = "half_duplex"
-        if modem.arriving:
-            for each in (*modem.arriving, reception):
-                each.lost = each.lost or "collisions"
-        modem.arriving.append(reception)
+        if modem.state.arriving:
+            for each in (*modem.state.arriving, number):
+                self._lose(each, "collisions")
+        modem.state.arriving.append(number)
 
-    def _end(self, reception: Reception) -> None:
+    def _end(self, number: int) -> None:
         """Hand a packet on that has arrived, unless it is lost."""
+        reception = self.state.receptions.pop(number)
         modem, packet = self._modems[reception.receiver], reception.packet
-        modem.arriving = [each for each in modem.arriving if each is not reception]
+        modem.state.arriving.remove(number)
         if reception.lost != "no_energy":
-            modem.time_receiving += self._now - reception.arrival
+            modem.state.time_receiving += self.now - reception.arrival
         sender = self._modems[reception.sender].settings.name
         name = f"{modem.settings.name}/{sender}/{packet.number}"
         if reception.lost is None and self._is_damaged(reception, name):
@@ -240,15 +266,17 @@ class Network:
             delay = 0.0
             if modem.settings.receive_jitter > 0.0:
                 delay = modem.settings.receive_jitter * self._draw(f"{name}/receive").random()
-            modem.last_delivery = max(self._now + nanoseconds(delay), modem.last_delivery)
-            self._events.add(modem.last_delivery, _Arrival("deliver", reception))
+            delivery = max(self.now + nanoseconds(delay), modem.state.last_delivery)
+            modem.state.last_delivery = delivery
+            self.state.receptions[number] = reception
+            self._events.add(delivery, _Arrival("deliver", number))
 
     def _count(self, modem: Modem, outcome: Outcome, sender: int, packet: Packet) -> None:
         """Take note of what becomes of a packet at a device."""
         setattr(modem.counts, outcome, getattr(modem.counts, outcome) + 1)
         if self.trace is not None:
             of = f"{self._modems[sender].settings.name}#{packet.number}"
-            time = f"{self._now // NANOSECONDS}.{self._now % NANOSECONDS:09d}"
+            time = f"{self.now // NANOSECONDS}.{self.now % NANOSECONDS:09d}"
             name = modem.settings.name
             self.trace(f"{time} {name} {outcome} {of} {len(packet.data)} bytes")
 

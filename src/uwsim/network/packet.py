@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+from ..base.record import Item, Record
+
 Outcome = Literal[
     "queued",
     "sent",
@@ -39,8 +41,8 @@ class Packet:
         return max(len(self.data), 1)
 
 
-@dataclass(kw_only=True)
-class Reception:
+@dataclass(slots=True)
+class Reception(Item):
     """A packet that arrives at a device."""
 
     packet: Packet
@@ -57,8 +59,8 @@ class Reception:
     """Why it is lost; None while it is not."""
 
 
-@dataclass(kw_only=True)
-class Counts:
+@dataclass(slots=True)
+class Counts(Record):
     """What became of the packets of a device."""
 
     queued: int = 0

@@ -17,16 +17,28 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.linear import dot, product, turned, turned_back
+from ..base.record import Record
 from .hydrodynamics import columns as c
 
 FIXED, MOVING = -1, -2
 """What an object touches that is no object with a bound."""
+
+
+@dataclass(slots=True)
+class BounceState(Record):
+    """What bounds the energy of loose objects."""
+
+    bounds: Array
+    """The energy that each may have, (n,) [J]."""
+    before: Array
+    """The velocity of each before the step, (n, 6) [m/s, rad/s]."""
 
 
 class BounceLimit:
@@ -38,9 +50,6 @@ class BounceLimit:
         bodies: numbers of the loose objects' bodies.
     """
 
-    STATE = ("_bounds", "_before")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, bodies: Sequence[int]) -> None:
         self._model, self._data = model, data
         self._objects = [_Object(model, data, body) for body in bodies]
@@ -48,8 +57,11 @@ class BounceLimit:
         """Whether it bounds anything; not while a vehicle holds an object."""
         self._numbers = {one.body: i for i, one in enumerate(self._objects)}
         self._fixed = model.body_weldid == 0  # whether a body never moves
-        self._bounds = np.array([one.energy() for one in self._objects])  # [J]
-        self._before = np.array([one.velocity for one in self._objects]).reshape(-1, 6)
+        self.state = BounceState(
+            np.array([one.energy() for one in self._objects]),
+            np.array([one.velocity for one in self._objects]).reshape(-1, 6),
+        )
+        """What bounds their energy."""
 
     def apply(self) -> None:
         """Bound the energy of every object, and of those that touch each other, after a step."""
@@ -60,16 +72,16 @@ class BounceLimit:
             if is_bounded and (len(group) > 1 or FIXED in touched[group[0]]):
                 self._bound(group, energies)
             else:
-                self._bounds[group] = energies[group]
+                self.state.bounds[group] = energies[group]
         for i, one in enumerate(self._objects):
-            self._before[i] = one.velocity
+            self.state.before[i] = one.velocity
 
     def _bound(self, group: list[int], energies: Array) -> None:
         """Bound the sum of the energies of some objects, which they exchange."""
         objects = [self._objects[i] for i in group]
         for i, one in zip(group, objects, strict=True):
-            self._bounds[i] += one.work_of_flow(self._before[i])
-        excess = float(energies[group].sum() - self._bounds[group].sum())
+            self.state.bounds[i] += one.work_of_flow(self.state.before[i])
+        excess = float(energies[group].sum() - self.state.bounds[group].sum())
         kinetic = sum(one.kinetic() for one in objects)
         if excess > 0.0 and kinetic > 0.0:
             share = excess / kinetic
@@ -77,7 +89,9 @@ class BounceLimit:
                 one.slow_down(share)
         if len(group) > 1:  # what each may have from now on: the sum is as before
             left = np.array([one.energy() for one in objects])
-            self._bounds[group] = left + (self._bounds[group].sum() - left.sum()) / len(group)
+            self.state.bounds[group] = left + (self.state.bounds[group].sum() - left.sum()) / len(
+                group
+            )
 
     def _groups(self, touched: Sequence[set[int]]) -> list[list[int]]:
         """Numbers of objects, those together that touch each other."""

@@ -12,7 +12,6 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Pose, quaternion_from_rotation
 from ..base.numerics.linear import cross, turned, turned_back
-from ..errors import UwsimError
 from ..model.body_names import loose_joint, vehicle_joint
 from ..model.scene_model import SceneModel
 from ..scene.spec import SceneSpec
@@ -23,6 +22,8 @@ from .actuation.vehicle_actuation import actuation_of
 from .bounce_limit import BounceLimit
 from .collision.contacts import EngineContacts, body_name
 from .collision.world_tree import place_fixed_shapes
+from .engine_memory import EngineMemory
+from .engine_state import EngineState, ModelState
 from .engine_warnings import StepCheck
 from .grips import Grips
 from .joint_wrench import JointWrench
@@ -52,19 +53,6 @@ class Engine:
         scene_model: the model of the scene.
     """
 
-    STATE = (
-        "_engine",
-        "actuation",
-        "_uwsim_physics",
-        "_n_steps",
-        "poses",
-        "grips",
-        "_contacts",
-        "_bounces",
-        "lift",
-    )
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, scene_model: SceneModel) -> None:
         scene, robots, dynamics = scene_model.scene, scene_model.robots, scene_model.dynamics
         shapes = scene_model.shapes
@@ -84,7 +72,6 @@ class Engine:
         """Objects that vehicles hold."""
         self._contacts = EngineContacts(scene, model, data, shapes)
         self._check = StepCheck(model, data, names)
-        self._n_steps = 0
         free = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
         self._free_places = {i: int(model.jnt_qposadr[joint]) for i, joint in free.items()}
         self._free_dofs = {i: int(model.jnt_dofadr[joint]) for i, joint in free.items()}
@@ -106,29 +93,20 @@ class Engine:
         self.lift = Lift(model, data)
         """Bodies that begin in the ground, on their way out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
-
-    @property
-    def _engine(self) -> tuple[mujoco.MjData, Array, Array, Array, int]:
-        """MuJoCo's data, and the model parameters that servos and steps change."""
-        model = self._model
-        return (
-            copy.copy(self._data),
-            model.jnt_range.copy(),
-            model.actuator_gainprm.copy(),
-            model.actuator_biasprm.copy(),
-            model.opt.disableflags,
+        self.state = EngineState(
+            memory=EngineMemory(data, self._contacts.forget),
+            model=ModelState.of(model),
+            n_steps=0,
+            actuation={i: each.state for i, each in self.actuation.items()},
+            poses=self.poses.state,
+            grips=self.grips.state,
+            contacts=self._contacts.state,
+            lift=self.lift.state,
+            bounces=self._bounces.state if self._bounces else None,
+            stepper=self._stepper.state if self._stepper else None,
+            uwsim_physics=self._uwsim_physics.state if self._uwsim_physics else None,
         )
-
-    @_engine.setter
-    def _engine(self, kept: tuple[mujoco.MjData, Array, Array, Array, int]) -> None:
-        model, (data, ranges, gains, biases, flags) = self._model, kept
-        if (data.model.nq, data.nbuffer) != (model.nq, self._data.nbuffer):
-            raise UwsimError("The saved simulation is not of this scene.")
-        mujoco.mj_copyData(self._data, model, data)
-        model.jnt_range[:] = ranges
-        model.actuator_gainprm[:] = gains
-        model.actuator_biasprm[:] = biases
-        model.opt.disableflags = flags
+        """What changes of the physics."""
 
     @property
     def is_dynamic(self) -> bool:
@@ -147,7 +125,7 @@ class Engine:
     @property
     def n_steps(self) -> int:
         """Steps taken; one that failed counts."""
-        return self._n_steps
+        return self.state.n_steps
 
     def submerged_positions(self) -> Array:
         """Return where the water acts on bodies, in W, (n, 3) [m].
@@ -180,11 +158,11 @@ class Engine:
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
         try:
-            self._stepper.run(n, self._n_steps, water)
+            self._stepper.run(n, self.state.n_steps, water)
         finally:
-            self._n_steps = self._stepper.n_steps
+            self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()
-        self._contacts.hold = True
+        self._contacts.look_again(hold=True)
         self.poses.moved()
 
     def push(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
@@ -217,9 +195,9 @@ class Engine:
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
             self._bounces.apply()
-        self._n_steps += 1
-        self._check.end_if_warned(self._n_steps)
-        self._contacts.hold = True
+        self.state.n_steps += 1
+        self._check.end_if_warned(self.state.n_steps)
+        self._contacts.look_again(hold=True)
         self.poses.moved()
 
     def contacts(self, kind: Kind, index: int) -> list[Contact] | None:
@@ -274,7 +252,7 @@ class Engine:
         if index in self.actuation:
             self._data.qvel[dof : dof + 6] = 0.0
             self.actuation[index].hold(world_from_base)
-            self._contacts.hold = False
+            self._contacts.look_again(hold=False)
         self.poses.moved()
 
     def placed_motion(self, index: int) -> PlacedMotion:

@@ -8,12 +8,13 @@ without mass. An object that is held passes through the vehicle that holds it, a
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
 
 from ..base.geometry import Pose, quaternion_from_rotation
+from ..base.record import Record
 from ..model.body_names import grip, loose_joint, object_body
 from ..model.collision.shapes import CollisionShape
 from .engine_model import ALL, OBJECTS, vehicle_bit
@@ -32,6 +33,14 @@ class Hold:
     """Where the object is in the frame of the link."""
 
 
+@dataclass(slots=True)
+class GripsState(Record):
+    """What is held."""
+
+    held: dict[int, Hold] = field(default_factory=dict)
+    """What holds each object that is held, by its number."""
+
+
 class Grips:
     """The objects of a scene that are held.
 
@@ -43,9 +52,6 @@ class Grips:
         shapes: what can be touched in the engine, by the name of its body.
     """
 
-    STATE = ("_holds",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self,
         model: mujoco.MjModel,
@@ -56,22 +62,12 @@ class Grips:
     ) -> None:
         self._model, self._data, self._poses = model, data, poses
         self._dynamics, self._shapes = dynamics, shapes
-        self._held: dict[int, Hold] = {}
-
-    @property
-    def _holds(self) -> dict[int, Hold]:
-        return dict(self._held)
-
-    @_holds.setter
-    def _holds(self, holds: Mapping[int, Hold]) -> None:
-        for thing in tuple(self._held):
-            self._loosen(thing)
-        for thing, hold in holds.items():
-            self._fix(thing, hold)
+        self.state = GripsState()
+        """What is held."""
 
     def can_hold(self, thing: int) -> bool:
         """Whether an object can be held: not what is solid and fixed, nor what is held."""
-        is_loose = thing not in self._held and not self._poses.is_fixed(thing)
+        is_loose = thing not in self.state.held and not self._poses.is_fixed(thing)
         return is_loose and (self._is_free(thing) or object_body(thing) not in self._shapes)
 
     def hold(self, thing: int, vehicle: int, link: str) -> None:
@@ -82,10 +78,10 @@ class Grips:
 
     def let_go(self, thing: int) -> None:
         """Release an object where it is."""
-        if thing not in self._held:
+        if thing not in self.state.held:
             return
         here = self._poses.object(thing)
-        is_welded = self._weld(thing, self._held[thing]) is not None
+        is_welded = self._weld(thing, self.state.held[thing]) is not None
         self._loosen(thing)
         if self._is_free(thing) and not is_welded:
             self._place(thing, here)
@@ -104,16 +100,16 @@ class Grips:
     @property
     def is_carrying(self) -> bool:
         """Whether a body of the engine follows a vehicle that is not simulated."""
-        return any(self._follows(thing, hold) for thing, hold in self._held.items())
+        return any(self._follows(thing, hold) for thing, hold in self.state.held.items())
 
     @property
     def is_holding(self) -> bool:
         """Whether a vehicle holds an object."""
-        return bool(self._held)
+        return bool(self.state.held)
 
     def follow(self) -> None:
         """Put the bodies that follow a vehicle where they are, before a step."""
-        for thing, hold in self._held.items():
+        for thing, hold in self.state.held.items():
             if self._follows(thing, hold):
                 self._place(thing, self._poses.object(thing))
 
@@ -132,10 +128,10 @@ class Grips:
         return None if weld < 0 else int(weld)
 
     def _fix(self, thing: int, hold: Hold) -> None:
-        self._held[thing] = hold
+        self.state.held[thing] = hold
         weld = self._weld(thing, hold)
         if weld is None:
-            self._poses.carried[thing] = hold.vehicle, hold.link, hold.link_from_object
+            self._poses.state.carried[thing] = hold.vehicle, hold.link, hold.link_from_object
         else:
             place = hold.link_from_object
             turn = quaternion_from_rotation(place.rotation)
@@ -145,8 +141,8 @@ class Grips:
         self._collide(thing, bit, ALL & ~bit)  # as the vehicle's own shapes
 
     def _loosen(self, thing: int) -> None:
-        weld = self._weld(thing, self._held.pop(thing))
-        self._poses.carried.pop(thing, None)
+        weld = self._weld(thing, self.state.held.pop(thing))
+        self._poses.state.carried.pop(thing, None)
         if weld is not None:
             self._data.eq_active[weld] = 0
         self._collide(thing, OBJECTS, ALL)

@@ -2,15 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import points_of, product, turned
+from ..base.record import Record
 from ..model.body_names import object_body, vehicle_body
 from ..model.scene_model import SceneModel
 from .scaled import stretched_axes
+
+
+@dataclass(slots=True)
+class PosesState(Record):
+    """What changes of the frames of a scene."""
+
+    version: int = 0
+    """Grows whenever something was moved."""
+    is_stale: bool = True
+    """Whether the frames are out of date."""
+    put: dict[int, Pose] = field(default_factory=dict)
+    """Where objects were put that are no bodies of the engine."""
+    carried: dict[int, tuple[int, str, Pose]] = field(default_factory=dict)
+    """Objects that follow a link: number of the vehicle, link, and where on it they are."""
 
 
 class Poses:
@@ -21,9 +38,6 @@ class Poses:
         model: that of the engine.
         data: its state.
     """
-
-    STATE = ("version", "_is_stale", "carried", "_put")
-    """Attributes of its state, for snapshots."""
 
     def __init__(self, scene_model: SceneModel, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         scene, robots = scene_model.scene, scene_model.robots
@@ -42,25 +56,26 @@ class Poses:
         self._loose = {i: ids[name] for i, name in names.items() if name in ids}
         self._placed = scene_model.placed_objects
         self._fixed = scene_model.fixed_objects
-        self._put: dict[int, Pose] = {}
-        self.carried: dict[int, tuple[int, str, Pose]] = {}
-        """Objects that follow a link: number of the vehicle, link, and where on it they are."""
         scales = {i: vehicle.scale_factor for i, vehicle in enumerate(scene.vehicles)}
         self._scales = {i: scale for i, scale in scales.items() if scale != (1.0, 1.0, 1.0)}
-        self._is_stale = True
-        self.version = 0
-        """Grows whenever something was moved."""
+        self.state = PosesState()
+        """What changes of them."""
+
+    @property
+    def version(self) -> int:
+        """A number that grows whenever something was moved."""
+        return self.state.version
 
     def moved(self) -> None:
         """Mark the frames as out of date."""
-        self._is_stale = True
-        self.version += 1
+        self.state.is_stale = True
+        self.state.version += 1
 
     def refresh(self) -> None:
         """Compute the frames, if they are out of date."""
-        if self._is_stale:
+        if self.state.is_stale:
             mujoco.mj_kinematics(self._model, self._data)
-            self._is_stale = False
+            self.state.is_stale = False
 
     def base(self, index: int) -> int:
         """Return the engine's number of a vehicle's base."""
@@ -103,17 +118,17 @@ class Poses:
 
     def object(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""
-        if index in self.carried:
-            vehicle, link, link_from_object = self.carried[index]
+        if index in self.state.carried:
+            vehicle, link, link_from_object = self.state.carried[index]
             world_from_link = self.link(vehicle, link)
             return world_from_link @ link_from_object
         if index in self._placed:
-            return self._put.get(index, self._placed[index]).copy()
+            return self.state.put.get(index, self._placed[index]).copy()
         return self._body(self._loose[index])
 
     def put(self, index: int, world_from_object: Pose) -> None:
         """Set the pose of an object that is no body of the engine."""
-        self._put[index] = world_from_object
+        self.state.put[index] = world_from_object
 
     def loose_body(self, index: int) -> int | None:
         """Return the engine's number of an object; None where it is no body of the engine."""
@@ -149,7 +164,7 @@ class Poses:
                     self._axes[parent], model.body_pos[body]
                 )
                 self._axes[body] = product(self._axes[parent], axes.reshape(3, 3))
-        self.version += 1
+        self.state.version += 1
 
     def is_fixed(self, index: int) -> bool:
         """Whether an object stays where it is for good."""

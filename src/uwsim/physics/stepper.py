@@ -7,12 +7,14 @@ a step is two calls into `step_kernel`, or one between two steps.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array
+from ..base.record import Record
 from . import step_kernel
 from .actuation.autopilot import Autopilot
 from .actuation.servos import Servos
@@ -25,6 +27,14 @@ AUTOPILOT_PERIOD = 0.02
 """Period of the autopilots [s]."""
 
 Ints = npt.NDArray[np.int64]
+
+
+@dataclass(slots=True)
+class StepperState(Record):
+    """What the next step depends on, besides the engine's numbers."""
+
+    has_flow: bool = False
+    """Whether the water moved in the last step."""
 
 
 class Stepper:
@@ -76,7 +86,9 @@ class Stepper:
         counters = check.counters
         plan["warnings"], plan["n_warnings"] = counters.ctypes.data, len(counters)
         plan["stride"] = counters.strides[0]
-        self._n_wet, self._moved_water = len(wet), False
+        self._n_wet = len(wet)
+        self.state = StepperState()
+        """What the next step depends on."""
         self._step: Callable[[mujoco.MjModel, mujoco.MjData], None] = (
             mujoco.mj_step if uses_callback else lambda _, data: water.step_without_callback(data)
         )
@@ -103,11 +115,11 @@ class Stepper:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
                 not be true.
         """
-        if motion is None and self._moved_water:
+        if motion is None and self.state.has_flow:
             motion = np.zeros((n, self._n_wet, step_kernel.ROW))
-            self._moved_water = False
+            self.state.has_flow = False
         elif motion is not None:
-            self._moved_water = True
+            self.state.has_flow = True
         plan, model, data, step = self._plan, self._model, self._data, self._step
         plan["step"] = first
         plan["water"] = 0 if motion is None else motion.ctypes.data

@@ -15,17 +15,42 @@ Bullet's friction and its solvers (ours is MuJoCo's, with `compile.FRICTION`), `
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import mujoco
 import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.linear import turned
+from ..base.record import Record
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
-from .kinematics.jumps import JumpTimes, without_placement
+from .kinematics.jumps import JumpState, JumpTimes, without_placement
 
 HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""
+
+
+@dataclass(slots=True)
+class DisplacedState(Record):
+    """The last displacement of a kinematic vehicle."""
+
+    now: Array
+    """Where its joints were put, (n,)."""
+    velocity: Array
+    """The velocity of the last displacement, (n,) [m/s, rad/s]."""
+    step: int
+    """The steps taken."""
+    jumps: JumpState
+    """When it was displaced."""
+
+
+@dataclass(slots=True)
+class UwsimPhysicsState(Record):
+    """What changes besides the engine's numbers."""
+
+    vehicles: list[DisplacedState]
+    """The displacements of each vehicle."""
 
 
 class UwsimPhysics:
@@ -36,9 +61,6 @@ class UwsimPhysics:
         model: of the scene; changed here to what this engine needs.
         data: its state.
     """
-
-    STATE = ("_vehicles",)
-    """Attributes of its state, for snapshots."""
 
     def __init__(self, scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
@@ -66,6 +88,8 @@ class UwsimPhysics:
             if physics.linear_damping > 0.0 or physics.angular_damping > 0.0
         ]
         self._vehicles = [_KinematicVehicle(model, data, of_vehicle) for of_vehicle in joints]
+        self.state = UwsimPhysicsState([vehicle.state for vehicle in self._vehicles])
+        """What changes besides the engine's numbers."""
 
     def step(self) -> None:
         """Take a step; vehicles stay where they are."""
@@ -105,32 +129,29 @@ class _DampedObject:
 class _KinematicVehicle:
     """A kinematic vehicle with the speed of its last displacement."""
 
-    STATE = ("_now", "_velocity", "_step", "_jumps")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: list[int]) -> None:
         self._model, self._data = model, data
         widths = np.diff([*model.jnt_qposadr.tolist(), model.nq])  # of each joint's position
         self._q = np.flatnonzero(np.isin(np.repeat(np.arange(model.njnt), widths), joints))
         self._v = np.flatnonzero(np.isin(model.dof_jntid, joints))
-        self._now: Array = data.qpos[self._q].copy()
-        self._velocity: Array = np.zeros(len(self._v))
-        self._step, self._jumps = 0, JumpTimes(model.opt.timestep, last=0)
+        self._jumps = JumpTimes(model.opt.timestep, last=0)
+        now, speed = data.qpos[self._q].copy(), np.zeros(len(self._v))
+        self.state = DisplacedState(now, speed, 0, self._jumps.state)
 
     def set_speed(self) -> None:
         """Record its pose, and set the speed of its last displacement."""
-        data, here = self._data, self._data.qpos[self._q].copy()
-        self._step += 1
-        if not np.array_equal(here, self._now):
-            self._jumps.add(self._step)
-            self._velocity = self._speed(here)
-            self._now = here
-        is_moving = self._jumps.age(self._step) < self._jumps.n_steps
-        data.qvel[self._v] = self._velocity if is_moving else 0.0
+        data, state, here = self._data, self.state, self._data.qpos[self._q].copy()
+        state.step += 1
+        if not np.array_equal(here, state.now):
+            self._jumps.add(state.step)
+            state.velocity = self._speed(here)
+            state.now = here
+        is_moving = self._jumps.age(state.step) < self._jumps.n_steps
+        data.qvel[self._v] = state.velocity if is_moving else 0.0
 
     def put_back(self) -> None:
         """Undo what the step did to it."""
-        self._data.qpos[self._q] = self._now
+        self._data.qpos[self._q] = self.state.now
         self._data.qvel[self._v] = 0.0
 
     def _speed(self, here: Array) -> Array:
@@ -140,7 +161,7 @@ class _KinematicVehicle:
         """
         after = self._data.qpos.copy()
         before = after.copy()
-        before[self._q] = self._now
+        before[self._q] = self.state.now
         speed = np.zeros(self._model.nv)
         mujoco.mj_differentiatePos(self._model, speed, self._jumps.duration, before, after)
         own: Array = speed[self._v]

@@ -24,11 +24,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
 
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.record import Record
 from ..schema import Spec, element
 
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
@@ -60,33 +60,46 @@ class DriftSpec(Spec):
         return self.bias_instability * FLOOR / PEAK
 
 
+@dataclass(slots=True)
+class DriftState(Record):
+    """The slow errors of three axes."""
+
+    random: np.random.Generator
+    """The generator of the errors."""
+    constant: list[float]
+    """The bias of this run, (3,)."""
+    bias: list[float]
+    """The bias that wanders, (3,)."""
+    walk: list[float]
+    """The random walk, (3,)."""
+    time: float | None
+    """When they were last drawn [s]."""
+
+
 class Drift:
     """The errors of three axes, from sample to sample."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_random", "_time", "_constant", "_bias", "_walk")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, spec: DriftSpec, random: np.random.Generator) -> None:
-        self._spec, self._random = spec, random
-        self._constant: list[float] = (spec.turn_on_bias * random.standard_normal(3)).tolist()
-        self._bias: list[float] = (spec.bias_std * random.standard_normal(3)).tolist()
-        self._walk = [0.0, 0.0, 0.0]
-        self._time: float | None = None
+        self._spec = spec
+        constant: list[float] = (spec.turn_on_bias * random.standard_normal(3)).tolist()
+        bias: list[float] = (spec.bias_std * random.standard_normal(3)).tolist()
+        self.state = DriftState(random, constant, bias, [0.0, 0.0, 0.0], None)
+        """Its slow errors."""
 
     def sample(self, time: float) -> tuple[Array, float]:
         """Return the errors at ``time`` [s], (3,), and the variance of each."""
-        spec = self._spec
-        lasted = 0.0 if self._time is None else time - self._time
-        self._time = time
-        draws = self._random.standard_normal((3, 3)).tolist()
+        spec, state = self._spec, self.state
+        lasted = 0.0 if state.time is None else time - state.time
+        state.time = time
+        draws = state.random.standard_normal((3, 3)).tolist()
         bias_std, kept = spec.bias_std, math.exp(-lasted / spec.correlation_time)
         wander, walk = bias_std * math.sqrt(1.0 - kept * kept), spec.random_walk * math.sqrt(lasted)
         variance = spec.noise_density**2 / (lasted or FIRST)
         slow = spec.turn_on_bias**2 + bias_std**2 + spec.random_walk**2 * time
         std = math.sqrt(variance)
         # Plain floats: three numbers at every sample are dearer as arrays.
-        self._bias = [kept * b + wander * n for b, n in zip(self._bias, draws[1], strict=True)]
-        self._walk = [w + walk * n for w, n in zip(self._walk, draws[2], strict=True)]
-        axes = zip(draws[0], self._constant, self._bias, self._walk, strict=True)
+        state.bias = [kept * b + wander * n for b, n in zip(state.bias, draws[1], strict=True)]
+        state.walk = [w + walk * n for w, n in zip(state.walk, draws[2], strict=True)]
+        axes = zip(draws[0], state.constant, state.bias, state.walk, strict=True)
         error = np.array([std * white + c + bias + walked for white, c, bias, walked in axes])
         return error, variance + slow

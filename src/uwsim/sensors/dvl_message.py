@@ -6,66 +6,75 @@ A velocity that is not known is NaN and its status ``V``; a good one has ``A``.
 from __future__ import annotations
 
 import math
-from typing import ClassVar
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..acoustics import SeaWater
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import product, turned
+from ..base.record import Record
 from ..messages import DVL, Header
 
 GOOD, BAD = "A", "V"
 """Status of a velocity in PD6."""
 
 
+@dataclass(slots=True)
+class TrackState(Record):
+    """What is known of the velocity over one thing."""
+
+    instrument: Array
+    """The velocity in the axes of the sensor, (3,) [m/s]."""
+    world: Array
+    """The velocity in W, (3,) [m/s]."""
+    error: float
+    """The error velocity [m/s]."""
+    made_good: Array
+    """East, north and up since the beginning, over the time with a velocity, (3,) [m]."""
+    time: float | None
+    """When the last ping was [s]."""
+    last: float
+    """When there was a velocity last [s]."""
+
+    @staticmethod
+    def unknown() -> TrackState:
+        """Return that of a sensor that has not pinged."""
+        unknown = np.full(3, math.nan)
+        return TrackState(unknown, unknown.copy(), math.nan, np.zeros(3), None, 0.0)
+
+
 class Track:
     """A velocity, and how far it has led."""
 
-    STATE: ClassVar[tuple[str, ...]] = (
-        "instrument",
-        "world",
-        "error",
-        "made_good",
-        "_time",
-        "last",
-    )
-    """Attributes of its state, for snapshots."""
-
     def __init__(self) -> None:
-        self.instrument, self.world = np.full(3, math.nan), np.full(3, math.nan)
-        """In the axes of the sensor, and in W, (3,) [m/s]."""
-        self.error = math.nan
-        """Error velocity [m/s]."""
-        self.made_good = np.zeros(3)
-        """East, north and up since the beginning, over the time with a velocity, (3,) [m]."""
-        self._time: float | None = None
-        self.last = 0.0
-        """When there was a velocity last [s]."""
+        self.state = TrackState.unknown()
+        """What is known."""
 
     def take(
         self, time: float, pose: Pose, found: tuple[Array, float] | None, noise: Array
     ) -> None:
         """Take the velocity of a ping at ``time`` [s]: in the sensor's axes, with its error."""
-        lasted = 0.0 if self._time is None else time - self._time
-        self._time = time
+        state = self.state
+        lasted = 0.0 if state.time is None else time - state.time
+        state.time = time
         if found is None:
-            self.instrument, self.world = np.full(3, math.nan), np.full(3, math.nan)
-            self.error = math.nan
+            state.instrument, state.world = np.full(3, math.nan), np.full(3, math.nan)
+            state.error = math.nan
             return
-        self.instrument, self.error = found[0] + noise, found[1]
-        self.world = turned(pose.rotation, self.instrument)
-        self.made_good = self.made_good + self.world * lasted
-        self.last = time
+        state.instrument, state.error = found[0] + noise, found[1]
+        state.world = turned(pose.rotation, state.instrument)
+        state.made_good = state.made_good + state.world * lasted
+        state.last = time
 
     def age(self) -> float:
         """Since the last velocity [s]."""
-        return 0.0 if self._time is None else self._time - self.last
+        return 0.0 if self.state.time is None else self.state.time - self.state.last
 
     @property
     def status(self) -> str:
         """``A`` or ``V``."""
-        return BAD if math.isnan(float(self.instrument[0])) else GOOD
+        return BAD if math.isnan(float(self.state.instrument[0])) else GOOD
 
 
 def dvl_message(
@@ -99,13 +108,14 @@ def dvl_message(
         raw_data=" ".join(repr(number) for each in beams for number in each.tolist()),
     )
     for letter, track, height in zip("bw", tracks, heights, strict=True):
-        ship = product(ship_from_world, track.world)
+        state = track.state
+        ship = product(ship_from_world, state.world)
         values = {
-            **dict(zip(("i_x_axis", "i_y_axis", "i_z_axis"), track.instrument, strict=True)),
+            **dict(zip(("i_x_axis", "i_y_axis", "i_z_axis"), state.instrument, strict=True)),
             **dict(zip(("s_longitudinal", "s_transverse", "s_normal"), ship, strict=True)),
-            **dict(zip(("e_east", "e_north", "e_upwards"), track.world, strict=True)),
-            **dict(zip(("d_east", "d_north", "d_upwards"), track.made_good, strict=True)),
-            **{"i_error": track.error, "d_range": height, "d_time": track.age()},
+            **dict(zip(("e_east", "e_north", "e_upwards"), state.world, strict=True)),
+            **dict(zip(("d_east", "d_north", "d_upwards"), state.made_good, strict=True)),
+            **{"i_error": state.error, "d_range": height, "d_time": track.age()},
         }
         for name, value in values.items():
             setattr(message, letter + name, float(value))

@@ -22,10 +22,11 @@ import numpy as np
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import product, turned_back
+from ..base.record import Record
 from ..messages import DVL, header
 from ..schema import MAX_DISTANCE, element
 from ..world import MovingBody, SensorWorld
-from .dvl_message import Track, dvl_message
+from .dvl_message import Track, TrackState, dvl_message
 from .janus import Flags, Janus
 from .sensor import Carrier, LookAt, SensorSpec
 
@@ -82,27 +83,41 @@ class DvlSensorSpec(SensorSpec):
         return Dvl(self, vehicle.moving_mount(self), world, vehicle)
 
 
+@dataclass(slots=True)
+class DvlState(Record):
+    """What changes of a Doppler velocity log."""
+
+    random: np.random.Generator
+    """The generator of its noise."""
+    scale: Array
+    """The scale of each beam, drawn once, (4,) [1]."""
+    bottom: TrackState
+    """The velocity over the bottom."""
+    water: TrackState
+    """The velocity through the water."""
+    before: tuple[float, tuple[float, ...]] | None = None
+    """When the original's looked last [s], and where it was in W [m]."""
+
+
 class Dvl:
     """A Doppler velocity log."""
-
-    STATE: ClassVar[tuple[str, ...]] = ("_mount", "_random", "_bottom", "_water", "_before")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: DvlSensorSpec, mount: MovingBody, world: SensorWorld, vehicle: Carrier
     ) -> None:
         self._spec, self._mount, self._world, self._vehicle = spec, mount, world, vehicle
-        self._random = world.stream(f"{vehicle.name}/{spec.name}/noise")
         self._janus = Janus(math.radians(spec.beam_angle))
-        self._scale = 1.0 + spec.scale_std * self._random.standard_normal(4)
+        random = world.stream(f"{vehicle.name}/{spec.name}/noise")
+        scale = 1.0 + spec.scale_std * random.standard_normal(4)
         self._bottom, self._water = Track(), Track()
-        self._before: tuple[float, tuple[float, ...]] | None = None
+        self.state = DvlState(random, scale, self._bottom.state, self._water.state)
+        """What changes of it."""
         self._is_original = "dvl-differences" in world.compatibility
 
     def sample(self, time: float) -> DVL:
         """Ping now, at ``time`` [s]."""
         pose = self._mount.world_from_body
-        draws = self._random.standard_normal((4, 4)), self._random.random(4)
+        draws = self.state.random.standard_normal((4, 4)), self.state.random.random(4)
         if self._is_original:
             x, y, z = (self._difference(pose, time) + self._spec.std * draws[0][3, :3]).tolist()
             return DVL(bi_x_axis=x, bi_y_axis=y, bi_z_axis=z)
@@ -116,10 +131,10 @@ class Dvl:
         is_good = is_heard & spec.is_bottom(ranges * janus.cosine)
         velocity = turned_back(pose.rotation, self._mount.motion().velocity)
         on_bottom = product(janus.directions, velocity)
-        along = self._scale * on_bottom + spec.beam_std * normal[0]
+        along = self.state.scale * on_bottom + spec.beam_std * normal[0]
         through, is_wet = self._along_water(pose, time, on_bottom, ranges)
         water_std = 3.0 * spec.beam_std if spec.water_std is None else spec.water_std
-        through = self._scale * through + water_std * normal[1]
+        through = self.state.scale * through + water_std * normal[1]
         noise = spec.std * normal[3, :3]
         ranges = np.where(is_good, ranges + spec.range_std * normal[2], math.nan)
         self._bottom.take(time, pose, janus.velocity(along, is_good), noise)
@@ -167,7 +182,7 @@ class Dvl:
 
     def _difference(self, pose: Pose, time: float) -> Array:
         """The mean velocity since the last sample in the sensor's axes, as the original has it."""
-        before, self._before = self._before, (time, tuple(pose.position.tolist()))
+        before, self.state.before = self.state.before, (time, tuple(pose.position.tolist()))
         if before is None or time <= before[0]:
             return np.zeros(3)
         moved = pose.position - np.array(before[1])

@@ -21,6 +21,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.record import RandomState
 from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld
@@ -60,19 +61,18 @@ class GpsSensorSpec(SensorSpec):
 class GpsSensor:
     """A receiver of satellites."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_random",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: GpsSensorSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._world, self._random = spec, mount, world, random
+        self._spec, self._mount, self._world = spec, mount, world
+        self.state = RandomState(random)
+        """What it draws."""
         self._is_original = "gps-metres" in world.compatibility
 
     def sample(self, time: float) -> NavSatFix | None:
         """Measure now, at ``time`` [s]."""
         position = self._mount.world_from_body.position
-        noise = self._spec.std * self._random.standard_normal(3)  # east, north, up [m]
+        noise = self._spec.std * self.state.random.standard_normal(3)  # east, north, up [m]
         if self._world.surface_height - float(position[2]) >= self._spec.max_depth:
             return None if self._is_original else self._lost(time)
         latitude, longitude, altitude = self._coordinates(position, noise)

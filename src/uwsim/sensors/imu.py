@@ -23,10 +23,11 @@ import numpy as np
 
 from ..base.geometry import Array, quaternion_from_rotation, rotation_from_rpy
 from ..base.numerics.linear import product, turned_back
+from ..base.record import Record
 from ..messages import Imu, Quaternion, Vector3, header
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, MovingBody, SensorWorld
-from .drift import Drift, DriftSpec
+from .drift import Drift, DriftSpec, DriftState
 from .sensor import Carrier, SensorSpec
 
 UP = np.array([0.0, 0.0, GRAVITY])
@@ -57,24 +58,35 @@ class ImuSpec(SensorSpec):
         return InertialUnit(self, vehicle.moving_mount(self), world, vehicle.name)
 
 
+@dataclass(slots=True)
+class ImuState(Record):
+    """What changes of an inertial measurement unit."""
+
+    random: np.random.Generator
+    """The generator of the noise of its attitude."""
+    gyro: DriftState
+    """The errors of its rates."""
+    accelerometer: DriftState
+    """The errors of its accelerations."""
+
+
 class InertialUnit:
     """An inertial measurement unit with attitude."""
-
-    STATE: ClassVar[tuple[str, ...]] = ("_mount", "_random", "_gyro", "_accelerometer")
-    """Attributes of its state, for snapshots."""
 
     def __init__(self, spec: ImuSpec, mount: MovingBody, world: SensorWorld, vehicle: str) -> None:
         own = f"{vehicle}/{spec.name}"
         self._spec, self._mount, self._world = spec, mount, world
-        self._random = world.stream(f"{own}/noise")
         self._gyro = Drift(spec.gyro, world.stream(f"{own}/gyro"))
         self._accelerometer = Drift(spec.accelerometer, world.stream(f"{own}/accelerometer"))
+        random = world.stream(f"{own}/noise")
+        self.state = ImuState(random, self._gyro.state, self._accelerometer.state)
+        """What changes of it."""
         self._measures_motion = "imu-orientation" not in world.compatibility
 
     def sample(self, time: float) -> Imu:
         """Measure now, at ``time`` [s]."""
         pose = self._mount.world_from_body
-        noise = rotation_from_rpy(*(self._spec.std * self._random.standard_normal(3)).tolist())
+        noise = rotation_from_rpy(*(self._spec.std * self.state.random.standard_normal(3)).tolist())
         localized = product(self._world.world_from_localized.rotation.T, pose.rotation)
         w, x, y, z = quaternion_from_rotation(product(noise, localized)).tolist()
         message = Imu(

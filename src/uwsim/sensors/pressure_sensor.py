@@ -23,6 +23,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from ..base.record import RandomState
 from ..messages import Pressure, header
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, Body, SensorWorld
@@ -63,17 +64,16 @@ class PressureSensorSpec(SensorSpec):
 class PressureSensor:
     """A pressure cell; what it says is a depth or a pressure."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_random",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: PressureSensorSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._world, self._random = spec, mount, world, random
+        self._spec, self._mount, self._world = spec, mount, world
+        self.state = RandomState(random)
+        """What it draws."""
 
     def sample(self, time: float) -> Pressure:
         """Measure now, at ``time`` [s]."""
-        value = self._value() + self._spec.std * self._random.standard_normal()
+        value = self._value() + self._spec.std * self.state.random.standard_normal()
         is_original = "pressure-z" in self._world.compatibility
         frame = "world" if is_original else self._spec.name
         return Pressure(header=header(time, frame), pressure=float(value))

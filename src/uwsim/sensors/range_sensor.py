@@ -18,6 +18,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ..base.record import RandomState
 from ..messages import Range, header
 from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld
@@ -58,13 +59,12 @@ class RangeSensorSpec(SensorSpec):
 class RangeSensor:
     """The distance from the sensor to the first surface in its beam."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_random",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: RangeSensorSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._world, self._random = spec, mount, world, random
+        self._spec, self._mount, self._world = spec, mount, world
+        self.state = RandomState(random)
+        """What it draws."""
         self._width = math.radians(spec.beam_width)
         x, y = np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0]])
         self._rays = pencil(x, y, self._width)[0][0]  # (k, 3)
@@ -75,9 +75,9 @@ class RangeSensor:
         hits = self._world.rays.cast(self._mount.world_from_body, self._rays, spec.range)
         nearest = float(hits.distance.min())
         if nearest <= spec.range:
-            nearest += spec.std * self._random.standard_normal()
+            nearest += spec.std * self.state.random.standard_normal()
         else:
-            self._random.standard_normal()
+            self.state.random.standard_normal()
         return Range(
             header=header(time, spec.name),
             radiation_type=Range.ULTRASOUND,

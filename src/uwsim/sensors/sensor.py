@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal, Protocol, runtime_checkable
 
 from ..base.geometry import Pose
+from ..base.record import Record
 from ..schema import Spec
 from ..world import Body, MovingBody, SensorWorld
 
@@ -28,6 +29,8 @@ class SensorSpec(Spec):
 
     frame_rpy: ClassVar[tuple[float, float, float]] = (0.0, 0.0, 0.0)
     """Axes of its frame in ROS, in the sensor: fixed-axis roll, pitch, yaw [rad]."""
+    is_pure: ClassVar[bool] = False
+    """Whether a sample changes nothing in the sensor, so that it need not be taken for nobody."""
 
     name: str
     """Its name, by which interfaces and benchmarks find it."""
@@ -102,8 +105,9 @@ class Carrier(Protocol):
 class Sensor(Protocol):
     """A bound sensor."""
 
-    STATE: ClassVar[tuple[str, ...]]
-    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+    @property
+    def state(self) -> Record:
+        """All that changes of it as time goes by; `Simulation.save` keeps it."""
 
     def sample(self, time: float) -> object:
         """Measure now, at ``time`` [s]: a message of its spec's ``message_type``, None for none."""

@@ -20,6 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Intrinsics, Pose
+from ..base.record import Record
 from ..messages import CameraInfo, Image, image
 from ..schema import MAX_DISTANCE, Spec, element
 from ..world import Body, SensorWorld
@@ -130,19 +131,30 @@ class VirtualCameraSpec(SensorSpec):
         return VirtualCamera(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
 
 
+@dataclass(slots=True)
+class CameraState(Record):
+    """What changes of a camera."""
+
+    std: float
+    """The noise of each channel, 0..1; scene updaters may set it."""
+    n_images: int | None
+    """The number of images due on its topics so far, read or not; None if it has no topic."""
+    random: np.random.Generator
+    """The generator of its noise."""
+
+
 class VirtualCamera:
     """A bound camera: its pose, its images, its CameraInfo.
 
     Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
     """
 
-    STATE: ClassVar[tuple[str, ...]] = ("std", "n_images", "_random")
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: VirtualCameraSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._mount, self._world, self._random = mount, world, random
+        self._mount, self._world = mount, world
+        self.state = CameraState(spec.std, None, random)
+        """What changes of it."""
         self._baseline = spec.baseline
         self._intrinsics = spec.intrinsics(world.compatibility)
         self._principal_point = written_principal_point(spec.parameters, world.compatibility)
@@ -152,10 +164,11 @@ class VirtualCamera:
         """The frame in the headers of its messages."""
         self.is_grey = spec.grayscale
         """Whether it gives mono8 instead of rgb8."""
-        self.std = spec.std
-        """Noise of each channel, 0..1; scene updaters may turn it."""
-        self.n_images: int | None = None
+
+    @property
+    def n_images(self) -> int | None:
         """Number of images due on its topics so far, read or not; None if it has no topic."""
+        return self.state.n_images
 
     @property
     def intrinsics(self) -> Intrinsics:
@@ -176,8 +189,8 @@ class VirtualCamera:
         return self._world.render(
             self.world_from_camera,
             self._intrinsics,
-            std=self.std,
-            random=self._random,
+            std=self.state.std,
+            random=self.state.random,
             grey=self.is_grey,
         )
 
@@ -187,8 +200,8 @@ class VirtualCamera:
 
     def skip(self) -> None:
         """Draw the random numbers of an image without subscribers, without rendering it."""
-        if self.std > 0.0:
-            self._random.integers(2**63)
+        if self.state.std > 0.0:
+            self.state.random.integers(2**63)
 
     def depth(self, time: float) -> Array:
         """Return the distance along the optical axis of each pixel, (h, w) [m]; +inf: nothing."""

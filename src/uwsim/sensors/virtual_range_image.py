@@ -17,6 +17,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array, Intrinsics, Pose
+from ..base.record import NoState
 from ..messages import CameraInfo, Image, depth_image
 from ..schema import MAX_DISTANCE, element
 from ..world import Body, SensorWorld
@@ -30,6 +31,7 @@ class VirtualRangeImageSpec(SensorSpec):
     """A ``<virtualRangeImage>``; geometry as that of a `VirtualCameraSpec`."""
 
     message_type: ClassVar[type] = Image
+    is_pure: ClassVar[bool] = True
     frame_rpy: ClassVar[tuple[float, float, float]] = OPTICAL_AXES
 
     resw: int = element(default=160, minimum=1, maximum=16384)
@@ -79,13 +81,12 @@ class VirtualRangeImage:
     distortion, refraction, particles.
     """
 
-    STATE: ClassVar[tuple[str, ...]] = ()
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: VirtualRangeImageSpec, mount: Body, world: SensorWorld, stream: str
     ) -> None:
         self._std, self._mount, self._world, self._stream = spec.std, mount, world, stream
+        self.state = NoState()
+        """Nothing: the noise of a time is drawn anew."""
         self.intrinsics = spec.intrinsics(world.compatibility)
         """Its pinhole."""
         self._principal_point = written_principal_point(spec.parameters, world.compatibility)

@@ -41,7 +41,7 @@ class SceneBody:
         return self._box
 
 
-def name_bodies(model: SceneModel, state: Engine) -> dict[str, SceneBody]:
+def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
     """Give every frame of the scene its routes; where two share a name, the first has it.
 
     ``vehicle`` is the base frame, ``vehicle/link`` and ``link`` the kinematic frame of a link,
@@ -62,9 +62,9 @@ def name_bodies(model: SceneModel, state: Engine) -> dict[str, SceneBody]:
             bodies.setdefault(name, SceneBody(name, pose, box))
 
     for index, vehicle in enumerate(scene.vehicles):
-        add([vehicle.name], partial(state.poses.vehicle, index), None)
+        add([vehicle.name], partial(engine.poses.vehicle, index), None)
         for link in model.robots[index].links:
-            pose = partial(state.poses.link, index, link.name)
+            pose = partial(engine.poses.link, index, link.name)
             names = [f"{vehicle.name}/{link.name}", link.name]
             add(names, pose, None)
             seen = [f"{name}@visual" for name in names]
@@ -72,19 +72,19 @@ def name_bodies(model: SceneModel, state: Engine) -> dict[str, SceneBody]:
                 add(seen, pose, None)
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
-            pose = partial(state.poses.mounted, index, link.name, link_from_visual)
+            pose = partial(engine.poses.mounted, index, link.name, link_from_visual)
             shown = [
                 part for part in model.parts if (part.vehicle, part.link) == (index, link.name)
             ]
-            add(seen, pose, _box_of(shown, pose(), state.poses.link_frame(index, link.name)))
+            add(seen, pose, _box_of(shown, pose(), engine.poses.link_frame(index, link.name)))
     for index, thing in enumerate(scene.objects):
         mesh, box = thing.object_from_mesh, boxes.get(index)
         if box is not None and "box-scale" not in model.compatibility:
             box = scaled_box(box, mesh.rotation, thing.scale_factor)
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
         object_from_mesh = Pose(origin, mesh.rotation)
-        pose = partial(_attached, partial(state.poses.object, index), object_from_mesh)
-        add([thing.name], pose().copy if state.poses.is_fixed(index) else pose, box)
+        pose = partial(_attached, partial(engine.poses.object, index), object_from_mesh)
+        add([thing.name], pose().copy if engine.poses.is_fixed(index) else pose, box)
     return bodies
 
 

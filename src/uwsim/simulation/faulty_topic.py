@@ -6,17 +6,41 @@ import copy
 import dataclasses
 from collections import deque
 from collections.abc import Callable, Sequence
-from typing import Any, ClassVar
+from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from ..base.record import Record
 from ..devices.fault import FaultSpec
 from ..devices.fault_fields import measured_fields
-from ..devices.fault_times import EARLY, FaultTimes
+from ..devices.fault_times import EARLY, FaultState, FaultTimes
 from ..messages import time_from_seconds
 from ..scene.spec import SceneSpec
 
 Publish = Callable[[Any], None]
+
+
+@dataclass(slots=True)
+class SensorFaultState(Record):
+    """What changes of a fault on one topic."""
+
+    times: FaultState
+    """When it is present."""
+    noise: np.random.Generator
+    """The generator of the outliers."""
+    last: Any = None
+    """The message that it repeats; None: there is none."""
+    waiting: deque[tuple[float, Any]] = field(default_factory=deque)
+    """When messages come that it delays [s], and the messages."""
+
+
+@dataclass(slots=True)
+class FaultyTopicState(Record):
+    """What changes of a topic with faults."""
+
+    faults: list[SensorFaultState]
+    """What changes of each fault."""
 
 
 class SensorFault:
@@ -29,17 +53,14 @@ class SensorFault:
         noise: for the outliers.
     """
 
-    STATE: ClassVar[tuple[str, ...]] = ("times", "_noise", "_last", "_waiting")
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: FaultSpec, type_: type, random: np.random.Generator, noise: np.random.Generator
     ) -> None:
-        self._spec, self._noise = spec, noise
+        self._spec = spec
         self.times = FaultTimes(spec, random)
         """When it is present."""
-        self._last: Any = None
-        self._waiting: deque[tuple[float, Any]] = deque()
+        self.state = SensorFaultState(self.times.state, noise)
+        """What changes of it."""
         self._fields = tuple(measured_fields(type_(), spec.field)) if _changes(spec) else ()
 
     def passed(self, message: Any, time: float) -> list[Any]:
@@ -48,21 +69,21 @@ class SensorFault:
         if kind == "latency":
             return self._delayed(message, time, acts)
         if not acts:
-            self._last = message if kind == "freeze" else None
+            self.state.last = message if kind == "freeze" else None
             return [message]
         if kind == "dropout":
             return []
         if kind == "freeze":
-            self._last = self._last or message
-            return [_stamped(self._last, time)]
+            self.state.last = self.state.last or message
+            return [_stamped(self.state.last, time)]
         return [self._changed(message)]
 
     def _delayed(self, message: Any, time: float, acts: bool) -> list[Any]:
         """What has waited long enough; when the fault is over all that is left comes at once."""
-        self._waiting.append((time + self._spec.delay if acts else time, message))
+        self.state.waiting.append((time + self._spec.delay if acts else time, message))
         ready = []
-        while self._waiting and (not acts or self._waiting[0][0] <= time + EARLY):
-            ready.append(self._waiting.popleft()[1])
+        while self.state.waiting and (not acts or self.state.waiting[0][0] <= time + EARLY):
+            ready.append(self.state.waiting.popleft()[1])
         return ready
 
     def _changed(self, message: Any) -> Any:
@@ -76,7 +97,7 @@ class SensorFault:
             value = getattr(owner, name)
             error: Any = self._spec.size
             if self._spec.kind == "outliers":
-                error = error * self._noise.standard_normal(np.shape(value) or None)
+                error = error * self.state.noise.standard_normal(np.shape(value) or None)
             if isinstance(value, np.ndarray):
                 setattr(owner, name, (value + error).astype(value.dtype))
             else:
@@ -87,13 +108,12 @@ class SensorFault:
 class FaultyTopic:
     """A topic of a sensor with faults: messages pass one after the other."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_faults",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, faults: Sequence[SensorFault], publish: Publish, clock: Callable[[], float]
     ) -> None:
         self._faults, self._publish, self._clock = list(faults), publish, clock
+        self.state = FaultyTopicState([fault.state for fault in faults])
+        """What changes of it."""
 
     def publish(self, message: object) -> None:
         """Publish what becomes of a message."""

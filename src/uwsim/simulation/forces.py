@@ -93,7 +93,7 @@ class SceneForceWorld:
         index, link = body.index, body.link
         if body.kind == "object":
             return self._on_object(name, index, np.array([x, y, z]))
-        engine, vehicle = self._world.state, self._world.numbered_vehicle(index)
+        engine, vehicle = self._world.engine, self._world.numbered_vehicle(index)
         mount = vehicle.moving_mount(_Mount(link, (x, y, z)))
         return SceneAttachment(
             name,
@@ -105,7 +105,7 @@ class SceneForceWorld:
         )
 
     def _on_object(self, name: str, index: int, position: Array) -> SceneAttachment:
-        engine, thing = self._world.state, self._world.scene.objects[index]
+        engine, thing = self._world.engine, self._world.scene.objects[index]
         body, mesh = engine.poses.loose_body(index), thing.object_from_mesh
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
         object_from_frame = Pose(origin + turned(mesh.rotation, position), mesh.rotation)

@@ -17,22 +17,22 @@ from .vehicles import SceneVehicle
 
 
 def vehicle_frames(
-    model: SceneModel, vehicles: Sequence[SceneVehicle], state: Engine
+    model: SceneModel, vehicles: Sequence[SceneVehicle], engine: Engine
 ) -> Iterator[Frame]:
     """Every vehicle with its links and sensors; a sensor on a missing link is left out.
 
     Args:
         model: of the scene.
         vehicles: the vehicles of the scene, in the file's order.
-        state: where their links are.
+        engine: where their links are.
     """
     scene = model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
         robot = model.robots[index]
-        yield Frame("", spec.name, _in(localized_from_world, partial(state.poses.vehicle, index)))
+        yield Frame("", spec.name, _in(localized_from_world, partial(engine.poses.vehicle, index)))
         yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity, is_fixed=True)
-        links = {link.name: partial(state.poses.link, index, link.name) for link in robot.links}
+        links = {link.name: partial(engine.poses.link, index, link.name) for link in robot.links}
         for joint in robot.joints:
             parent, child = f"{spec.name}/{joint.parent}", f"{spec.name}/{joint.child}"
             between = _between(links[joint.parent], links[joint.child])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import ClassVar
 
 import numpy as np
 
@@ -26,9 +25,6 @@ class MountedBody(SceneBody):
         joint: those of the link on its joint, about a point of W, in W.
         motion: how a point of W moves with the link.
     """
-
-    STATE: ClassVar[tuple[str, ...]] = ()
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,

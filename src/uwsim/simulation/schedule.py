@@ -4,11 +4,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
-from ..base.sampling import SampleTimer
+from ..base.record import Record
+from ..base.sampling import SampleTimer, TimerState
 
 M = TypeVar("M")
+
+
+@dataclass(slots=True)
+class ScheduleState(Record):
+    """What is to be done later."""
+
+    due: float = math.inf
+    """The step before which no timer is due."""
+    timers: list[TimerState] = field(default_factory=list)
+    """How far each timer is."""
+    commands: list[tuple[int, object]] = field(default_factory=list)
+    """What came during this step: the number of who applies it, and the message."""
 
 
 class Schedule:
@@ -18,16 +32,12 @@ class Schedule:
         timestep: length of a step [s].
     """
 
-    STATE = ("_timers", "due")
-    """Attributes of its state, for snapshots; commands are saved with the stage."""
-
     def __init__(self, timestep: float) -> None:
         self._timestep = timestep
         self._timers: list[SampleTimer] = []
-        self.due = math.inf
-        """The step before which no timer is due."""
-        self.commands: list[tuple[Callable[[Any], None], Any]] = []
-        """What came during this step: a method of an interface, and its message."""
+        self._appliers: list[Callable[[Any], None]] = []
+        self.state = ScheduleState()
+        """What is to be done later."""
 
     def every(self, step: int, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from a step on.
@@ -37,23 +47,32 @@ class Schedule:
         """
         timer = SampleTimer(step, rate, self._timestep, call)
         self._timers.append(timer)
-        self.due = min(self.due, timer.due)
-        return lambda: self._timers.remove(timer) if timer in self._timers else None
+        self.state.timers.append(timer.state)
+        self.state.due = min(self.state.due, timer.due)
 
-    def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
-        """Have ``obey(message)`` called at the start of the next step."""
-        self.commands.append((obey, message))
+        def stop() -> None:
+            if timer in self._timers:
+                self._timers.remove(timer)
+                self.state.timers = [each.state for each in self._timers]
+
+        return stop
+
+    def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
+        """Return what has ``apply(message)`` called at the start of the next step."""
+        self._appliers.append(apply)
+        number, state = len(self._appliers) - 1, self.state
+        return lambda message: state.commands.append((number, message))
 
     def apply_commands(self) -> None:
         """Carry out what arrived during the last step, in its order."""
-        commands, self.commands = self.commands, []
-        for obey, message in commands:
-            obey(message)
+        commands, self.state.commands = self.state.commands, []
+        for number, message in commands:
+            self._appliers[number](message)
 
     def tick(self, step: int) -> None:
         """Call what is due at a step."""
-        if step < self.due:
+        if step < self.state.due:
             return
         for timer in self._timers:
             timer.tick(step)
-        self.due = min((timer.due for timer in self._timers), default=math.inf)
+        self.state.due = min((timer.due for timer in self._timers), default=math.inf)

@@ -20,6 +20,7 @@ from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
 from ..base.geometry import Array, Pose
+from ..base.record import assign
 from ..bus import Algorithm, Bus
 from ..errors import BadSetting, UwsimError
 from ..model.scene_model import SceneModel
@@ -36,8 +37,8 @@ from .forces import engine_wrenches
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scenery.renderer_pool import RendererPool
-from .snapshot import digest_of, opened, put_state, saved, state_of
 from .stage import SceneStage
+from .state.state import OwnIdentity, State
 
 MAX_RUN = 1000
 """Steps that are taken at once at most: Ctrl-C is heard after them."""
@@ -88,20 +89,45 @@ class Simulation:
         """Open a model at step 0 and read some topics."""
         self.world = world = self._make_stage(model)
         """The world of the scene."""
-        self._digest = ""  # of the scene; computed when it is needed
-        scene, state = world.scene, world.state
-        placed = [i for i in range(len(scene.vehicles)) if not state.is_simulated(i)]
+        scene, engine = world.scene, world.engine
+        placed = [i for i in range(len(scene.vehicles)) if not engine.is_simulated(i)]
         self._drifting = [world.numbered_vehicle(i) for i in placed]
         self._wet_names = tuple(
-            "" if i is None else scene.vehicles[i].name for i in state.submerged_vehicles()
+            "" if i is None else scene.vehicles[i].name for i in engine.submerged_vehicles()
         )
         self.images = {
             each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
         }
         """What publishes images, by topic."""
         self._access = TopicAccess(self.bus, read)
-        self._is_started = False
+        self.state = self._make_state()
+        """All that changes of it; it changes while the simulation runs, a ``copy()`` does not."""
         self._animate()
+
+    def _make_state(self) -> State:
+        """Put together the records of all parts."""
+        world = self.world
+        return State(
+            identity=OwnIdentity(self.model),
+            bus=world.bus.state,
+            engine=world.engine.state,
+            vehicles=[vehicle.state for vehicle in world.every_vehicle],
+            sensors=[sensor.state for sensor in world.every_sensor],
+            devices=[device.state for device in world.devices],
+            forces=[force.state for force in world.forces],
+            interfaces=[interface.state for interface in world.interfaces],
+            faults=[topic.state for topic in world.faulty_topics],
+            scenery=world.scenery.state,
+            water=world.water.state,
+            contacts=world.touch.state,
+            below_ground=world.below_ground.state,
+            schedule=world.schedule.state,
+            network=world.network.state,
+            markers=world.markers.state,
+            trajectories=[trajectory.state for trajectory in world.trajectories],
+            access=self._access.state,
+            nodes=[],
+        )
 
     def reset(self, seed: int | None = None) -> None:
         """Start again at step 0, with the variations (``<u:vary>``) of a seed.
@@ -150,7 +176,7 @@ class Simulation:
 
     def start(self) -> None:
         """Publish the first samples, at step 0; the first `advance` does so, too."""
-        self._is_started = True
+        self._access.state.is_started = True
         self._publish()
 
     def advance(self, seconds: float | None = None) -> None:
@@ -160,7 +186,7 @@ class Simulation:
             BadSetting: the time is negative or not finite.
             RunFailed: the engine cannot continue.
         """
-        if not self._is_started:
+        if not self._access.state.is_started:
             self.start()
         if seconds is None:
             self._advance()
@@ -198,13 +224,13 @@ class Simulation:
             or self._watchers
             or world.forces
             or world.touch.is_laid
-            or not world.state.is_dynamic
-            or world.state.moves_by_step
+            or not world.engine.is_dynamic
+            or world.engine.moves_by_step
             or not world.water.is_uniform
             or (self._drifting and not world.water.is_still)
         ):
             return 1
-        dues = [delivery, world.schedule.due if world.network.is_idle else now]
+        dues = [delivery, world.schedule.state.due if world.network.is_idle else now]
         dues += [each.timer.due for each in self.images.values()]
         dues += [world.below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self.time - self.timestep
@@ -297,7 +323,7 @@ class Simulation:
             UwsimError: the vehicle is kinematic.
         """
         vehicle = self.world.vehicle(name)
-        if not self.world.state.is_simulated(vehicle.index):
+        if not self.world.engine.is_simulated(vehicle.index):
             raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
         return vehicle.velocity
 
@@ -346,7 +372,7 @@ class Simulation:
     @property
     def motion(self) -> Motion:
         """Positions and velocities of all bodies, as one row of numbers."""
-        return self.world.state.motion
+        return self.world.engine.motion
 
     def _publish(self) -> None:
         bus = self.bus
@@ -376,23 +402,23 @@ class Simulation:
 
     def _step_physics(self, n: int) -> None:
         """Advance the physics by some steps, in the flow of the water at their times."""
-        state, water = self.world.state, self.world.water
+        engine, water = self.world.engine, self.world.water
         if self.world.forces:
-            state.push(engine_wrenches(self.world.forces, self.time - self.timestep))
-        if not state.is_dynamic:
-            state.fall()
+            engine.push(engine_wrenches(self.world.forces, self.time - self.timestep))
+        if not engine.is_dynamic:
+            engine.fall()
             self.world.below_ground.look(self.step)
             return
         first, half = self.step, 0.5 * self.timestep  # forces act in the middle of a step
         motion = None
         if not water.is_still:
             times = [(first + k) * self.timestep - half for k in range(n)]
-            motion = water.during(state.submerged_positions, times, self._wet_names)
-        before = state.n_steps
+            motion = water.during(engine.submerged_positions, times, self._wet_names)
+        before = engine.n_steps
         try:
-            state.step(n, motion)
+            engine.step(n, motion)
         finally:
-            self.bus.step = first + max(0, state.n_steps - before - 1)
+            self.bus.step = first + max(0, engine.n_steps - before - 1)
         self.world.below_ground.look(self.step)
 
     def _animate(self) -> None:
@@ -428,6 +454,7 @@ class Simulation:
             calls=calls,
         )
         self._nodes.append(node)
+        self.state.nodes.append(node.state)
         node.run(algorithm)
         return node
 
@@ -437,41 +464,26 @@ class Simulation:
             raise UwsimError(f"Cannot be {action}: {names} is attached, with a state of its own.")
 
     def save(self) -> bytes:
-        """Return the state as bytes, exact to the bit; `uwsim.simulation.snapshot` lists its parts.
+        """Return the state as bytes, exact to the bit: those of `state`.
 
         Raises:
-            UwsimError: an algorithm is attached, whose state cannot be saved.
+            UwsimError: an algorithm is attached that does not offer ``save`` and ``restore``.
         """
-        self._refuse_if_attached("saved")
-        newest, world = self._access.newest, state_of(self.world)
-        values = {"is_open": self._is_started, "newest": newest, "world": world}
-        return saved(values, self._identity)
+        return self.state.to_bytes()
 
-    def restore(self, data: bytes) -> None:
+    def restore(self, data: bytes | State) -> None:
         """Go back, or on, to a saved state of the same scene, seed and timestep.
+
+        Args:
+            data: what `save` has returned, or a copy of `state`.
 
         Raises:
             UwsimError: the bytes are damaged, of another scene, seed or timestep, or of another
                 version.
         """
-        values = opened(data, {"is_open", "newest", "world"}, self._identity)
-        put_state(self.world, values["world"])
-        self._is_started = values["is_open"]
-        self._access.newest = values["newest"]
+        state = data if isinstance(data, State) else State.from_bytes(data)
+        assign(self.state, state)
         self.world.scenery.redraw()
-
-    @property
-    def _identity(self) -> dict[str, str]:
-        """What bytes of it are of, besides the version."""
-        if not self._digest:
-            self._digest = digest_of(self.world.scene)
-        quirks = ", ".join(sorted(self.world.compatibility)) or "none"
-        return {
-            "seed": str(self.model.seed),
-            "timestep": f"{self.timestep:.12g} s",
-            "compatibility": quirks,
-            "scene": self._digest,
-        }
 
     def close(self) -> None:
         """Release the graphics context and disconnect the algorithms."""

@@ -56,13 +56,6 @@ class SceneStage(SceneWorld):
         is_blind: images on topics are black, nothing is drawn for them.
     """
 
-    STATE = (
-        *("_bus", "state", "scenery", "touch", "below_ground", "schedule", "_pending"),
-        *("_vehicles", "_sensors", "devices", "forces", "interfaces", "network"),
-        *("markers", "trajectories", "_faulty_topics"),
-    )
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self,
         model: SceneModel,
@@ -88,7 +81,8 @@ class SceneStage(SceneWorld):
         self._datagrams = Datagrams(udp_address)
         self.schedule = Schedule(self.timestep)
         """What is to be done at a later step."""
-        self._faulty_topics: list[FaultyTopic] = []
+        self.faulty_topics: list[FaultyTopic] = []
+        """The topics of sensors with faults."""
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
         self.forces = bind_forces(self)
@@ -108,7 +102,7 @@ class SceneStage(SceneWorld):
         lamps: list[MountedLamp] = []
         leds: list[Led] = []
         projectors: list[MountedProjector] = []
-        for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
+        for spec, vehicle in zip(self.scene.vehicles, self.every_vehicle, strict=True):
             for element, part in spec.all_parts():
                 if isinstance(part, DeviceSpec):
                     device = self._bound_device(element, part, vehicle)
@@ -154,8 +148,8 @@ class SceneStage(SceneWorld):
         faults = faults_of(self.scene, sensor, topic, type_, self.stream)
         if not faults:
             return publish
-        self._faulty_topics.append(FaultyTopic(faults, publish, lambda: self.time))
-        return self._faulty_topics[-1].publish
+        self.faulty_topics.append(FaultyTopic(faults, publish, lambda: self.time))
+        return self.faulty_topics[-1].publish
 
     def _bound_interfaces(self) -> Iterator[Interface]:
         for spec in self.scene.ros_interfaces:
@@ -188,7 +182,7 @@ class SceneStage(SceneWorld):
         thing = objects.get(surface)
         if thing is None or self.scene.objects[thing].is_ground:
             return None
-        return thing if self.state.grips.can_hold(thing) else None
+        return thing if self.engine.grips.can_hold(thing) else None
 
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return what returns the UDP packets that have come to a port since its last call."""
@@ -206,7 +200,7 @@ class SceneStage(SceneWorld):
     @property
     def fog_colour(self) -> tuple[float, float, float]:
         """Colour of the fog [0..1]."""
-        return self.scenery.water.fog_colour
+        return self.scenery.state.water.fog_colour
 
     def set_fog(self, density: float) -> None:
         """Set the fog density [1/m] of the water; its colour stays.
@@ -214,16 +208,16 @@ class SceneStage(SceneWorld):
         The original sets the colour of its window's fog to (0, 0.05, 0.3) here, and leaves that of
         its cameras as the scene has it.
         """
-        self.scenery.water = replace(self.scenery.water, fog=density)
+        self.scenery.state.water = replace(self.scenery.state.water, fog=density)
 
     def set_light_rate(self, rate: float) -> None:
         """Scale the light of the scene; 1 is as usual."""
-        self.scenery.light = replace(self.scenery.light, rate=rate)
+        self.scenery.state.light = replace(self.scenery.state.light, rate=rate)
 
     def set_camera_noise(self, std: float) -> None:
         """Set the noise [0..1] of every colour camera."""
         for name in self.cameras:
-            self.camera(name).std = std
+            self.camera(name).state.std = std
 
     def set_current(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
@@ -231,7 +225,7 @@ class SceneStage(SceneWorld):
 
     def joints(self, vehicle: str) -> Array:
         """Return the joint vector of a vehicle, (n,) [rad or m]; UnknownName if there is none."""
-        return self.state.joints(self.vehicle(vehicle).index)
+        return self.engine.joints(self.vehicle(vehicle).index)
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
@@ -256,15 +250,15 @@ class SceneStage(SceneWorld):
         if name not in names:
             raise UnknownName("vehicle or object", name, [*self.vehicles, *names])
         index = names.index(name)
-        if not self.state.grips.can_hold(index):
+        if not self.engine.grips.can_hold(index):
             raise UwsimError(
                 f"{name!r} cannot be placed: it is fixed, or a vehicle holds it. Set "
                 f"object[{name}].position when the scene is loaded, or vary it with <u:vary>."
             )
-        mesh_from_object = self.body(name).world_from_body.inverse() @ self.state.poses.object(
+        mesh_from_object = self.body(name).world_from_body.inverse() @ self.engine.poses.object(
             index
         )
-        self.state.grips.place(index, world_from_body @ mesh_from_object)
+        self.engine.grips.place(index, world_from_body @ mesh_from_object)
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest."""
@@ -272,7 +266,7 @@ class SceneStage(SceneWorld):
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
-        frames = [*vehicle_frames(self.model, self._vehicles, self.state)]
+        frames = [*vehicle_frames(self.model, self.every_vehicle, self.engine)]
         return [*frames, *object_frames(self.scene, self.body)] if with_objects else frames
 
     def marker_frames(self) -> Sequence[Frame]:
@@ -283,20 +277,9 @@ class SceneStage(SceneWorld):
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
         return self.schedule.every(self.step, rate, call)
 
-    def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
-        """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
-        self.schedule.at_next_step(obey, message)
-
-    @property
-    def _pending(self) -> list[tuple[int, Any]]:
-        """The number of the interface, and the message that it obeys at the next step."""
-        owners = [id(each) for each in self.interfaces]
-        return [(owners.index(id(obey.__self__)), m) for obey, m in self.schedule.commands]  # type: ignore[attr-defined]
-
-    @_pending.setter
-    def _pending(self, pending: list[tuple[int, Any]]) -> None:
-        interfaces: list[Any] = list(self.interfaces)
-        self.schedule.commands = [(interfaces[number].obey, message) for number, message in pending]
+    def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
+        """Return what has ``apply(message)`` called at the start of the next step."""
+        return self.schedule.at_next_step(apply)
 
 
 def _channels(scene: SceneSpec) -> dict[str, Channel]:

@@ -23,7 +23,7 @@ class TrackedBodies:
     """
 
     def __init__(self, world: SceneWorld) -> None:
-        self._poses = world.state.poses
+        self._poses = world.engine.poses
         self._leaders = {i: leaders(robot) for i, robot in world.robots.items()}
         links = [
             (i, link)
@@ -55,10 +55,10 @@ class TrackedBodies:
     def rows(self) -> Array:
         """Return position in W [m] and quaternion (wxyz) of each, (n, 7)."""
         rows = self._poses.rows(self._numbers)
-        if not self._placed and not self._poses.carried:
+        if not self._placed and not self._poses.state.carried:
             return rows
         rows = np.concatenate([rows, np.zeros((len(self._placed), 7))])
-        for i in [*self._placed, *self._poses.carried]:
+        for i in [*self._placed, *self._poses.state.carried]:
             pose = self._poses.object(i)
             rows[self._row_of_object[i], :3] = pose.position
             rows[self._row_of_object[i], 3:] = quaternion_from_rotation(pose.rotation)

@@ -41,13 +41,13 @@ class TrackedState:
         if self._before is not None:  # of the two quaternions of a rotation the nearer one
             rows[(rows[:, 3:] * self._before).sum(axis=1) < 0.0, 3:] *= -1.0
         self._before = rows[:, 3:].copy()
-        scenery, state = self._world.scenery, self._world.state
-        signals = [scenery.water.fog, scenery.light.rate]
+        scenery, engine = self._world.scenery, self._world.engine
+        signals = [scenery.state.water.fog, scenery.state.light.rate]
         for index, vehicle in enumerate(self._world.vehicles):
-            signals += self._water_at(state.poses.vehicle(index).position, vehicle).tolist()
-            if index in state.actuation:
-                signals += state.actuation[index].commands().tolist()
-        signals += [lamp.brightness for lamp in self._lamps]
+            signals += self._water_at(engine.poses.vehicle(index).position, vehicle).tolist()
+            if index in engine.actuation:
+                signals += engine.actuation[index].commands().tolist()
+        signals += [lamp.state.brightness for lamp in self._lamps]
         return np.concatenate([rows.reshape(-1), signals])
 
     def _water_at(self, place: Array, vehicle: str) -> Array:
@@ -63,8 +63,8 @@ class TrackedState:
         for index, vehicle in enumerate(vehicle_labels(self._world)):
             for axis in "xyz":
                 yield Signal(name=f"water/{vehicle}/{axis}", unit="m/s", step=1e-3)
-            if index in self._world.state.actuation:
-                for thruster in self._world.state.actuation[index].thrusters:
+            if index in self._world.engine.actuation:
+                for thruster in self._world.engine.actuation[index].thrusters:
                     yield Signal(name=f"thrust/{vehicle}/{thruster}", step=0.01)
         for lamp in self._lamps:
             yield Signal(name=f"{LAMP}{lamp.spec.name}", step=BRIGHTNESS)

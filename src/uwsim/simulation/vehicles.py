@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import turned_back
+from ..base.record import Lazy, Record
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
 from ..model.scene_model import SceneModel
@@ -23,6 +25,20 @@ from .bodies import SceneBody
 from .moving_bodies import MountedBody
 
 
+@dataclass(slots=True)
+class VehicleState(Record):
+    """What changes of a vehicle besides the engine's."""
+
+    placed: Lazy[PlacedMotion]
+    """Its motion where it is not simulated and a sensor reads it, or it follows a recording."""
+    centre: tuple[Sequence[float], Sequence[float]] | None = None
+    """The position [m] and angles [rad] that it is displaced from; None: those of the file."""
+    offsets: list[tuple[int, float]] = field(default_factory=list)
+    """The axis of each displacer, and the displacement [m or rad]."""
+    losses: dict[int, list[float]] = field(default_factory=dict)
+    """The losses of each thruster, one a setter [1]."""
+
+
 class SceneVehicle:
     """One vehicle of a scene (`uwsim.vehicle.Vehicle`, `uwsim.sensors.sensor.Carrier`).
 
@@ -31,29 +47,27 @@ class SceneVehicle:
     Args:
         index: its number in the scene.
         frames: the vehicle at its pose in the file.
-        state: where its links are.
+        engine: where its links are.
         step: returns how many steps the simulation has taken.
     """
 
-    STATE = ("_offsets", "_centre", "_losses", "_placed")
-    """Attributes of its state, for snapshots."""
-
     def __init__(
-        self, index: int, frames: MountFrames, state: Engine, step: Callable[[], int]
+        self, index: int, frames: MountFrames, engine: Engine, step: Callable[[], int]
     ) -> None:
-        self._frames, self._state, self._step = frames, state, step
+        self._frames, self._engine, self._step = frames, engine, step
         self.index = index
         """Its number in the scene."""
         self.name = frames.vehicle.name
         """Its name in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable)
         """Names of the joints of the joint vector."""
-        self._offsets: list[tuple[int, float]] = []  # axis and [m or rad], one a displacer
-        # position [m] and angles Rx Ry Rz [rad]; None: those of the file
-        self._centre: tuple[Sequence[float], Sequence[float]] | None = None
-        self._losses: dict[int, list[float]] = {}  # of each thruster, one a setter
-        # where it is not simulated and a sensor reads it, or follows a recording
-        self._placed: PlacedMotion | None = None
+        self._lazy_motion = Lazy(lambda: engine.placed_motion(index))
+        self.state = VehicleState(self._lazy_motion)
+        """What changes of it besides the engine's."""
+
+    @property
+    def _placed(self) -> PlacedMotion | None:
+        return self._lazy_motion.part
 
     @property
     def autopilot(self) -> Autopilot | None:
@@ -67,7 +81,7 @@ class SceneVehicle:
 
     @property
     def _actuation(self) -> VehicleActuation | None:
-        return self._state.actuation.get(self.index)
+        return self._engine.actuation.get(self.index)
 
     @property
     def thrusters(self) -> tuple[str, ...]:
@@ -81,25 +95,25 @@ class SceneVehicle:
 
     def turn_fins(self, angles: Array) -> None:
         """Let its fins turn to these angles, (n,) [rad]."""
-        self._state.actuation[self.index].turn_fins(angles)
+        self._engine.actuation[self.index].turn_fins(angles)
 
     @property
     def world_from_base(self) -> Pose:
         """Where its base is now."""
-        return self._state.poses.vehicle(self.index)
+        return self._engine.poses.vehicle(self.index)
 
     @property
     def velocity(self) -> Array:
         """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
         if self._placed is None:
-            return self._state.vehicle_velocity(self.index)
+            return self._engine.vehicle_velocity(self.index)
         twist = self._placed.twist(self._step())
         return np.concatenate([turned_back(self.world_from_base.rotation, twist[:3]), twist[3:]])
 
     @property
     def joints(self) -> Array:
         """A copy of its joint vector, (n,) [rad or m]."""
-        return self._state.joints(self.index)
+        return self._engine.joints(self.index)
 
     def place(self, world_from_base: Pose) -> None:
         """Set its pose; a simulated one is at rest there, another has come there from the last.
@@ -110,8 +124,7 @@ class SceneVehicle:
 
     def follow(self) -> None:
         """From now on it moves as `lead` says, not as it is simulated: velocities are of that."""
-        if self._placed is None:
-            self._placed = self._state.placed_motion(self.index)
+        self._lazy_motion.made()
 
     def lead(
         self, world_from_base: Pose | None, joints: Array | None, starts: Collection[Source] = ()
@@ -124,15 +137,15 @@ class SceneVehicle:
             starts: what was never led before: it has not come there, its motion starts there.
         """
         if world_from_base is not None:
-            self._centre = self._centre_of(world_from_base)
-            self._state.place_vehicle(self.index, world_from_base)
+            self.state.centre = self._centre_of(world_from_base)
+            self._engine.place_vehicle(self.index, world_from_base)
         if joints is not None:
-            self._state.set_joints(self.index, joints)
+            self._engine.set_joints(self.index, joints)
         if self._placed is not None:
             self._placed.record(self._step(), starts)
 
     def _come_to(self, world_from_base: Pose) -> None:
-        self._state.place_vehicle(self.index, world_from_base)
+        self._engine.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.record(self._step())
 
@@ -142,46 +155,46 @@ class SceneVehicle:
 
     def drift(self, world_from_base: Pose) -> None:
         """Set its pose: the water has carried it there; what it is displaced from stays."""
-        self._state.place_vehicle(self.index, world_from_base)
+        self._engine.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.record_drift(self._step())
 
     def put(self, world_from_base: Pose) -> None:
         """Set its pose, at rest; it is displaced from there from now on."""
-        self._centre = self._centre_of(world_from_base)
+        self.state.centre = self._centre_of(world_from_base)
         self._rest_at(world_from_base)
 
     def put_back(self) -> None:
         """Put it where the scene puts it now, at rest."""
-        self._centre = None
+        self.state.centre = None
         self._rest_at(self._displaced_pose())
 
     def _rest_at(self, world_from_base: Pose) -> None:
-        self._state.place_vehicle(self.index, world_from_base)
+        self._engine.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
             self._placed.rest()
 
     def _centre_of(self, world_from_base: Pose) -> tuple[Sequence[float], Sequence[float]] | None:
         """What it is displaced from where it is displaced to a pose now; None: never displaced."""
-        if not self._offsets:
+        if not self.state.offsets:
             return None
         localized_from_base = self._frames.world_from_localized.inverse() @ world_from_base
-        return undisplaced(localized_from_base, self._offsets)
+        return undisplaced(localized_from_base, self.state.offsets)
 
     def _displaced_pose(self) -> Pose:
         """Where it is by the displacements of now, ``world_from_base``."""
         spec = self._frames.vehicle
-        position, angles = self._centre or (spec.position, spec.orientation)
-        return self._frames.world_from_localized @ displaced(position, angles, self._offsets)
+        position, angles = self.state.centre or (spec.position, spec.orientation)
+        return self._frames.world_from_localized @ displaced(position, angles, self.state.offsets)
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return a function that displaces it along or about an axis; displacements add up."""
-        own = len(self._offsets)
-        self._offsets.append((axis, 0.0))
+        own = len(self.state.offsets)
+        self.state.offsets.append((axis, 0.0))
 
         def displace(offset: float) -> None:
-            self._offsets[own] = (axis, offset)
-            if own == len(self._offsets) - 1:
+            self.state.offsets[own] = (axis, offset)
+            if own == len(self.state.offsets) - 1:
                 self._come_to(self._displaced_pose())
 
         return displace
@@ -191,23 +204,23 @@ class SceneVehicle:
         if thruster not in self.thrusters:
             raise UnknownName("thruster", thruster, self.thrusters)
         number = self.thrusters.index(thruster)
-        losses = self._losses.setdefault(number, [])
+        losses = self.state.losses.setdefault(number, [])
         own = len(losses)
         losses.append(0.0)
 
         def lose(loss: float) -> None:
-            self._losses[number][own] = loss
-            self._state.actuation[self.index].set_loss(number, max(self._losses[number]))
+            self.state.losses[number][own] = loss
+            self._engine.actuation[self.index].set_loss(number, max(self.state.losses[number]))
 
         return lose
 
     def hold(self, thing: int, link: str) -> None:
         """Fix an object, by its number, to a link of the vehicle, where it is now."""
-        self._state.grips.hold(thing, self.index, link)
+        self._engine.grips.hold(thing, self.index, link)
 
     def let_go(self, thing: int) -> None:
         """Release an object that is held."""
-        self._state.grips.let_go(thing)
+        self._engine.grips.let_go(thing)
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> SceneBody:
         """Fix something to its link; raises UnknownName if there is no such link."""
@@ -215,19 +228,19 @@ class SceneVehicle:
 
     def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
-        link, state = (self.index, spec.relative_to), self._state
+        link, engine = (self.index, spec.relative_to), self._engine
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
-        contacts = partial(state.contact_wrench, *link)
+        contacts = partial(engine.contact_wrench, *link)
         motion = partial(self._motion, spec.relative_to)
-        if not state.is_simulated(self.index):
+        if not engine.is_simulated(self.index):
             self.follow()
             return MountedBody(name, pose, contacts, lambda point: np.zeros(6), motion)
-        return MountedBody(name, pose, contacts, partial(state.joint_wrench.of, *link), motion)
+        return MountedBody(name, pose, contacts, partial(engine.joint_wrench.of, *link), motion)
 
     def _motion(self, link: str, point: Array) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on a link."""
         if self._placed is None:
-            return self._state.link_motion.of(self.index, link, point)
+            return self._engine.link_motion.of(self.index, link, point)
         return self._placed.of(link, point, self._step())
 
     def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
@@ -238,7 +251,7 @@ class SceneVehicle:
         link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
             spec, visual=visual
         )
-        return partial(self._state.poses.mounted, self.index, link, link_from_part)
+        return partial(self._engine.poses.mounted, self.index, link, link_from_part)
 
 
 def bind_vehicles(

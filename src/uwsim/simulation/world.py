@@ -65,24 +65,27 @@ class SceneWorld:
         self._bus = Bus()
         self.files = dict(model.hydrodynamics_files)
         """Hydrodynamics files of vehicles, and files of currents, by name."""
-        self.state = Engine(model)
+        self.engine = Engine(model)
         """Where everything is, and what moves it."""
         if model.dynamics or scene.has_uwsim_physics:
-            lift_from_ground(model, self.state)
-        self.below_ground = BelowGround(model, self.state)
+            lift_from_ground(model, self.engine)
+        self.below_ground = BelowGround(model, self.engine)
         """Whether a body has passed through the ground."""
-        self._vehicles = bind_vehicles(model, self.state, lambda: self._bus.step)
-        self.scenery = Scenery(model, self.state, pool)
+        self.every_vehicle = bind_vehicles(model, self.engine, lambda: self._bus.step)
+        """The vehicles, by their number in the file."""
+        self.scenery = Scenery(model, self.engine, pool)
         """The visual side of the scene."""
-        self.rays = SceneRays(model, self.state, self.scenery.heaps)
+        self.rays = SceneRays(model, self.engine, self.scenery.heaps)
         """Ray casting against the scene."""
-        self._bodies = name_bodies(model, self.state)
-        self.touch = Contacts(model, self.state)
+        self._bodies = name_bodies(model, self.engine)
+        self.touch = Contacts(model, self.engine)
         """Contacts between bodies."""
         self.water = water_motion(model, self.stream, runs_code=runs_code)
         """How its water moves."""
         self.files |= self.water.files
         self._sensors = self._bound_sensors()
+        self.every_sensor: tuple[Sensor, ...] = tuple(self._sensors.values())
+        """The sensors that are no devices, in the file's order."""
         self._cameras = {
             name: sensor
             for (_, name), sensor in self._sensors.items()
@@ -114,7 +117,7 @@ class SceneWorld:
     def _bound_sensors(self) -> dict[tuple[str, str], Sensor]:
         """Sensors by element and name; where two share both, the last has it."""
         sensors: dict[tuple[str, str], Sensor] = {}
-        for spec, vehicle in zip(self.scene.vehicles, self._vehicles, strict=True):
+        for spec, vehicle in zip(self.scene.vehicles, self.every_vehicle, strict=True):
             for element, part in spec.all_parts():
                 # a sensor on a link that is not there is left out, as in the original
                 with suppress(UnknownName):
@@ -192,7 +195,7 @@ class SceneWorld:
 
     def actuators(self, name: str) -> Actuators | None:
         """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
-        actuation = self.state.actuation.get(self.vehicle(name).index)
+        actuation = self.engine.actuation.get(self.vehicle(name).index)
         return None if actuation is None else actuation.actuators()
 
     def camera(self, name: str) -> VirtualCamera:
@@ -217,11 +220,11 @@ class SceneWorld:
         """Find a vehicle; UnknownName if there is none."""
         if name not in self.vehicles:
             raise UnknownName("vehicle", name, self.vehicles)
-        return self._vehicles[self.vehicles.index(name)]
+        return self.every_vehicle[self.vehicles.index(name)]
 
     def numbered_vehicle(self, index: int) -> SceneVehicle:
         """Return a vehicle by its number in the file: names may be shared."""
-        return self._vehicles[index]
+        return self.every_vehicle[index]
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""

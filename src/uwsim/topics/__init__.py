@@ -61,6 +61,7 @@ from .sensor_topic import (
     PressureSensorToROSSpec,
     ProfilingSonarROSSpec,
     RangeSensorToROSRangeSpec,
+    SensorToROSSpec,
 )
 from .simulated_device_ros import SimulatedDeviceROSSpec
 from .sonar_to_ros import SonarToROSSpec
@@ -104,6 +105,7 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     f"{{{NAMESPACE}}}segmentationToROS": SegmentationToROSSpec,
     f"{{{NAMESPACE}}}batteryToROS": BatteryToROSSpec,
     f"{{{NAMESPACE}}}motorCurrentsToROS": MotorCurrentsToROSSpec,
+    f"{{{NAMESPACE}}}sensorToROS": SensorToROSSpec,
 }
 """Element -> spec, in the order of the original grammar; ours last."""
 

@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Intrinsics, Pose
+from ..base.record import NoState, Record
 from ..bus import Bus
 from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
@@ -74,8 +75,8 @@ class TopicWorld(World, Protocol):
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
 
-    def at_next_step(self, obey: Callable[[M], None], message: M) -> None:
-        """Have ``obey(message)`` called at the start of the next step; a method of an interface."""
+    def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
+        """Return what has ``apply(message)`` called at the start of the next step."""
 
 
 def rate_element() -> Any:
@@ -92,8 +93,8 @@ def sample_rate(rate: float, world: World) -> float:
 class Interface:
     """A bound interface: it publishes or subscribes from the time it is bound."""
 
-    STATE: ClassVar[tuple[str, ...]] = ()
-    """Names of the attributes that change as time goes by; `Simulation.save` keeps them."""
+    state: Record = NoState()
+    """All that changes of it as time goes by; `Simulation.save` keeps it."""
 
 
 @runtime_checkable

@@ -19,7 +19,7 @@ from ..base.message_fields import odd_number
 from ..messages import JointState
 from ..vehicle import Servos, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
-from .ros_twist_to_pat import Gap
+from .ros_twist_to_pat import Gap, GapState
 
 MAX_VALUE = sys.float_info.max
 """Of joints and servos the limits are those in the robot file."""
@@ -39,7 +39,7 @@ class ROSJointStateToArmSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             JointState,
-            lambda m: world.at_next_step(command.obey, m),
+            world.at_next_step(command.obey),
             remark=lambda m: odd_number(m, [field_that_counts(m)], MAX_VALUE),
         )
         return command
@@ -55,11 +55,9 @@ def field_that_counts(message: JointState) -> str:
 class JointCommand(Interface):
     """Moves the joints of a vehicle."""
 
-    STATE = ("_gap",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
+        self.state: GapState = gap.state
 
     def obey(self, message: JointState) -> None:
         """Take positions, else velocities, else efforts."""

@@ -12,7 +12,7 @@ from ..bus import Remark
 from ..messages import Odometry
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_pose_to_pat import PoseCommand, odd_pose
-from .ros_twist_to_pat import TWIST, Gap, TwistCommand
+from .ros_twist_to_pat import TWIST, Gap, GapState, TwistCommand
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +37,7 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             Odometry,
-            lambda m: world.at_next_step(command.obey, m),
+            world.at_next_step(command.obey),
             remark=odd_odometry,
         )
         return command
@@ -59,11 +59,9 @@ def odd_odometry(odometry: Odometry) -> Remark | None:
 class OdometryCommand(Interface):
     """Sets the pose of a vehicle or moves it by a twist."""
 
-    STATE = ("_twist",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, pose: PoseCommand, twist: TwistCommand) -> None:
         self._pose, self._twist = pose, twist
+        self.state: GapState = twist.state
 
     def obey(self, odometry: Odometry) -> None:
         """Take a pose in L, or a twist in the base's axes."""

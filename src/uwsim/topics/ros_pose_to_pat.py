@@ -35,7 +35,7 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             PoseMessage,
-            lambda m: world.at_next_step(command.obey, m),
+            world.at_next_step(command.obey),
             remark=odd_pose,
         )
         return command

@@ -28,6 +28,7 @@ import numpy as np
 from ..base.external_values import MAX_COMMAND
 from ..base.geometry import Pose, rotation_from_xyz
 from ..base.message_fields import odd_number
+from ..base.record import Record
 from ..messages import Twist, TwistStamped, Vector3
 from ..vehicle import Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
@@ -54,10 +55,11 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
     def bind(self, world: TopicWorld) -> TwistCommand:
         """Listen from now on; raises UnknownName if there is no such vehicle."""
         command = TwistCommand(world.vehicle(self.vehicle_name), Gap(world))
+        obey = world.at_next_step(command.obey)
         world.bus.subscribe(
             self.topic,
             TwistStamped,
-            lambda m: world.at_next_step(command.obey, m.twist),
+            lambda m: obey(m.twist),
             remark=lambda m: odd_number(m, TWIST, MAX_COMMAND),
         )
         return command
@@ -66,11 +68,9 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
 class TwistCommand(Interface):
     """Moves a vehicle by one step of a twist, or has its autopilot hold it."""
 
-    STATE = ("_gap",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
+        self.state: GapState = gap.state
 
     def obey(self, twist: Twist) -> None:
         """Take a twist in the base's axes; one that is not finite is ignored."""
@@ -106,7 +106,7 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             Twist,
-            lambda m: world.at_next_step(command.apply_command, m),
+            world.at_next_step(command.apply_command),
             remark=lambda m: odd_number(m, CMD_VEL, MAX_COMMAND),
         )
         return command
@@ -115,11 +115,9 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
 class CmdVelCommand(Interface):
     """Moves a vehicle by twists in the axes of REP 103."""
 
-    STATE = ("_twist",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, twist: TwistCommand, sign: float) -> None:
         self._twist, self._sign = twist, sign
+        self.state: GapState = twist.state
 
     def apply_command(self, twist: Twist) -> None:
         """Apply a twist: forward, left, up."""
@@ -132,19 +130,25 @@ class CmdVelCommand(Interface):
         )
 
 
+@dataclass(slots=True)
+class GapState(Record):
+    """When a velocity came last."""
+
+    last: int | None = None
+    """The step at which it came."""
+
+
 class Gap:
     """Time since the velocity before."""
 
-    STATE = ("_last",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, world: TopicWorld) -> None:
         self._world = world
-        self._last: int | None = None
+        self.state = GapState()
+        """When it came."""
 
     def take(self) -> float:
         """Return the time since the last call [s]; 0 for the first, or after a long silence."""
-        now, last = self._world.step, self._last
-        self._last = now
+        now, last = self._world.step, self.state.last
+        self.state.last = now
         gap = 0.0 if last is None else (now - last) * self._world.timestep
         return gap if gap <= MAX_GAP else 0.0

@@ -1,17 +1,24 @@
 """Interfaces that publish a sensor at a rate.
 
-What is published is what the sensor or device measures; where none of the elements that an
+.. code-block:: xml
+
+    <u:sensorToROS> <name>imu</name> <topic>/g500/imu</topic> <rate>10</rate> </u:sensorToROS>
+
+What is published is what the sensor or device measures. ``u:sensorToROS`` names one of any kind;
+the other elements, which are older, each take those of some. Where none of the elements that an
 interface may name is simulated (has a ``bind``), the interface is not either.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from ..devices import DEVICES
+from ..errors import UnknownName
 from ..schema.names import local
 from ..sensors import SENSORS
 from ..sensors.sensor import Sensor, measured_by
@@ -35,8 +42,6 @@ class SensorTopicSpec(InterfaceSpec):
     """Name of the topic."""
     rate: float = rate_element()
     """How often [Hz]."""
-    is_pure: ClassVar[bool] = False
-    """Whether a sample changes nothing in the sensor, so that it need not be taken for nobody."""
 
     @classmethod
     def is_simulated(cls) -> bool:
@@ -46,18 +51,53 @@ class SensorTopicSpec(InterfaceSpec):
     @classmethod
     def carries(cls) -> Mapping[str, type]:
         """Return the message type of its sources."""
-        parts = {local(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
+        parts = _parts()
         types = [measured_by(parts[source]) for source in cls.sources]
         return next(({"topic": type_} for type_ in types if type_ is not None), {})
 
     def bind(self, world: TopicWorld) -> Interface:
         """Publish the sensor from now on; raises UnknownName if it is not there."""
         sensor = world.sensor(self.name, self.sources)
-        publish = world.sensor_publisher(self.name, self.topic, self.carries()["topic"])
-        needed = partial(is_needed, world.bus, self.topic) if self.is_pure else None
+        part = self._part(sensor, world)
+        publish = world.sensor_publisher(self.name, self.topic, part.message_type)
+        needed = partial(is_needed, world.bus, self.topic) if part.is_pure else None
         publisher = SensorPublisher(sensor, publish, lambda: world.time, needed)
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
+
+    def _part(self, sensor: Sensor, world: TopicWorld) -> type[Any]:
+        """Return the class of the sensor's spec; sensors of two kinds may share a name."""
+        parts = _parts()
+        for source in self.sources:
+            with suppress(UnknownName):
+                if world.sensor(self.name, (source,)) is sensor:
+                    return parts[source]
+        raise UnknownName("sensor", self.name, ())
+
+
+def _parts() -> dict[str, type[Any]]:
+    """Return the specs of all sensors and devices by their elements."""
+    return {local(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorToROSSpec(SensorTopicSpec):
+    """Publishes any sensor or device that measures, with its own message type.
+
+    A colour camera has two topics, of images and of CameraInfo: `VirtualCameraToROSImage` is its
+    element.
+    """
+
+    sources: ClassVar[tuple[str, ...]] = tuple(
+        element
+        for element, spec in _parts().items()
+        if measured_by(spec) is not None and element != "virtualCamera"
+    )
+
+    @classmethod
+    def carries(cls) -> Mapping[str, type]:
+        """Return the field of the topic; what it carries is the type of the sensor it names."""
+        return {"topic": object}
 
 
 class SensorPublisher(Interface):
@@ -144,7 +184,6 @@ class ForceSensorROSSpec(SensorTopicSpec):
     """Publishes a force sensor as geometry_msgs/WrenchStamped."""
 
     sources: ClassVar[tuple[str, ...]] = ("ForceSensor",)
-    is_pure: ClassVar[bool] = True
 
 
 @dataclass(frozen=True, kw_only=True)

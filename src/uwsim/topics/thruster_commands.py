@@ -62,7 +62,7 @@ class ROSThrustersToPATSpec(AutopilotTopicSpec):
         world.bus.subscribe(
             self.topic,
             Float64MultiArray,
-            lambda m: world.at_next_step(command.obey, m),
+            world.at_next_step(command.obey),
             check=command.check,
             remark=lambda m: odd_number(m, ("data",), MAX_COMMAND),
         )
@@ -109,7 +109,7 @@ class ROSFinsToPATSpec(AutopilotTopicSpec):
         world.bus.subscribe(
             self.topic,
             Float64MultiArray,
-            lambda m: world.at_next_step(command.obey, m),
+            world.at_next_step(command.obey),
             check=command.check,
             remark=lambda m: odd_number(m, ("data",), MAX_COMMAND),
         )
@@ -154,7 +154,7 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
         world.bus.subscribe(
             self.topic,
             WrenchStamped,
-            lambda m: world.at_next_step(command.obey, m),
+            world.at_next_step(command.obey),
             remark=lambda m: odd_number(m, WRENCH, MAX_COMMAND),
         )
         return command

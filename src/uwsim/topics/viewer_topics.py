@@ -1,19 +1,20 @@
 """Interfaces whose messages a viewer shows: images, and clouds of points.
 
 What is to be shown is kept where a viewer, or a program, reads it: `HudImage.pixels` and
-`PointClouds.clouds` of ``simulation.world.interfaces``. A message that cannot be shown leaves it as
+`CloudsState.clouds` of ``simulation.world.interfaces``. A message that cannot be shown leaves it as
 it is; `problem` says why.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
+from ..base.record import Record
 from ..errors import BadSetting, UnknownName
 from ..messages import Image, PointCloud2, pixels_of, points
 from ..messages.point_cloud import packed_colours
@@ -55,28 +56,35 @@ class ROSImageToHUDSpec(InterfaceSpec):
         return hud
 
 
+@dataclass(slots=True)
+class HudState(Record):
+    """What has come for a display."""
+
+    message: Image | None = None
+    """The newest image that can be shown."""
+    problem: str | None = None
+    """Why the newest message cannot be shown; None: it can."""
+
+
 class HudImage(Interface):
     """The newest image of a topic, as it is to be shown."""
-
-    STATE = ("_message", "problem")
 
     def __init__(self, spec: ROSImageToHUDSpec) -> None:
         self.spec = spec
         """Where and how large it is shown."""
-        self._message: Image | None = None
-        self.problem: str | None = None
-        """Why the newest message cannot be shown; None: it can."""
+        self.state: HudState = HudState()
 
     @property
     def pixels(self) -> npt.NDArray[np.uint8] | None:
         """The image, row 0 at the top, (h, w, 3), or (h, w) if grey; None before the first."""
-        return None if self._message is None else pixels_of(self._message)
+        message = self.state.message
+        return None if message is None else pixels_of(message)
 
     def receive(self, message: Image) -> None:
         """Keep an image of the size and kind that the interface expects."""
-        self.problem = self._wrong(message)
-        if self.problem is None:
-            self._message = message
+        self.state.problem = self._wrong(message)
+        if self.state.problem is None:
+            self.state.message = message
 
     def _wrong(self, message: Image) -> str | None:
         spec = self.spec
@@ -98,6 +106,16 @@ class ShownCloud:
     """In L, (n, 3) [m]."""
     colours: npt.NDArray[np.uint8]
     """Red, green, blue of each, (n, 3)."""
+
+
+@dataclass(slots=True)
+class CloudsState(Record):
+    """The clouds that have come on a topic."""
+
+    clouds: list[ShownCloud] = field(default_factory=list)
+    """What is shown, oldest first."""
+    problem: str | None = None
+    """Why the newest message cannot be shown; None: it can."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,26 +140,22 @@ class ROSPointCloudLoaderSpec(InterfaceSpec):
 class PointClouds(Interface):
     """The clouds that came on a topic, with four fields in their own colours, else by height."""
 
-    STATE = ("clouds", "problem")
-
     def __init__(self, world: TopicWorld, *, replaces: bool) -> None:
         self._world, self._replaces = world, replaces
-        self.clouds: list[ShownCloud] = []
-        """What is shown, oldest first."""
-        self.problem: str | None = None
-        """Why the newest message cannot be shown; None: it can."""
+        self.state: CloudsState = CloudsState()
 
     def receive(self, message: PointCloud2) -> None:
         """Place a cloud where its frame is now; it stays there."""
         try:
             cloud = self._placed(message)
         except (BadSetting, UnknownName) as error:
-            self.problem = str(error)
+            self.state.problem = str(error)
             return
-        self.problem = None
-        self.clouds = [cloud] if self._replaces else [*self.clouds, cloud]
-        while sum(len(each.points) for each in self.clouds) > MAX_POINTS and len(self.clouds) > 1:
-            self.clouds = self.clouds[1:]
+        self.state.problem = None
+        clouds = [cloud] if self._replaces else [*self.state.clouds, cloud]
+        while sum(len(each.points) for each in clouds) > MAX_POINTS and len(clouds) > 1:
+            clouds = clouds[1:]
+        self.state.clouds = clouds
 
     def _placed(self, message: PointCloud2) -> ShownCloud:
         own = points(message)

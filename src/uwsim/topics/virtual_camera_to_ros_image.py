@@ -10,7 +10,8 @@ from typing import ClassVar
 import numpy as np
 import numpy.typing as npt
 
-from ..base.sampling import SampleTimer
+from ..base.record import Record
+from ..base.sampling import SampleTimer, TimerState
 from ..messages import CameraInfo, Image, image, pixels_of
 from ..sensors.virtual_camera import VirtualCamera
 from .depth_images import DepthImagePublisher, publish_depth
@@ -43,6 +44,18 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
         return ImagePublisher(self, world.camera(self.camera_name), world)
 
 
+@dataclass(slots=True)
+class PublisherState(Record):
+    """What a publisher of images has published."""
+
+    timer: TimerState
+    """The steps at which a sample is due."""
+    n_frames: int = 0
+    """The images published."""
+    last: npt.NDArray[np.uint8] | None = None
+    """The pixels of the last image published; read-only."""
+
+
 class ImagePublisher(Interface):
     """Publishes the images of a camera.
 
@@ -51,19 +64,12 @@ class ImagePublisher(Interface):
     algorithms that do not look at them.
     """
 
-    STATE = ("n_frames", "last", "timer")
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: VirtualCameraToROSImageSpec, camera: VirtualCamera, world: TopicWorld
     ) -> None:
         self.camera = camera
         """The camera whose images these are."""
-        camera.n_images = camera.n_images or 0
-        self.n_frames = 0
-        """Images published."""
-        self.last: npt.NDArray[np.uint8] | None = None
-        """The pixels of the last image published; read-only."""
+        camera.state.n_images = camera.n_images or 0
         self.image_topic = spec.image_topic
         """Where they are published."""
         self._world, self._info_topic = world, spec.info_topic
@@ -77,6 +83,17 @@ class ImagePublisher(Interface):
         """Has the sample of a time [s] drawn elsewhere, and calls `deliver`; False: it does not."""
         self.timer = SampleTimer(0, sample_rate(spec.rate, world), world.timestep, self.publish)
         """Publishes at the steps at which a sample is due."""
+        self.state: PublisherState = PublisherState(self.timer.state)
+
+    @property
+    def n_frames(self) -> int:
+        """The images published."""
+        return self.state.n_frames
+
+    @property
+    def last(self) -> npt.NDArray[np.uint8] | None:
+        """The pixels of the last image published; read-only."""
+        return self.state.last
 
     @property
     def sha256(self) -> str:
@@ -85,7 +102,7 @@ class ImagePublisher(Interface):
 
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
-        self.camera.n_images = (self.camera.n_images or 0) + 1
+        self.camera.state.n_images = (self.camera.n_images or 0) + 1
         time, bus = self._world.time, self._world.bus
         if bus.has_readers(self._info_topic):
             self._publish_info(self.camera.info(time))
@@ -103,6 +120,6 @@ class ImagePublisher(Interface):
         """Publish an image of the camera."""
         if self._blank is None:
             self._digest.update(message.data.data)
-        self.n_frames += 1
+        self.state.n_frames += 1
         self._publish_image(message)
-        self.last = pixels_of(message)
+        self.state.last = pixels_of(message)

@@ -189,7 +189,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
         bodies.add(part, models)
     names = unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
     sand = [_sand(*each, bodies, models) for each in zip(names, world.scenery.heaps, strict=True)]
-    water, light = world.scenery.water, world.scenery.light
+    water, light = world.scenery.state.water, world.scenery.state.light
     return {
         "uwsim_head": VERSION,
         "title": title,
@@ -257,7 +257,7 @@ class _Bodies:
     def link(self, index: int, link: str) -> str:
         """Return the body of a link, which is among the bodies from now on."""
         leader = self._leaders[index][link]
-        pose = self._world.state.poses.link(index, leader)
+        pose = self._world.engine.poses.link(index, leader)
         return self._body(self._of_link[index, leader], pose, self.labels[index])
 
     def link_called(self, vehicle: str, link: str) -> str:
@@ -273,7 +273,7 @@ class _Bodies:
         if part.vehicle is not None:
             return self.link(part.vehicle, part.link)
         assert part.object is not None
-        pose = self._world.state.poses.object(part.object)
+        pose = self._world.engine.poses.object(part.object)
         return self._body(self._of_object[part.object], pose, None)
 
     def add(self, part: Part, models: Models) -> None:
@@ -382,7 +382,7 @@ def _frames(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
     for index, vehicle in enumerate(world.scene.vehicles):
         for link in world.robots[index].links:
             name = f"{vehicle.name}/{link.name}"
-            world_from_link = world.state.poses.link(index, link.name)
+            world_from_link = world.engine.poses.link(index, link.name)
             yield {**_mounted(bodies, name, world_from_link), "name": name}
         for part in (part for name, part in _mounted_parts(world) if name == vehicle.name):
             place = world.vehicle(vehicle.name).mount(part)

@@ -53,7 +53,9 @@ class SceneTopics:
         self._root = own[0].root_name.strip().lstrip("/") if own else ROOT
         has_objects = any(each.enable_objects for each in own)
         fixed = {
-            each.name for i, each in enumerate(world.scene.objects) if world.state.poses.is_fixed(i)
+            each.name
+            for i, each in enumerate(world.scene.objects)
+            if world.engine.poses.is_fixed(i)
         }
         vehicles = world.frames(with_objects=False)
         objects = world.frames(with_objects=True)[len(vehicles) :]
@@ -111,7 +113,7 @@ class SceneTopics:
     def _frame_of(self, part: Part) -> tuple[str, Array]:
         """The frame that a part moves with, and ``frame_from_world``."""
         world = self._simulation.world
-        poses, scene = world.state.poses, world.scene
+        poses, scene = world.engine.poses, world.scene
         if part.vehicle is not None:
             here = poses.link(part.vehicle, part.link)
             return f"{scene.vehicles[part.vehicle].name}/{part.link}", here.inverse().matrix

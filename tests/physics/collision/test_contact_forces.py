@@ -13,7 +13,7 @@ from uwsim.simulation import Simulation
 
 def one_by_one(simulation: Simulation, name: str) -> dict[str, Array]:
     """The same from MuJoCo's own function."""
-    state = simulation.world.state
+    state = simulation.world.engine
     model, data, names = state._model, state._data, state._contacts._names
     found: dict[str, Array] = {}
     local = np.zeros(6)
@@ -32,7 +32,7 @@ def one_by_one(simulation: Simulation, name: str) -> dict[str, Array]:
 def test_what_lies_on_the_floor_is_carried_by_it_and_the_floor_feels_it() -> None:
     with uwsim.load("grasp-scene", timestep=0.005) as simulation:
         simulation.advance(0.5)
-        assert simulation.world.state._data.ncon > 1
+        assert simulation.world.engine._data.ncon > 1
         box = simulation.world.contact_forces("blackbox")
         assert set(box) == {"terrain"}
         for name in ("blackbox", "girona500"):

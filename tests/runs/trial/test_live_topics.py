@@ -185,7 +185,7 @@ class RemembersFog(Simulation):
 
     def start(self) -> None:
         super().start()
-        self.first.append(self.world.scenery.water.fog)
+        self.first.append(self.world.scenery.state.water.fog)
 
 
 @pytest.mark.parametrize(("prelude", "expected"), [(True, 0.0), (False, 0.5)])

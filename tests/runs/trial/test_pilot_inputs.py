@@ -55,7 +55,7 @@ def piloted(simulation: Simulation, **axes: float) -> None:
 
 
 def thrust(simulation: Simulation) -> list[float]:
-    commanded: list[float] = simulation.world.state.actuation[0].commands().tolist()
+    commanded: list[float] = simulation.world.engine.actuation[0].commands().tolist()
     return commanded
 
 

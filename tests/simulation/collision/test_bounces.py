@@ -91,8 +91,8 @@ def test_in_water_the_bound_takes_nothing_from_a_bounce(floor: ObjectSpec) -> No
     for is_on in (True, False):
         simulation = in_water(thing, flat, timestep=0.002)
         if not is_on:
-            simulation.world.state._bounces.is_on = False
-            simulation.world.state._bounces.apply = lambda: None
+            simulation.world.engine._bounces.is_on = False
+            simulation.world.engine._bounces.apply = lambda: None
         simulation.advance(2.0)
         ends.append(simulation.world.body("thing").world_from_body.matrix.tobytes())
     assert ends[0] == ends[1]
@@ -106,7 +106,7 @@ def test_a_body_that_has_passed_through_the_ground_ends_the_run_by_its_name(
     """It is put there between two steps, as a load that is too heavy would press it."""
     thing = loose("thing", 0.3, 0.2, 0.5, mass=157.0, restitution=0.5, volume=0.02)
     simulation = in_water(thing, floor, timestep=timestep)
-    engine = simulation.world.state
+    engine = simulation.world.engine
     simulation.advance(0.5)
     joint = int(engine._model.body_jntadr[engine.poses.loose_body(0)])
     place = int(engine._model.jnt_qposadr[joint]) if name == "thing" else engine._free_places[0]

@@ -64,7 +64,7 @@ def test_a_box_that_begins_in_the_ground_is_lifted_slowly(
 def test_only_what_is_deeper_than_its_height_stays(floor: ObjectSpec) -> None:
     for depth, is_lifted in ((0.3, True), (3.0, False)):
         simulation = in_water(sunk(depth), floor, timestep=0.01)
-        assert simulation.world.state.lift.is_active == is_lifted
+        assert simulation.world.engine.lift.is_active == is_lifted
         start = height(simulation)
         simulation.advance(2.0)
         assert (height(simulation) > start) == is_lifted
@@ -78,17 +78,17 @@ def test_an_accepted_start_or_one_that_is_shallow_is_left_to_contacts(floor: Obj
     assert rise is not None
     shallow = sunk(-0.5 * HEIGHT - rise + 0.015)
     for thing in (accepted, shallow):
-        assert not in_water(thing, floor, timestep=0.01).world.state.lift.is_active
+        assert not in_water(thing, floor, timestep=0.01).world.engine.lift.is_active
 
 
 def test_each_of_several_is_lifted_by_its_own_depth(floor: ObjectSpec) -> None:
     things = [sunk(0.05, "a", x=-3.0), sunk(0.2, "b", x=3.0), sunk(-2.0, "c")]
     simulation = in_water(*things, floor, timestep=0.01)
-    left = simulation.world.state.lift.left
+    left = simulation.world.engine.lift.state.left
     assert len(left) == 2
     assert left[1] > left[0] > 0
     simulation.advance(6.0)
-    assert not simulation.world.state.lift.is_active
+    assert not simulation.world.engine.lift.is_active
     for name in "ab":
         x, y, z = simulation.world.body(name).world_from_body.position
         assert z > relief(x, y) - 0.05
@@ -99,7 +99,7 @@ def test_what_is_placed_elsewhere_meanwhile_is_no_longer_lifted(floor: ObjectSpe
     simulation.advance(0.2)
     simulation.set_pose("thing", Pose(np.array([2.0, 2.0, -2.0]), np.eye(3)))
     simulation.advance(0.1)
-    assert not simulation.world.state.lift.is_active
+    assert not simulation.world.engine.lift.is_active
     assert height(simulation) < -2.0
     simulation.advance(8.0)
     x, y, z = simulation.world.body("thing").world_from_body.position
@@ -120,7 +120,7 @@ def test_a_saved_simulation_goes_on_being_lifted_to_the_bit(floor: ObjectSpec) -
     first.advance(3.0)
     last = motion_of(first)
     first.restore(middle)
-    assert first.world.state.lift.is_active
+    assert first.world.engine.lift.is_active
     first.advance(3.0)
     assert motion_of(first) == last
     other = in_water(sunk(0.25), floor, timestep=0.01)
@@ -149,10 +149,10 @@ def test_a_vehicle_whose_arm_begins_in_the_ground_is_not_thrown(floor: ObjectSpe
     simulation = open_scene(
         SceneSpec(sim_params=UP, objects=(floor,), vehicles=(vehicle,)), is_blind=True
     )
-    assert simulation.world.state.lift.is_active
+    assert simulation.world.engine.lift.is_active
     for _ in range(50):
         simulation.advance(0.1)
-        velocity = simulation.world.state.vehicle_velocity(0)
+        velocity = simulation.world.engine.vehicle_velocity(0)
         assert np.abs(velocity).max() < 3.0
 
 

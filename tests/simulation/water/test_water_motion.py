@@ -61,7 +61,7 @@ def bluerov(current: Current) -> Simulation:
     )
     simulation.start()
     simulation.world.set_current(current)
-    simulation.world.state.actuation[0].autopilot.push(np.zeros(3), np.zeros(3))  # adrift
+    simulation.world.engine.actuation[0].autopilot.push(np.zeros(3), np.zeros(3))  # adrift
     return simulation
 
 
@@ -70,13 +70,13 @@ def test_a_vehicle_adrift_in_sheared_water_turns_with_it() -> None:
     for _ in range(round(6.0 / simulation.timestep)):
         simulation.advance()
     # half the shear, a little less for what is not a ball
-    assert -0.16 < simulation.world.state.vehicle_velocity(0)[5] < -0.09
+    assert -0.16 < simulation.world.engine.vehicle_velocity(0)[5] < -0.09
 
 
 def test_a_neutral_ball_goes_round_in_an_eddy() -> None:
     """Released with the water 2 m from the middle it stays there, and is not flung out."""
     simulation = bluerov(Linear(EDDY))
-    state = simulation.world.state
+    state = simulation.world.engine
     frame = simulation.world.world_from_localized
     base = state.poses.vehicle(0)
     state.place_vehicle(0, replace(base, position=frame.transform(np.array([[2.0, 0, 3.0]]))[0]))
@@ -93,7 +93,7 @@ def test_a_hull_below_its_origin_feels_the_water_where_it_is() -> None:
     """Of a current that grows with depth."""
     shift = (0.0, 0.0, 2.0)
     simulation = bluerov(Linear([[0.0, 0.0, 0.1], [0.0] * 3, [0.0] * 3]))
-    water = simulation.world.state._water
+    water = simulation.world.engine._water
     assert water is not None
     own = read_vehicle(vehicle_sets()["bluerov2_heavy"]).bodies[0]
     assert isinstance(own, BodyHydrodynamics)

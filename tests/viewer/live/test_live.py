@@ -356,7 +356,7 @@ def test_nobody_resets_a_benchmark() -> None:
     with uwsim.load("cirs") as simulation:
         view.open(simulation, "scene")
         world_from_elsewhere = Pose.from_rpy((1.0, 2.0, -3.0), (0.0, 0.0, 0.0))
-        simulation.world.state.place_vehicle(0, world_from_elsewhere)
+        simulation.world.engine.place_vehicle(0, world_from_elsewhere)
         desk.said.append((1, {"type": "control", "action": "reset"}))
         simulation.advance(0.01)
         assert simulation.pose("girona500", "W").position == pytest.approx([1.0, 2.0, -3.0])

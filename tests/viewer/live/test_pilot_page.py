@@ -213,7 +213,7 @@ def test_the_orbit_goes_along_with_the_piloted_vehicle_and_keeps_its_distance(
             view.open(simulation, "scene", {**parameters, "twist_topic": topic})
             began = simulation.pose(simulation.world.vehicles[index], "W")
             moved = Pose(np.add(began.position, (3.0, -2.0, 0.5)), began.rotation)
-            simulation.world.state.place_vehicle(index, moved)
+            simulation.world.engine.place_vehicle(index, moved)
             view._due["row"] = 0.0
             view._hand_over()
             view.close()

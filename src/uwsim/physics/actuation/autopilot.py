@@ -49,6 +49,7 @@ import numpy.typing as npt
 from ...base.external_values import MAX_COMMAND
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import pseudo_inverse
+from ...base.record import Record
 from ...scene.hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
 from .allocation import ROLL, Allocation, allocate, curve
 from .records import AUTOPILOT, AUTOPILOT_STATE, POSITION, THRUSTER, THRUSTERS, VELOCITY, WRENCH
@@ -90,14 +91,21 @@ class Seat:
     """Whether velocities are those over ground."""
 
 
+@dataclass(slots=True)
+class AutopilotState(Record):
+    """What an autopilot does."""
+
+    loops: npt.NDArray[np.void]
+    """Its loops, (1,) of `records.AUTOPILOT_STATE`."""
+    commands: Array
+    """The commands of the thrusters that are passed on, (n,) [1]."""
+
+
 class Autopilot:
     """The autopilot of one vehicle: velocity loops; depth, heading and position hold.
 
     It takes the commands; `autopilot_kernel.steer` does what they ask for.
     """
-
-    STATE = ("_state", "_commands")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -137,6 +145,8 @@ class Autopilot:
         self._wanted: Array = self._state["wanted"][0]
         self._integral: Array = self._state["integral"]
         self._commands = np.zeros(len(vehicle.thrusters))
+        self.state = AutopilotState(self._state, self._commands)
+        """What it does."""
 
     @property
     def addresses(self) -> tuple[int, int, int, int, int]:

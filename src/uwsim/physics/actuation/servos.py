@@ -12,12 +12,14 @@ friction of the gear.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
+from ...base.record import Record
 from ...model.body_names import vehicle_joint
 from ...scene.urdf.robot import JointSpec, RobotSpec
 from ..joints import servo_gains, stops
@@ -27,11 +29,16 @@ MAX_SPEED = 2.0
 """A target moves at most this fast, whatever the URDF says [rad/s or m/s]."""
 
 
+@dataclass(slots=True)
+class ServosState(Record):
+    """What the servos of a vehicle do."""
+
+    joints: npt.NDArray[np.void]
+    """The servo of each joint that moves, (m,) of `records.JOINT_STATE`."""
+
+
 class Servos:
     """The servos of one vehicle; the joint vector is UWSim's."""
-
-    STATE = ("_state",)
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotSpec, index: int
@@ -50,6 +57,8 @@ class Servos:
         self._records["dof"] = model.jnt_dofadr[self._joints]
         self._records["control"] = model.actuator_ctrladr[self._servos]
         self._state = np.zeros(len(moving), JOINT_STATE)
+        self.state = ServosState(self._state)
+        """What they do."""
         self._state["is_on"] = True
         self._vector = [names.index(joint.name) for joint in robot.movable]  # (n,)
         self._places = self._records["place"][self._vector]

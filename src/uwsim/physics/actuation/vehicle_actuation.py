@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import mujoco
 import numpy as np
 
 from ...base.geometry import Array, Pose
+from ...base.record import Record
 from ...model.balance import balance_of
 from ...model.body_names import vehicle_fin, vehicle_joint, vehicle_thruster
 from ...scene.hydrodynamics import VehicleHydrodynamics
@@ -18,11 +20,21 @@ from ...scene.vehicle import VehicleSpec
 from ..poses import Poses
 from .actuators import Actuators
 from .allocation import thrusters_on_base
-from .autopilot import Autopilot, Seat
-from .servos import Servos
+from .autopilot import Autopilot, AutopilotState, Seat
+from .servos import Servos, ServosState
 
 if TYPE_CHECKING:
     from ..hydrodynamics.hydrodynamics import Hydrodynamics
+
+
+@dataclass(slots=True)
+class ActuationState(Record):
+    """What the actuation of a vehicle does."""
+
+    autopilot: AutopilotState
+    """What its autopilot does."""
+    servos: ServosState
+    """What the servos of its joints do."""
 
 
 class VehicleActuation:
@@ -37,9 +49,6 @@ class VehicleActuation:
         water: around it.
         poses: where it is.
     """
-
-    STATE = ("autopilot", "servos")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -63,6 +72,8 @@ class VehicleActuation:
         """Those of its joints."""
         self.autopilot = self._make_autopilot(vehicle, poses)
         """What steers it."""
+        self.state = ActuationState(self.autopilot.state, self.servos.state)
+        """What they do."""
 
     def _make_autopilot(self, vehicle: VehicleSpec, poses: Poses) -> Autopilot:
         robot, dynamics, model = self._robot, self._dynamics, self._water.model

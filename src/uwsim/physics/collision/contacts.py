@@ -7,6 +7,7 @@ what is left of it while they press into each other.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
+from dataclasses import dataclass
 from typing import Literal
 
 import mujoco
@@ -16,11 +17,20 @@ import numpy.typing as npt
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import cross, dot, turned_back
+from ...base.record import Record
 from ...scene.spec import SceneSpec
 from ...world import Contact
 
 Numbers = npt.NDArray[np.int64]
 Pressing = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], Array, Array]
+
+
+@dataclass(slots=True)
+class EngineContactsState(Record):
+    """Whether the contacts hold."""
+
+    hold: bool = False
+    """Whether the engine's contacts are those of its state."""
 
 
 class EngineContacts:
@@ -32,9 +42,6 @@ class EngineContacts:
         data: its state.
         shapes: names of the bodies that have shapes.
     """
-
-    STATE = ("hold",)
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -53,31 +60,36 @@ class EngineContacts:
         labels = {name: i for i, name in enumerate(self._labels)}
         self._name_numbers = np.array([labels[name] for name in self._names], np.int64)
         self._touchable = frozenset(owner_of(name) for name in shapes)
-        self.hold = False
-
-    @property
-    def hold(self) -> bool:
-        """Whether the engine's contacts are those of its state; to be set after every step."""
-        return self._hold
-
-    @hold.setter
-    def hold(self, hold: bool) -> None:
-        self._hold = hold
+        self.state = EngineContactsState()
+        """Whether they hold."""
         self._looked_up: Pressing | None = None
+
+    def look_again(self, *, hold: bool) -> None:
+        """Look up the contacts when they are next asked for; to be called after every step.
+
+        Args:
+            hold: whether there are contacts of the bodies where they are.
+        """
+        self.state.hold = hold
+        self.forget()
+
+    def forget(self) -> None:
+        """Forget what was looked up in the engine's memory."""
+        self._looked_up = None
 
     def of(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
         owner = f"{kind}/{index}"
         if owner not in self._touchable:
             return None
-        if not self.hold:
+        if not self.state.hold:
             return []
         return contacts_of(self._model, self._data, self._owners == owner, self._names)
 
     def forces(self, kind: Literal["vehicle", "object"], index: int) -> dict[str, Array]:
         """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N]."""
         found: dict[str, Array] = {}
-        if not self.hold or self._data.ncon == 0:
+        if not self.state.hold or self._data.ncon == 0:
             return found
         owner = self._numbers.get(f"{kind}/{index}")
         if owner is None:
@@ -114,7 +126,7 @@ class EngineContacts:
             point: about which the torque is, in W, (3,) [m].
         """
         total = np.zeros(6)
-        if not self.hold or self._data.ncon == 0:
+        if not self.state.hold or self._data.ncon == 0:
             return total
         found, own = self._data.contact, np.zeros(6)
         is_own = self._model.geom_bodyid[found.geom] == body  # (n, 2)

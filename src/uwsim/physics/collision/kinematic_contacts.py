@@ -8,16 +8,42 @@ in jumps (`uwsim.physics.kinematics.jumps`); the speed of one is that of as much
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import mujoco
 import numpy as np
 
 from ...base.geometry import Array, Pose, quaternion_from_rotation
 from ...base.numerics.linear import dot, length
+from ...base.record import Record
 from ...model.collision.shapes import CollisionShape
 from ...world import Contact
 from ..engine_model import ALL, OBJECTS, SHAPES, give_form
-from ..kinematics.jumps import JumpTimes, without_placement
+from ..kinematics.jumps import JumpState, JumpTimes, without_placement
+
+
+@dataclass(slots=True)
+class KinematicBodyState(Record):
+    """The last displacement of a kinematic body."""
+
+    now: Pose
+    """Where it is."""
+    before: Pose
+    """Where it was before its last displacement."""
+    jumps: JumpState
+    """When it was displaced."""
+
+
+@dataclass(slots=True)
+class KinematicContactsState(Record):
+    """What is known of the bodies that overlap."""
+
+    seen: int
+    """The version of the poses that were last recorded."""
+    step: int
+    """The step at which they were recorded."""
+    bodies: list[KinematicBodyState]
+    """The displacements of the bodies."""
 
 
 class KinematicContacts:
@@ -31,9 +57,6 @@ class KinematicContacts:
         timestep: length of a step [s].
     """
 
-    STATE = ("_seen", "_step", "_is_stale", "_bodies")
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self,
         shapes: Mapping[str, Sequence[CollisionShape]],
@@ -43,32 +66,33 @@ class KinematicContacts:
         timestep: float,
     ) -> None:
         self._names, self._version = names, version
-        self._seen = version()
         self._bodies = [_KinematicBody(poses[name], timestep) for name in shapes]
         self._model = _model(shapes)
         self._data = mujoco.MjData(self._model)
         owners = [_owner(self._model.geom(i).name) for i in range(self._model.ngeom)]
         self._owners = np.array(owners)
         self._touchable = frozenset(owners)
-        self._step = 0
-        self._is_stale = True
+        self._laid: list[Pose] = []  # where the bodies were when their shapes were laid
+        self.state = KinematicContactsState(version(), 0, [body.state for body in self._bodies])
+        """What is known of the bodies."""
 
     def record(self, step: int) -> None:
         """Record the poses of all bodies; to be called at every step."""
-        self._step = step
-        if (version := self._version()) == self._seen:
+        self.state.step = step
+        if (version := self._version()) == self.state.seen:
             return
-        self._seen = version
+        self.state.seen = version
         for body in self._bodies:
-            self._is_stale |= body.record(step)
+            body.record(step)
 
     def contacts(self, kind: str, index: int) -> list[Contact] | None:
         """Where a vehicle or object touches others; None if it has no shape to be touched."""
         owner = f"{kind}/{index}"
         if owner not in self._touchable:
             return None
-        if self._is_stale:
-            self._lay()
+        places = [body.now for body in self.state.bodies]
+        if not self._laid or any(a is not b for a, b in zip(places, self._laid, strict=True)):
+            self._lay(places)
         found = self._data.contact
         if self._data.ncon == 0:
             return []
@@ -90,45 +114,41 @@ class KinematicContacts:
             )
         return contacts
 
-    def _lay(self) -> None:
-        for i, body in enumerate(self._bodies):
-            self._data.qpos[7 * i : 7 * i + 3] = body.now.position
-            self._data.qpos[7 * i + 3 : 7 * i + 7] = quaternion_from_rotation(body.now.rotation)
+    def _lay(self, places: list[Pose]) -> None:
+        for i, place in enumerate(places):
+            self._data.qpos[7 * i : 7 * i + 3] = place.position
+            self._data.qpos[7 * i + 3 : 7 * i + 7] = quaternion_from_rotation(place.rotation)
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_collision(self._model, self._data)
-        self._is_stale = False
+        self._laid = places
 
     def _velocity(self, geom: int, point: Array) -> Array:
         """Velocity of a body's point, W, (3,) [m/s]."""
         body = int(self._model.geom_bodyid[geom])
-        return self._bodies[body - 1].velocity(point, self._step)
+        return self._bodies[body - 1].velocity(point, self.state.step)
 
 
 class _KinematicBody:
     """A kinematic body, with the velocity of its last displacement."""
 
-    STATE = ("now", "_before", "_jumps")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, pose: Callable[[], Pose], timestep: float) -> None:
         self._pose, self._jumps = pose, JumpTimes(timestep, last=0)
-        self.now = self._before = pose()
+        here = pose()
+        self.state = KinematicBodyState(here, here, self._jumps.state)
 
-    def record(self, step: int) -> bool:
-        """Record its pose; returns whether it moved."""
-        pose = self._pose()
-        is_there = np.array_equal(pose.position, self.now.position)
-        if is_there and np.array_equal(pose.rotation, self.now.rotation):
-            return False
-        self._before, self.now = self.now, pose
-        self._jumps.add(step)
-        return True
+    def record(self, step: int) -> None:
+        """Record its pose."""
+        pose, state = self._pose(), self.state
+        is_there = np.array_equal(pose.position, state.now.position)
+        if not is_there or not np.array_equal(pose.rotation, state.now.rotation):
+            state.before, state.now = state.now, pose
+            self._jumps.add(step)
 
     def velocity(self, point: Array, step: int) -> Array:
         """Velocity of its point at ``point``, W, (3,) [m/s]."""
         if self._jumps.age(step) >= self._jumps.n_steps:
             return np.zeros(3)
-        was_at = (self._before @ self.now.inverse()).transform(point[None])[0]
+        was_at = (self.state.before @ self.state.now.inverse()).transform(point[None])[0]
         velocity: Array = (point - was_at) / self._jumps.duration
         return without_placement(velocity, length(velocity))
 

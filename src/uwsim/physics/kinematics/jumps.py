@@ -8,14 +8,27 @@ step, not five hundred times as much at one step out of fifty. What would be fas
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from ...base.geometry import Array
+from ...base.record import Record
 
 MAX_JUMP = 1.0
 """A jump after a longer rest counts as made in this time [s]."""
 MAX_JUMP_SPEED = 100.0
 """A faster jump is a placement: the body has no velocity after it [m/s, rad/s]."""
+
+
+@dataclass(slots=True)
+class JumpState(Record):
+    """The last jump of a body."""
+
+    step: int
+    """The step at which it was made."""
+    n_steps: int
+    """The steps that it took."""
 
 
 class JumpTimes:
@@ -27,27 +40,28 @@ class JumpTimes:
         n_steps: that this took.
     """
 
-    STATE = ("_step", "n_steps")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, timestep: float, *, last: int | None = None, n_steps: int = 0) -> None:
         self._timestep, self._longest = timestep, max(1, round(MAX_JUMP / timestep))
-        self._step = -self._longest if last is None else last
-        self.n_steps = n_steps
-        """Steps that the last jump took."""
+        self.state = JumpState(-self._longest if last is None else last, n_steps)
+        """Its last jump."""
+
+    @property
+    def n_steps(self) -> int:
+        """The steps that the last jump took."""
+        return self.state.n_steps
 
     def add(self, step: int) -> None:
         """Record a jump at a step."""
-        self.n_steps = min(max(1, step - self._step), self._longest)
-        self._step = step
+        self.state.n_steps = min(max(1, step - self.state.step), self._longest)
+        self.state.step = step
 
     def forget(self) -> None:
         """Let the last jump be long ago."""
-        self._step = -self._longest
+        self.state.step = -self._longest
 
     def age(self, step: int) -> int:
         """Return the steps since the last jump."""
-        return step - self._step
+        return step - self.state.step
 
     @property
     def duration(self) -> float:

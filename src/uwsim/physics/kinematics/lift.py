@@ -13,14 +13,24 @@ Its joints are free to move meanwhile. A body that is placed elsewhere is no lon
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass, field
 
 import mujoco
 import numpy as np
 
 from ...base.geometry import Array
+from ...base.record import Record
 
 SPEED = 0.25
 """Of a body that is lifted [m/s]."""
+
+
+@dataclass(slots=True)
+class LiftState(Record):
+    """How far bodies are lifted."""
+
+    left: list[int] = field(default_factory=list)
+    """The steps until each body is clear."""
 
 
 class Lift:
@@ -31,13 +41,11 @@ class Lift:
         data: its state.
     """
 
-    STATE = ("left",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
         self._bodies: list[_LiftedBody] = []
-        self._left: list[int] = []
+        self.state = LiftState()
+        """How far they are lifted."""
 
     def add(self, body: int, rise: float) -> None:
         """Lift a body with a free joint, and all that is on it, from where it is.
@@ -47,38 +55,29 @@ class Lift:
             rise: how far [m].
         """
         n_steps = max(1, math.ceil(rise / (SPEED * self._model.opt.timestep)))
-        self._bodies.append(_LiftedBody(self._model, self._data, body, rise, n_steps))
-        self.left = (*self._left, n_steps)
-
-    @property
-    def left(self) -> tuple[int, ...]:
-        """Steps until each body is clear."""
-        return tuple(self._left)
-
-    @left.setter
-    def left(self, left: tuple[int, ...]) -> None:
-        self._left = list(left)
-        for body, n in zip(self._bodies, left, strict=True):
-            body.touch(is_on=n == 0)
+        lifted = _LiftedBody(self._model, self._data, body, rise, n_steps)
+        lifted.touch(is_on=False)
+        self._bodies.append(lifted)
+        self.state.left.append(n_steps)
 
     @property
     def is_active(self) -> bool:
         """Whether a body is being lifted; then steps are taken one by one."""
-        return any(self._left)
+        return any(self.state.left)
 
     def begin_step(self) -> None:
         """Stop to lift what was placed elsewhere; to be called before a step."""
         for i, body in enumerate(self._bodies):
-            if self._left[i] and not body.is_at(self._left[i]):
-                self._left[i] = 0
+            if self.state.left[i] and not body.is_at(self.state.left[i]):
+                self.state.left[i] = 0
                 body.touch(is_on=True)
 
     def end_step(self) -> None:
         """Put each body where it has been lifted to; to be called after a step."""
         for i, body in enumerate(self._bodies):
-            if self._left[i]:
-                self._left[i] -= 1
-                body.put(self._left[i])
+            if self.state.left[i]:
+                self.state.left[i] -= 1
+                body.put(self.state.left[i])
 
 
 class _LiftedBody:

@@ -13,18 +13,46 @@ and add up.
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import dataclass
 from typing import Literal
 
 import mujoco
 import numpy as np
 
 from ...base.geometry import Array
+from ...base.record import Record
 from ...world import BodyMotion
-from .jumps import JumpTimes
+from .jumps import JumpState, JumpTimes
 from .link_motion import LinkMotion
 
 Source = Literal["base", "joints"]
 """What commands move."""
+
+
+@dataclass(slots=True)
+class SourceState(Record):
+    """What one source of motion has done."""
+
+    speed: Array
+    """The velocity of its last jump, (n,) [m/s, rad/s]."""
+    before: Array
+    """The velocity before it, (n,)."""
+    times: JumpState
+    """When it jumped."""
+
+
+@dataclass(slots=True)
+class PlacedState(Record):
+    """What changes of a vehicle that is placed."""
+
+    now: Array
+    """Its joints' positions when they were last recorded, (7 + n,)."""
+    base: SourceState
+    """What commands of the base have done."""
+    joints: SourceState
+    """What commands of the joints have done."""
+    drift: SourceState
+    """What the water has done."""
 
 
 class PlacedMotion:
@@ -37,9 +65,6 @@ class PlacedMotion:
         index: number of the vehicle.
         links: how points on links move.
     """
-
-    STATE = ("_now", "_base", "_joints", "_drift")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self,
@@ -54,10 +79,12 @@ class PlacedMotion:
         place, dof = int(model.jnt_qposadr[free]), int(model.jnt_dofadr[free])
         self._places = np.array([*range(place, place + 7), *model.jnt_qposadr[moving]])
         self._dofs = np.array([*range(dof, dof + 6), *model.jnt_dofadr[moving]])
-        self._now: Array = data.qpos[self._places]  # (7 + n,)
         timestep = float(model.opt.timestep)
         self._base, self._drift = _Jumps(6, timestep), _Jumps(6, timestep)
         self._joints = _Jumps(len(moving), timestep)
+        now: Array = data.qpos[self._places]
+        self.state = PlacedState(now, self._base.state, self._joints.state, self._drift.state)
+        """What changes of it."""
         self._speeds, self._rates = np.zeros(model.nv), np.zeros(model.nv)
 
     def record(self, step: int, starts: Collection[Source] = ()) -> None:
@@ -96,28 +123,26 @@ class PlacedMotion:
 
     def _change(self) -> Array:
         """How far it is from where it was the last time, for each degree of freedom."""
-        before, now = self._now, self._data.qpos[self._places]
+        before, now = self.state.now, self._data.qpos[self._places]
         change = np.empty(len(self._dofs))
         change[:3] = now[:3] - before[:3]  # in W
         mujoco.mju_subQuat(change[3:6], now[3:7], before[3:7])  # in the base's axes
         change[6:] = now[7:] - before[7:]
-        self._now = now
+        self.state.now = now
         return change
 
 
 class _Jumps:
     """The degrees of freedom that one source moves, with the velocity of its last jump."""
 
-    STATE = ("_speed", "_before", "_times")
-    """Attributes of its state, for snapshots."""
-
     def __init__(self, n: int, timestep: float) -> None:
         self._times = JumpTimes(timestep, n_steps=1)
-        self._speed, self._before = np.zeros(n), np.zeros(n)
+        self.state = SourceState(np.zeros(n), np.zeros(n), self._times.state)
 
     def clear(self) -> None:
         """Forget the last jump."""
-        self._speed, self._before = np.zeros_like(self._speed), np.zeros_like(self._before)
+        state = self.state
+        state.speed, state.before = np.zeros_like(state.speed), np.zeros_like(state.before)
         self._times.forget()
 
     def begin(self, step: int) -> None:
@@ -128,25 +153,25 @@ class _Jumps:
     def add(self, step: int, change: Array) -> None:
         """Record a jump; several in one step are one."""
         if self._times.age(step) == 0:
-            self._speed = self._speed + change / self._times.duration
+            self.state.speed = self.state.speed + change / self._times.duration
             return
-        self._before = self.speed(step)
+        self.state.before = self.speed(step)
         self._times.add(step)
-        self._speed = change / self._times.duration
+        self.state.speed = change / self._times.duration
 
     def speed(self, step: int) -> Array:
         """Return the velocity, (n,) [m/s, rad/s]."""
         is_moving = self._times.age(step) < self._lasts
-        return self._speed if is_moving else np.zeros_like(self._speed)
+        return self.state.speed if is_moving else np.zeros_like(self.state.speed)
 
     def rate(self, step: int) -> Array:
         """Return the acceleration, (n,) [m/s2, rad/s2]."""
         age, time = self._times.age(step), self._times.duration
         if age < self._lasts:
-            return (self._speed - self._before) / time
+            return (self.state.speed - self.state.before) / time
         if age < self._lasts + self._times.n_steps:
-            return -self._speed / time
-        return np.zeros_like(self._speed)
+            return -self.state.speed / time
+        return np.zeros_like(self.state.speed)
 
     @property
     def _lasts(self) -> int:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from ...base.digest import digest_of
 from ...model.scene_model import SceneModel
 from ...physics.compile_scene import compile_scene
 from ...simulation import RendererPool
-from ...simulation.snapshot import digest_of
 from .plan import Plan
 
 N_MODELS = 2

@@ -36,11 +36,11 @@ class SandLog:
                 continue
             self._versions[number] = heap.version
             n = len(self._seen[number])
-            if heap.taken[:n] != self._seen[number]:  # it was put back meanwhile
+            if heap.state.taken[:n] != self._seen[number]:  # it was put back meanwhile
                 self._rows.append((frame, number, NOTHING, NOTHING, NOTHING))
                 n = 0
-            self._rows += [(frame, number, *spot) for spot in heap.taken[n:]]
-            self._seen[number] = list(heap.taken)
+            self._rows += [(frame, number, *spot) for spot in heap.state.taken[n:]]
+            self._seen[number] = list(heap.state.taken)
 
     def dug(self) -> DugSand:
         """Return all so far."""

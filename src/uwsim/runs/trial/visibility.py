@@ -72,7 +72,7 @@ def visibility_facts(
         grey = product(image.colour[..., :3].astype(np.float64), GREY)
         contrast = float(grey[inside].std())
         distance = float(image.range[inside].mean())
-        sigma = 255.0 * camera.std
+        sigma = 255.0 * camera.state.std
         sigma_grey = sigma * length(GREY)
         given = parameters.get("zncc_threshold")
         facts: dict[str, Fact] = {

@@ -19,8 +19,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from ...base.geometry import Array
+from ...base.record import Record
 from ...messages import Image, ProjectedSonarImage, image
 from ...schema import element
 from ...world import Body, SensorWorld
@@ -71,28 +73,36 @@ class ImagingSonarSpec(SonarSpec):
         return ImagingSonar(self, vehicle.mount(self), world, random)
 
 
+@dataclass(slots=True)
+class ImagingState(Record):
+    """What an imaging sonar has drawn and seen."""
+
+    random: np.random.Generator
+    """The generator of its speckle."""
+    last: npt.NDArray[np.float32]
+    """Its last ping, (bins, beams)."""
+
+
 class ImagingSonar:
     """Echoes in bins of azimuth and range."""
-
-    STATE: ClassVar[tuple[str, ...]] = ("_random", "_last")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: ImagingSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._random = spec, mount, random
+        self._spec, self._mount = spec, mount
         azimuths = spec.azimuths
         self._echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
         self._ranges, self._directions = self._echoes.ranges, level_directions(azimuths)
         self._levels, self._fan = Levels(spec, self._ranges), FanImage(azimuths, self._ranges)
-        self._last = np.zeros((spec.bins, spec.beams), dtype=np.float32)
+        self.state = ImagingState(random, np.zeros((spec.bins, spec.beams), np.float32))
+        """What it has drawn and seen."""
 
     def sample(self, time: float) -> ProjectedSonarImage:
         """Ping now, at ``time`` [s]."""
         pose, spec = self._mount.world_from_body, self._spec
-        self._last = self._echoes.ping(pose, int(self._random.integers(2**63)))
+        self.state.last = self._echoes.ping(pose, int(self.state.random.integers(2**63)))
         return sonar_image(
-            self._last,
+            self.state.last,
             spec,
             directions=self._directions,
             ranges=self._ranges,
@@ -103,5 +113,5 @@ class ImagingSonar:
     def image(self, time: float) -> Image:
         """The last ping as a fan, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
-        greys = self._levels.of(self._last, losses)
+        greys = self._levels.of(self.state.last, losses)
         return image(self._fan.of(greys), time=time, frame_id=self._spec.name)

@@ -24,6 +24,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
+from ...base.record import RandomState
 from ...messages import LaserScan, header
 from ...schema import MAX_DISTANCE, element
 from ...world import Body, SensorWorld
@@ -90,13 +91,12 @@ class MultibeamSensorSpec(FanSpec):
 class BeamFan:
     """Ranges of beams side by side, as sensor_msgs/LaserScan."""
 
-    STATE: ClassVar[tuple[str, ...]] = ("_random",)
-    """Attributes of its state, for snapshots."""
-
     def __init__(
         self, spec: FanSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._world, self._random = spec, mount, world, random
+        self._spec, self._mount, self._world = spec, mount, world
+        self.state = RandomState(random)
+        """What it draws."""
         sign = 1.0 if spec.final_angle >= spec.init_angle else -1.0
         self._first = math.radians(spec.init_angle)
         self._step = sign * math.radians(spec.angle_incr)
@@ -115,7 +115,7 @@ class BeamFan:
         spec = self._spec
         ranges = self._ranges()
         if spec.std > 0.0:
-            noise = spec.std * self._random.standard_normal(len(ranges))
+            noise = spec.std * self.state.random.standard_normal(len(ranges))
             ranges = np.where(ranges < spec.range, ranges + noise, ranges)
         last = len(ranges) - 1
         return LaserScan(

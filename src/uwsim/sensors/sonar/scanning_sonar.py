@@ -19,8 +19,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from ...base.geometry import Array, Pose, rotation_z
+from ...base.record import Record
 from ...messages import Image, ProjectedSonarImage, image
 from ...schema import element
 from ...world import Body, SensorWorld
@@ -77,31 +79,40 @@ class ScanningSonarSpec(SonarSpec):
         return ScanningSonar(self, vehicle.mount(self), world, random)
 
 
+@dataclass(slots=True)
+class ScanningState(Record):
+    """What a scanning sonar has drawn and seen."""
+
+    random: np.random.Generator
+    """The generator of its speckle."""
+    scan: npt.NDArray[np.float32]
+    """The last ping of each azimuth, (bins, n)."""
+    n_pings: int = 0
+    """The pings so far."""
+
+
 class ScanningSonar:
     """Echoes of one beam after the other."""
-
-    STATE: ClassVar[tuple[str, ...]] = ("_random", "_scan", "_n_pings")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: ScanningSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._random = spec, mount, random
+        self._spec, self._mount = spec, mount
         step = math.radians(spec.beam_width) / RAYS_A_WIDTH
         self._echoes = Echoes(spec, world, np.zeros(1), step)
         self._azimuths, self._ranges = spec.azimuths, self._echoes.ranges
         self._levels = Levels(spec, self._ranges)
         self._fan = FanImage(self._azimuths, self._ranges)
-        self._scan = np.zeros((spec.bins, len(self._azimuths)), dtype=np.float32)
-        self._n_pings = 0
+        self.state = ScanningState(random, np.zeros((spec.bins, len(self._azimuths)), np.float32))
+        """What it has drawn and seen."""
 
     @property
     def _place(self) -> int:
         """Number of the azimuth that the next ping goes to."""
         n = len(self._azimuths)
         if self._spec.is_round or n == 1:
-            return self._n_pings % n
-        place = self._n_pings % (2 * n - 2)
+            return self.state.n_pings % n
+        place = self.state.n_pings % (2 * n - 2)
         return min(place, 2 * n - 2 - place)
 
     def sample(self, time: float) -> ProjectedSonarImage:
@@ -110,9 +121,9 @@ class ScanningSonar:
         azimuth = float(self._azimuths[place])
         sonar_from_head = Pose(np.zeros(3), rotation_z(azimuth))
         world_from_head = self._mount.world_from_body @ sonar_from_head
-        amplitude = self._echoes.ping(world_from_head, int(self._random.integers(2**63)))
-        self._scan[:, place] = amplitude[:, 0]
-        self._n_pings += 1
+        amplitude = self._echoes.ping(world_from_head, int(self.state.random.integers(2**63)))
+        self.state.scan[:, place] = amplitude[:, 0]
+        self.state.n_pings += 1
         return sonar_image(
             amplitude,
             self._spec,
@@ -125,5 +136,5 @@ class ScanningSonar:
     def image(self, time: float) -> Image:
         """The last ping of each azimuth, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
-        greys = self._levels.of(self._scan, losses)
+        greys = self._levels.of(self.state.scan, losses)
         return image(self._fan.of(greys), time=time, frame_id=self._spec.name)

@@ -19,9 +19,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from ...base.geometry import Pose, rotation_y, rotation_z
 from ...base.numerics.linear import product
+from ...base.record import Record
 from ...messages import Image, ProjectedSonarImage, image
 from ...schema import element
 from ...world import Body, SensorWorld
@@ -65,37 +67,46 @@ class SideScanSonarSpec(SonarSpec):
         return SideScanSonar(self, vehicle.mount(self), world, random)
 
 
+@dataclass(slots=True)
+class SideScanState(Record):
+    """What a side-scan sonar has drawn and seen."""
+
+    random: np.random.Generator
+    """The generator of its speckle."""
+    waterfall: npt.NDArray[np.uint8]
+    """The lines of its last pings, (lines, 2 * bins)."""
+    n_pings: int = 0
+    """The pings so far."""
+
+
 class SideScanSonar:
     """Echoes to port and to starboard, and the waterfall of the last pings."""
-
-    STATE: ClassVar[tuple[str, ...]] = ("_random", "_waterfall", "_n_pings")
-    """Attributes of its state, for snapshots."""
 
     def __init__(
         self, spec: SideScanSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._random = spec, mount, random
+        self._spec, self._mount = spec, mount
         step = math.radians(spec.beam_width) / RAYS_A_WIDTH
         self._echoes = Echoes(spec, world, np.zeros(1), step, highest=0.5 * math.pi)
         self._ranges, self._levels = self._echoes.ranges, Levels(spec, self._echoes.ranges)
         down = rotation_y(math.radians(spec.tilt))
         self._heads = tuple(Pose(np.zeros(3), product(rotation_z(side), down)) for side in SIDES)
-        self._waterfall = np.zeros((spec.lines, 2 * spec.bins), dtype=np.uint8)
-        self._n_pings = 0
+        self.state = SideScanState(random, np.zeros((spec.lines, 2 * spec.bins), dtype=np.uint8))
+        """What it has drawn and seen."""
 
     def sample(self, time: float) -> ProjectedSonarImage:
         """Ping now, at ``time`` [s]; the first beam is that to port."""
         world_from_sonar = self._mount.world_from_body
-        keys = [int(key) for key in self._random.integers(2**63, size=2)]
+        keys = [int(key) for key in self.state.random.integers(2**63, size=2)]
         beams = [
             self._echoes.ping(world_from_sonar @ sonar_from_head, key)
             for sonar_from_head, key in zip(self._heads, keys, strict=True)
         ]
         amplitude = np.concatenate(beams, axis=1)
         greys = self._levels.of(amplitude, self._echoes.losses(world_from_sonar))
-        line = self._n_pings % self._spec.lines
-        self._waterfall[line] = np.concatenate([greys[::-1, 0], greys[:, 1]])
-        self._n_pings += 1
+        line = self.state.n_pings % self._spec.lines
+        self.state.waterfall[line] = np.concatenate([greys[::-1, 0], greys[:, 1]])
+        self.state.n_pings += 1
         return sonar_image(
             amplitude,
             self._spec,
@@ -107,6 +118,6 @@ class SideScanSonar:
 
     def image(self, time: float) -> Image:
         """The waterfall: the newest ping at the top, port on the left, stamped ``time`` [s]."""
-        newest = (self._n_pings - 1) % self._spec.lines
-        rows = np.roll(self._waterfall, -1 - newest, axis=0)[::-1]
+        newest = (self.state.n_pings - 1) % self._spec.lines
+        rows = np.roll(self.state.waterfall, -1 - newest, axis=0)[::-1]
         return image(rows, time=time, frame_id=self._spec.name)

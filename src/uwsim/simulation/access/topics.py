@@ -3,11 +3,55 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any
 
+from ...base.inbox import Inbox
+from ...base.record import Live, Record, of_another_scene
 from ...base.terminal import warn
 from ...bus import Bus
 from ...errors import UnknownName
+
+
+class Newest(Live):
+    """The newest message of each topic that is read, and the step at which it came.
+
+    Args:
+        inboxes: the inbox of each topic.
+        open_inbox: opens that of another topic.
+    """
+
+    def __init__(
+        self, inboxes: dict[str, Inbox[Any]], open_inbox: Callable[[str], Inbox[Any]]
+    ) -> None:
+        self._inboxes, self._open_inbox = inboxes, open_inbox
+
+    def value(self) -> dict[str, tuple[Any, int | None]]:
+        """Return topic -> its newest message and the step at which it came."""
+        return {topic: (box.last, box.last_step) for topic, box in self._inboxes.items()}
+
+    def set(self, value: object) -> None:
+        """Set the newest messages; topics that are not read yet are read from now on."""
+        if not isinstance(value, dict):
+            raise of_another_scene()
+        for topic in (topic for topic in self._inboxes if topic not in value):
+            self._inboxes[topic].clear()
+        for topic, (last, step) in value.items():
+            if topic not in self._inboxes:
+                self._inboxes[topic] = self._open_inbox(topic)
+            box = self._inboxes[topic]
+            box.clear()
+            box.last, box.last_step = last, step
+
+
+@dataclass(slots=True)
+class AccessState(Record):
+    """What a program has read."""
+
+    newest: Newest
+    """The newest message of each topic that is read."""
+    is_started: bool = False
+    """Whether the first samples, at step 0, are published."""
 
 
 class TopicAccess:
@@ -22,25 +66,13 @@ class TopicAccess:
         self._bus = bus
         self._published: dict[str, Callable[[Any], None]] = {}
         self._inboxes = {name: bus.inbox(name, object) for name in read if name in bus.topics}
+        self.state = AccessState(Newest(self._inboxes, lambda topic: bus.inbox(topic, object)))
+        """What it has read."""
 
     @property
     def read(self) -> tuple[str, ...]:
         """The topics that are read."""
         return tuple(self._inboxes)
-
-    @property
-    def newest(self) -> dict[str, tuple[Any, int | None]]:
-        """Topic -> its newest message and the step at which it came; set to go back to a state."""
-        return {topic: (box.last, box.last_step) for topic, box in self._inboxes.items()}
-
-    @newest.setter
-    def newest(self, newest: dict[str, tuple[Any, int | None]]) -> None:
-        for topic, (last, step) in newest.items():
-            if topic not in self._inboxes:
-                self._inboxes[topic] = self._bus.inbox(topic, object)
-            box = self._inboxes[topic]
-            box.clear()
-            box.last, box.last_step = last, step
 
     def publish(self, topic: str, message: object) -> None:
         """Publish a message; the first one without a subscriber gives a warning.

@@ -18,8 +18,10 @@ from functools import partial
 from typing import NoReturn
 
 import numpy as np
+import numpy.typing as npt
 
 from ...base.geometry import Array, Pose
+from ...base.record import Record
 from ...errors import SimulationFailed
 from ...model.body_names import object_body, vehicle_body
 from ...model.collision.shapes import CollisionShape, bounds
@@ -47,33 +49,45 @@ class _Body:
         return self.pose().transform(self.points)
 
 
+@dataclass(slots=True)
+class BelowGroundState(Record):
+    """What the last look has found."""
+
+    middles: Array
+    """The middle of each body in W, (n, 3) [m]."""
+    below: npt.NDArray[np.bool_]
+    """Whether each body was below each ground, (n, m)."""
+    above: npt.NDArray[np.bool_]
+    """Whether each body was above each ground, and has not got around it since, (n, m)."""
+    n_looks: int = 0
+    """The periods that were over."""
+    step: int = 0
+    """The step of the look."""
+
+
 class BelowGround:
     """The check of one simulation.
 
     Args:
         model: of the scene.
-        state: where everything is.
+        engine: where everything is.
     """
 
-    STATE = ("_looked", "_step", "_middles", "_below", "_above")
-    """Attributes of its state, for snapshots."""
-
-    def __init__(self, model: SceneModel, state: Engine) -> None:
+    def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._timestep = model.timestep
         self._period = max(1, round(PERIOD / self._timestep))
-        self._looked = self._step = 0  # periods that were over at the last look, and its step
-        self._bodies = [*_bodies(model.scene, model.robots, model.shapes, state)]
+        self._bodies = [*_bodies(model.scene, model.robots, model.shapes, engine)]
         self._grounds = model.grounds if self._bodies else ()
         self._start = [body.places() for body in self._bodies]
-        self._middles = np.array([places[0] for places in self._start]).reshape(-1, 3)
+        middles = np.array([places[0] for places in self._start]).reshape(-1, 3)
         size = len(self._bodies), len(self._grounds)
-        self._below = np.zeros(size, bool)  # whether a body was below a ground at the last look
-        self._above = np.zeros(size, bool)  # ... was above it, and has not got around it since
+        self.state = BelowGroundState(middles, np.zeros(size, bool), np.zeros(size, bool))
+        """What the last look has found."""
 
     @property
     def due(self) -> float:
         """The step of the next look."""
-        return (self._looked + 1) * self._period if self._grounds else math.inf
+        return (self.state.n_looks + 1) * self._period if self._grounds else math.inf
 
     def look(self, step: int) -> None:
         """Look where the bodies are, if it is time.
@@ -82,18 +96,18 @@ class BelowGround:
             SimulationFailed: one has passed through the ground.
         """
         over = step // self._period
-        if over == self._looked or not self._grounds:
+        if over == self.state.n_looks or not self._grounds:
             return
-        elapsed = (step - self._step) * self._timestep
-        self._looked, self._step = over, step
+        elapsed = (step - self.state.step) * self._timestep
+        self.state.n_looks, self.state.step = over, step
         places = [body.places() for body in self._bodies]
-        for i, k in np.ndindex(self._below.shape):
+        for i, k in np.ndindex(self.state.below.shape):
             depth = self._grounds[k].depth(places[i])
             is_below = self._has_passed(i, k, places[i][0], depth, elapsed)
-            if is_below and self._below[i, k]:
+            if is_below and self.state.below[i, k]:
                 self._fail(self._bodies[i], self._grounds[k], step, depth)
-            self._below[i, k] = is_below
-        self._middles = np.array([points[0] for points in places])
+            self.state.below[i, k] = is_below
+        self.state.middles = np.array([points[0] for points in places])
 
     def _has_passed(self, i: int, k: int, middle: Array, depth: float, elapsed: float) -> bool:
         """Whether body i is below ground k and has passed through it.
@@ -106,19 +120,19 @@ class BelowGround:
             elapsed: time since the last look [s].
         """
         ground = self._grounds[k]
-        way = ground.way_around(self._middles[i], middle)
+        way = ground.way_around(self.state.middles[i], middle)
         if way == 0.0 and depth == 0.0:  # far away
-            self._above[i, k] = False
+            self.state.above[i, k] = False
             return False
         if not ground.has_edge:
             return depth > 0.0 and ground.depth(self._start[i]) == 0.0
-        if self._looked == 1:  # for the first time
-            self._above[i, k] = ground.is_above(self._start[i][0])
+        if self.state.n_looks == 1:  # for the first time
+            self.state.above[i, k] = ground.is_above(self._start[i][0])
         if ground.is_above(middle):
-            self._above[i, k] = True
+            self.state.above[i, k] = True
         elif way < FASTEST * elapsed:
-            self._above[i, k] = False
-        return depth > 0.0 and bool(self._above[i, k])
+            self.state.above[i, k] = False
+        return depth > 0.0 and bool(self.state.above[i, k])
 
     def _fail(self, body: _Body, ground: SolidGround, step: int, depth: float) -> NoReturn:
         raise SimulationFailed(
@@ -132,17 +146,17 @@ def _bodies(
     scene: SceneSpec,
     robots: Mapping[int, RobotSpec],
     shapes: Mapping[str, Sequence[CollisionShape]],
-    state: Engine,
+    engine: Engine,
 ) -> Iterator[_Body]:
     """Simulated vehicles, by their bases, and loose objects."""
     for i, vehicle in enumerate(scene.vehicles):
         name = vehicle_body(i, robots[i].root)
-        if state.is_simulated(i) and name in shapes:
-            yield _body(vehicle.name, partial(state.poses.vehicle, i), shapes[name])
+        if engine.is_simulated(i) and name in shapes:
+            yield _body(vehicle.name, partial(engine.poses.vehicle, i), shapes[name])
     for i, thing in enumerate(scene.objects):
         name = object_body(i)
         if thing.solid.is_loose and name in shapes:
-            yield _body(thing.name, partial(state.poses.object, i), shapes[name])
+            yield _body(thing.name, partial(engine.poses.object, i), shapes[name])
 
 
 def _body(name: str, pose: Callable[[], Pose], shapes: Sequence[CollisionShape]) -> _Body:

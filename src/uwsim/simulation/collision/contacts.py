@@ -8,17 +8,28 @@ somebody asks.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from functools import partial
-from typing import Any, Literal
+from typing import Literal
 
 from ...base.geometry import Array, Pose
+from ...base.record import Lazy, Record
 from ...errors import UwsimError
 from ...model.scene_model import SceneModel
 from ...physics.collision.kinematic_contacts import KinematicContacts
 from ...physics.engine import Engine
 from ...world import Contact
 from ..bodies import touchable, untouchable
-from ..snapshot import put_state, state_of
+
+
+@dataclass(slots=True)
+class ContactsState(Record):
+    """What is known of contacts besides the engine's."""
+
+    overlaps: Lazy[KinematicContacts]
+    """The overlaps of kinematic bodies, from the first request on."""
+    step: int = 0
+    """The present step."""
 
 
 class Contacts:
@@ -26,17 +37,15 @@ class Contacts:
 
     Args:
         model: of the scene.
-        state: where everything is.
+        engine: where everything is.
     """
 
-    STATE = ("_step", "_laid")
-    """Attributes of its state, for snapshots."""
-
-    def __init__(self, model: SceneModel, state: Engine) -> None:
-        self._model, self._state = model, state
-        self._touching: KinematicContacts | None = None
+    def __init__(self, model: SceneModel, engine: Engine) -> None:
+        self._model, self._engine = model, engine
         self._found: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
-        self._step = 0
+        self._overlaps = Lazy(self._lay)
+        self.state = ContactsState(self._overlaps)
+        """What is known besides the engine's."""
 
     def is_possible(self, name: str) -> bool:
         """Whether there is a vehicle or object of that name that can touch others.
@@ -50,26 +59,15 @@ class Contacts:
         return kind == "object" or any(link.solids for link in self._model.robots[index].links)
 
     @property
-    def _laid(self) -> Mapping[str, Any] | None:
-        """The overlaps of kinematic bodies; None before the first request."""
-        return None if self._touching is None else state_of(self._touching)
-
-    @_laid.setter
-    def _laid(self, state: Mapping[str, Any] | None) -> None:
-        self._touching = None if state is None else self._lay()
-        if state is not None:
-            put_state(self._touching, state)
-
-    @property
     def is_laid(self) -> bool:
         """Whether shapes are laid over each other at every step."""
-        return self._touching is not None
+        return self._overlaps.part is not None
 
     def update(self, step: int) -> None:
         """Record the poses of all bodies; to be called at every step."""
-        self._step = step
-        if self._touching is not None:
-            self._touching.record(step)
+        self.state.step = step
+        if self._overlaps.part is not None:
+            self._overlaps.part.record(step)
 
     def contacts(self, name: str) -> list[Contact]:
         """Find where the vehicle or object of that name touches others.
@@ -79,12 +77,11 @@ class Contacts:
             UwsimError: it cannot be touched.
         """
         kind, index = touchable(name, self._model.scene)
-        contacts = self._state.contacts(kind, index)
+        contacts = self._engine.contacts(kind, index)
         if contacts is None:
-            if self._touching is None:
-                self._touching = self._lay()
-                self._touching.record(self._step)
-            contacts = self._touching.contacts(kind, index)
+            if self._overlaps.part is None:
+                self._overlaps.made().record(self.state.step)
+            contacts = self._overlaps.made().contacts(kind, index)
         if contacts is None:
             what = "none of its links has a <collision> or a <visual>"
             raise untouchable(name, what if kind == "vehicle" else "its mesh is empty")
@@ -98,19 +95,19 @@ class Contacts:
         """
         if name not in self._found:
             self._found[name] = touchable(name, self._model.scene)
-        return self._state.contact_forces(*self._found[name])
+        return self._engine.contact_forces(*self._found[name])
 
     def _lay(self) -> KinematicContacts:
-        scene, state, shapes = self._model.scene, self._state, self._model.all_shapes
+        scene, engine, shapes = self._model.scene, self._engine, self._model.all_shapes
         poses: dict[str, Callable[[], Pose]] = {}
         for body in shapes:
             kind, number, *link = body.split("/")
             poses[body] = (
-                partial(state.poses.link, int(number), "/".join(link))
+                partial(engine.poses.link, int(number), "/".join(link))
                 if kind == "vehicle"
-                else partial(state.poses.object, int(number))
+                else partial(engine.poses.object, int(number))
             )
         names = {f"vehicle/{i}": vehicle.name for i, vehicle in enumerate(scene.vehicles)}
         names |= {f"object/{i}": thing.name for i, thing in enumerate(scene.objects)}
         timestep = self._model.timestep
-        return KinematicContacts(shapes, poses, names, lambda: state.poses.version, timestep)
+        return KinematicContacts(shapes, poses, names, lambda: engine.poses.version, timestep)

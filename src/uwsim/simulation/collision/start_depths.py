@@ -99,12 +99,12 @@ class StartDepths:
         return None
 
 
-def lift_from_ground(model: SceneModel, state: Engine) -> None:
+def lift_from_ground(model: SceneModel, engine: Engine) -> None:
     """Begin to lift simulated vehicles and loose objects that begin in the ground.
 
     Only those are looked at which touch something fixed at the start.
     """
-    touching = state.deep_at_start(MIN_RISE)
+    touching = engine.deep_at_start(MIN_RISE)
     if not touching:
         return
     scene = model.scene
@@ -115,4 +115,4 @@ def lift_from_ground(model: SceneModel, state: Engine) -> None:
             continue
         found = depths.of_vehicle(index) if kind == "vehicle" else depths.of_object(index)
         if found is not None and found.rise > 0.0 and found.origin < found.height:
-            state.begin_lift(kind, index, found.rise)
+            engine.begin_lift(kind, index, found.rise)

@@ -95,7 +95,7 @@ class Entities:
             return GetEntityStateResponse(state=state)
         pose = self._simulation.pose(name)
         state.pose = _message(pose)
-        if name in world.vehicles and world.state.is_simulated(world.vehicle(name).index):
+        if name in world.vehicles and world.engine.is_simulated(world.vehicle(name).index):
             twist = self._simulation.velocity(name)
             linear, angular = turned(pose.rotation, twist[:3]), turned(pose.rotation, twist[3:])
             state.twist = Twist(linear=Vector3(*linear), angular=Vector3(*angular))

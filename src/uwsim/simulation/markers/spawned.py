@@ -10,9 +10,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from functools import partial
 
 from ...base.external_values import EXPECTED_POSE, read_pose
+from ...base.record import Record
 from ...errors import AssetError
 from ...messages import Marker, SpawnMarker, SpawnMarkerResponse
 from ...messages.build import NANOSECONDS
@@ -33,6 +35,16 @@ MAX_POINTS = 1_000_000
 """Most points of a marker."""
 
 
+@dataclass(slots=True)
+class MarkersState(Record):
+    """The markers of a running scene."""
+
+    markers: dict[str, Marker] = field(default_factory=dict)
+    """The markers by name, in the order in which they were added."""
+    ends: dict[str, float] = field(default_factory=dict)
+    """When each runs out [s]."""
+
+
 class Markers:
     """The markers of a running scene.
 
@@ -41,18 +53,16 @@ class Markers:
         has_mesh: whether there is a mesh of a name; raises AssetError where it may not be read.
     """
 
-    STATE = ("_markers", "_ends")
-
     def __init__(self, clock: Callable[[], float], has_mesh: Callable[[str], bool]) -> None:
         self._clock, self._has_mesh = clock, has_mesh
-        self._markers: dict[str, Marker] = {}
-        self._ends: dict[str, float] = {}
+        self.state = MarkersState()
+        """The markers."""
 
     @property
     def shown(self) -> dict[str, Marker]:
         """Name -> marker, in the order in which they were added; without those that ran out."""
-        now = self._clock()
-        return {name: each for name, each in self._markers.items() if now < self._ends[name]}
+        now, ends = self._clock(), self.state.ends
+        return {name: each for name, each in self.state.markers.items() if now < ends[name]}
 
     def frames(self) -> list[Frame]:
         """Return the frames of the markers in L."""
@@ -63,27 +73,27 @@ class Markers:
         """Add, modify or delete a marker."""
         marker = request.marker
         name, called = f"{marker.id}+{marker.ns}", f"object {marker.id} {marker.ns}"
-        self._markers = self.shown
+        self.state.markers = self.shown
         if marker.action == Marker.DELETEALL:
-            self._markers = {}
+            self.state.markers = {}
             return SpawnMarkerResponse(True, "all objects were successfully DELETED.")
         if marker.action == Marker.DELETE:
-            if self._markers.pop(name, None) is None:
+            if self.state.markers.pop(name, None) is None:
                 return SpawnMarkerResponse(False, f"{called} not found.")
             return SpawnMarkerResponse(True, f"{called} was successfully DELETED.")
         if wrong := self._wrong(name, marker):
             return SpawnMarkerResponse(False, f"{called} was not added: {wrong}.")
-        done = "MODIFIED" if name in self._markers else "ADDED"
+        done = "MODIFIED" if name in self.state.markers else "ADDED"
         life = marker.lifetime.sec + marker.lifetime.nanosec / NANOSECONDS
-        self._markers[name] = marker
-        self._ends[name] = self._clock() + life if life > 0.0 else math.inf
+        self.state.markers[name] = marker
+        self.state.ends[name] = self._clock() + life if life > 0.0 else math.inf
         return SpawnMarkerResponse(True, f"{called} was successfully {done}.")
 
     def _wrong(self, name: str, marker: Marker) -> str | None:
         """Why a marker cannot be shown; None: it can."""
         if marker.type not in TYPES:
             return f"its type is {marker.type}; expected one of {', '.join(sorted(TYPES.values()))}"
-        if name not in self._markers and len(self._markers) >= MAX_MARKERS:
+        if name not in self.state.markers and len(self.state.markers) >= MAX_MARKERS:
             return f"there are {MAX_MARKERS} markers already"
         if len(marker.points) > MAX_POINTS:
             return f"it has more than {MAX_POINTS} points"

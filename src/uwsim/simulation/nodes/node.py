@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import threading
 from collections.abc import Callable, Mapping
-from typing import NoReturn, TypeVar
+from dataclasses import dataclass, field
+from typing import NoReturn, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -13,9 +14,10 @@ from ...base.interrupts import is_of_user
 from ...base.message_fields import copied
 from ...base.raised import what_was_raised
 from ...base.read_parameters import ReadParameters
+from ...base.record import Live, Record, of_another_scene
 from ...base.terminal import warn
 from ...bus import Algorithm, Bus
-from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed
+from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed, UwsimError
 from .calls import Calls, Stopped
 from .undelivered import UndeliveredMessages
 
@@ -37,19 +39,83 @@ def what_broke(error: BaseException, algorithm: type) -> str:
     return str(error) if isinstance(error, Stopped) else what_was_raised(error, algorithm)
 
 
+@runtime_checkable
+class SavesItself(Protocol):
+    """An algorithm whose state is part of that of the simulation."""
+
+    def save(self) -> bytes:
+        """Return its state."""
+
+    def restore(self, data: bytes) -> None:
+        """Go back, or on, to a state that `save` has returned."""
+
+
+class AlgorithmState(Live):
+    """The state of an attached algorithm.
+
+    Args:
+        algorithm: the algorithm.
+    """
+
+    def __init__(self, algorithm: Algorithm) -> None:
+        self._algorithm = algorithm
+
+    def value(self) -> bytes:
+        """Return what its ``save`` returns.
+
+        Raises:
+            UwsimError: it has no ``save`` and ``restore``, or saves no bytes.
+        """
+        name, saved = type(self._algorithm).__name__, None
+        if isinstance(self._algorithm, SavesItself):
+            saved = self._algorithm.save()
+        if not isinstance(saved, bytes):
+            raise UwsimError(
+                f"The state cannot be saved: {name} is attached, which has no save() that returns "
+                "bytes and restore(bytes)."
+            )
+        return saved
+
+    def set(self, value: object) -> None:
+        """Hand it to the ``restore`` of the algorithm."""
+        if not isinstance(value, bytes) or not isinstance(self._algorithm, SavesItself):
+            raise of_another_scene()
+        self._algorithm.restore(value)
+
+
+@dataclass(slots=True)
+class NodeTimerState(Record):
+    """How far a timer of an algorithm is."""
+
+    due: int
+    """The step from which on it is due."""
+    n_fired: int = 0
+    """How often it was called."""
+
+
+@dataclass(slots=True)
+class NodeState(Record):
+    """What changes of an attached algorithm and its node."""
+
+    random: np.random.Generator
+    """The generator of the algorithm."""
+    timers: list[NodeTimerState] = field(default_factory=list)
+    """How far its timers are."""
+    algorithm: AlgorithmState | None = None
+    """Its own state; None before it was started."""
+
+
 class _Timer:
     """A periodic timer."""
 
     def __init__(self, start: int, period: float, callback: Callable[[], None]) -> None:
         self._start, self._period, self.callback = start, period, callback  # [steps]
-        self._n_fired = 0
-        self.due = start
-        """Step from which on it is due."""
+        self.state = NodeTimerState(start)
 
     def move_on(self) -> None:
         """Advance the due time by one period."""
-        self._n_fired += 1
-        self.due = self._start + math.ceil(self._n_fired * self._period - 1e-9)
+        self.state.n_fired += 1
+        self.state.due = self._start + math.ceil(self.state.n_fired * self._period - 1e-9)
 
 
 class InProcessNode:
@@ -80,7 +146,8 @@ class InProcessNode:
         self._heard: dict[str, Callable[[], str | None]] = {}
         self._published: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
-        self._random = random
+        self.state = NodeState(random)
+        """What changes of it."""
         own = {key: value for key, value in parameters.items() if key != "latency_s"}
         self._parameters = ReadParameters(own)
         self._timers: list[_Timer] = []
@@ -107,7 +174,7 @@ class InProcessNode:
     @property
     def random(self) -> np.random.Generator:
         """The algorithm's own random stream."""
-        return self._random
+        return self.state.random
 
     def run(self, algorithm: Algorithm) -> None:
         """Start the algorithm; what it raises is kept in `error`.
@@ -115,7 +182,7 @@ class InProcessNode:
         Raises:
             BadSetting: it refuses one of its parameters: that is the user's mistake, not its own.
         """
-        self._algorithm = type(algorithm)
+        self._algorithm, self.state.algorithm = type(algorithm), AlgorithmState(algorithm)
         try:
             with self._calls:
                 algorithm.start(self)
@@ -193,19 +260,21 @@ class InProcessNode:
         self._check()
         if not 0.0 < period_s < math.inf:
             raise BadSetting(f"A timer's period is {period_s!r}; expected a time > 0 [s].")
-        self._timers.append(_Timer(self._bus.step, period_s / self._timestep, callback))
+        timer = _Timer(self._bus.step, period_s / self._timestep, callback)
+        self._timers.append(timer)
+        self.state.timers.append(timer.state)
 
     def tick(self) -> None:
         """Call the timers that are due at the current step, in the order they were set."""
         for timer in self._timers:
-            if self._bus.step >= timer.due:
+            if self._bus.step >= timer.state.due:
                 timer.move_on()
                 self._guard(timer.callback)
 
     @property
     def next_tick(self) -> float:
         """The step at which `tick` calls a timer; inf without any."""
-        return min((timer.due for timer in self._timers), default=math.inf)
+        return min((timer.state.due for timer in self._timers), default=math.inf)
 
     def close(self) -> None:
         """Disconnect the algorithm from the bus."""

@@ -29,7 +29,7 @@ def below_vehicle(world: SceneWorld, vehicle: str) -> tuple[Below, ...]:
     index = world.vehicle(vehicle).index
     parts = world.scenery.parts
     others = [part for part in parts if part.vehicle != index and not part.is_hidden]
-    return below(world.state.poses.vehicle(index).position, world.scenery, others)
+    return below(world.engine.poses.vehicle(index).position, world.scenery, others)
 
 
 def below(point: Array, scenery: Scenery, parts: Iterable[Part]) -> tuple[Below, ...]:

@@ -19,15 +19,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...base.record import assign_fields, copied_fields
 from ...messages import image
 from ...model.scene_model import SceneModel
 from ...topics.virtual_camera_to_ros_image import ImagePublisher
-from ..snapshot import packed, put_state, state_of, unpacked
+from ..state.saved_bytes import pack, unpack
 
 if TYPE_CHECKING:
     from ..simulation import Simulation
 
-SEEN = ("state", "scenery", "devices", "_sensors", "_vehicles")
+SEEN = ("engine", "scenery", "devices", "sensors", "vehicles")
 """What of a world's state images depend on."""
 SPARE = 2**20
 """Room for a state that grows [bytes]."""
@@ -108,7 +109,7 @@ class ImageProcess:
             self._memory = None
 
     def _begin(self) -> None:
-        self._room = len(packed(state_of(self._simulation.world, SEEN))) + SPARE
+        self._room = len(self._seen()) + SPARE
         size = self._room
         for topic, publisher in self._simulation.images.items():
             pinhole = publisher.camera.intrinsics
@@ -126,6 +127,10 @@ class ImageProcess:
         self.pid = self._process.pid
         theirs.close()
 
+    def _seen(self) -> bytes:
+        """What of the state is seen, as bytes."""
+        return pack(copied_fields(self._simulation.state, SEEN))
+
     def _take(self, publisher: ImagePublisher, time: float) -> bool:
         """Have an image drawn; False: it has to be drawn here."""
         if self._process is None:
@@ -137,7 +142,7 @@ class ImageProcess:
             self.n_left_out += 1
             return True
         if not self._asked:
-            state = packed(state_of(self._simulation.world, SEEN))
+            state = self._seen()
             if len(state) > self._room:
                 return False
             assert self._memory is not None
@@ -182,7 +187,7 @@ def draw_images(
             pipe.send(READY)
             while True:
                 n_state, asked = pipe.recv()
-                put_state(simulation.world, unpacked(bytes(memory.buf[:n_state])), SEEN)
+                assign_fields(simulation.state, unpack(bytes(memory.buf[:n_state]), dict))
                 simulation.world.scenery.redraw()
                 done = []
                 for topic, time in asked:

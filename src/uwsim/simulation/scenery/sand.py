@@ -14,11 +14,13 @@ on bodies, slopes that slide, sand that settles elsewhere, particles in the wate
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ...assets.mesh import Mesh, Model
 from ...base.geometry import Array
+from ...base.record import Record
 from ...results.motion import GRAIN, Spot
 from ...scene.spec import SceneSpec
 
@@ -33,6 +35,18 @@ FAR = 2**31
 """Of a heap's lower corner: nothing is taken so far away [`GRAIN`]."""
 
 
+@dataclass(slots=True)
+class HeapState(Record):
+    """The sand of a heap."""
+
+    heights: Array
+    """The heights of the columns above the bottom, (along x, along y) [m]."""
+    version: int = 0
+    """A number that changes whenever sand is taken or put back."""
+    taken: list[Spot] = field(default_factory=list)
+    """Where sand was taken so far, in order."""
+
+
 class Heap:
     """The sand over one object.
 
@@ -42,9 +56,6 @@ class Heap:
         upper: the largest.
         buried: how much of its height is under sand [1].
     """
-
-    STATE = ("_heights", "version", "taken")
-    """Names of the attributes that change as time goes by."""
 
     def __init__(self, name: str, lower: Array, upper: Array, buried: float) -> None:
         self.name = name
@@ -61,12 +72,14 @@ class Heap:
         )
         away = np.minimum(np.hypot(away_x[:, None], away_y[None, :]) / skirt, 1.0)
         self._bottom = float(lower[2])
-        self._heights: Array = top * (1.0 - away**2)
-        self._untouched = self._heights.copy()
-        self.version = 0
-        """Changes whenever sand is taken or put back."""
-        self.taken: list[Spot] = []
-        """Where sand was taken so far, in order."""
+        self._untouched: Array = top * (1.0 - away**2)
+        self.state = HeapState(self._untouched.copy())
+        """Its sand."""
+
+    @property
+    def version(self) -> int:
+        """A number that changes whenever sand is taken or put back."""
+        return self.state.version
 
     @property
     def corner(self) -> Array:
@@ -81,13 +94,13 @@ class Heap:
     @property
     def heights(self) -> Array:
         """Heights of the columns above the bottom now, (along x, along y) [m]; a copy."""
-        return self._heights.copy()
+        return self.state.heights.copy()
 
     def height(self, x: float, y: float) -> float:
         """Return the height of the nearest column, in W [m]; its bottom beside the heap."""
         i, j = np.abs(self._x - x).argmin(), np.abs(self._y - y).argmin()
         is_there = self._x[0] <= x <= self._x[-1] and self._y[0] <= y <= self._y[-1]
-        return self._bottom + (float(self._heights[i, j]) if is_there else 0.0)
+        return self._bottom + (float(self.state.heights[i, j]) if is_there else 0.0)
 
     def dig(self, point: Array) -> int:
         """Take sand around a point in W (3,) [m]; returns how many columns lost some."""
@@ -99,30 +112,30 @@ class Heap:
 
     def show(self, spots: Sequence[Spot]) -> None:
         """Make it what it is when sand has been taken at some places, one after the other."""
-        n = len(self.taken)
-        if self.taken != list(spots[:n]):
-            np.copyto(self._heights, self._untouched)
-            self.taken, n = [], 0
-            self.version += 1
+        n = len(self.state.taken)
+        if self.state.taken != list(spots[:n]):
+            np.copyto(self.state.heights, self._untouched)
+            self.state.taken, n = [], 0
+            self.state.version += 1
         for spot in spots[n:]:
             self._take(spot)
 
     def _take(self, spot: Spot) -> int:
         x, y, z = (step * GRAIN for step in spot)
         across = (self._x[:, None] - self._x[0] - x) ** 2 + (self._y[None, :] - self._y[0] - y) ** 2
-        lost = (across + (self._heights - z) ** 2 < REACH**2) & (self._heights > 0.0)
+        lost = (across + (self.state.heights - z) ** 2 < REACH**2) & (self.state.heights > 0.0)
         if n := int(np.count_nonzero(lost)):
-            self._heights[lost] = np.maximum(0.0, self._heights[lost] - CELL)
-            self.taken.append(spot)
-            self.version += 1
+            self.state.heights[lost] = np.maximum(0.0, self.state.heights[lost] - CELL)
+            self.state.taken.append(spot)
+            self.state.version += 1
         return n
 
     def mesh(self) -> Mesh:
         """The surface as it is now, in W."""
-        shape = self._heights.shape
+        shape = self.state.heights.shape
         x, y = np.meshgrid(self._x, self._y, indexing="ij")
-        points = np.stack([x, y, self._bottom + self._heights], axis=2).reshape(-1, 3)
-        slope_x, slope_y = np.gradient(self._heights, self._x, self._y)
+        points = np.stack([x, y, self._bottom + self.state.heights], axis=2).reshape(-1, 3)
+        slope_x, slope_y = np.gradient(self.state.heights, self._x, self._y)
         normals = np.stack([-slope_x, -slope_y, np.ones(shape)], axis=2).reshape(-1, 3)
         normals /= np.sqrt((normals**2).sum(axis=1, keepdims=True))
         number = np.arange(x.size).reshape(shape)

@@ -22,18 +22,18 @@ class SceneRays:
 
     Args:
         model: of the scene.
-        state: where everything is.
+        engine: where everything is.
         heaps: the sand over buried objects.
     """
 
     def __init__(
         self,
         model: SceneModel,
-        state: Engine,
+        engine: Engine,
         heaps: Sequence[Heap] = (),
     ) -> None:
         self._bodies, self._heaps = model.ray_bodies, tuple(heaps)
-        self._state = state
+        self._engine = engine
         self._cast_heaps: dict[int, tuple[int, RayScene]] = {}
         self.materials: tuple[Material, ...] = (
             *self._bodies.materials,
@@ -93,8 +93,8 @@ class SceneRays:
 
     def _frame(self, vehicle: int | None, link: str, thing: int | None) -> Callable[[], Array]:
         """The present pose of a link or an object, (4, 4) [m]."""
-        state = self._state
+        engine = self._engine
         if vehicle is not None:
-            return lambda: state.poses.link_frame(vehicle, link)
+            return lambda: engine.poses.link_frame(vehicle, link)
         assert thing is not None
-        return lambda: state.poses.object(thing).matrix
+        return lambda: engine.poses.object(thing).matrix

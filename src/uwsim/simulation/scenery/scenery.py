@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ...assets.mesh import Model
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.linear import product
+from ...base.record import Record
 from ...devices.lamp import MAX_LAMPS, MountedLamp
 from ...devices.led_array import Led
 from ...devices.structured_light_projector import MountedProjector
@@ -29,7 +30,7 @@ from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ..unique_names import unique
 from .renderer_pool import RendererPool
-from .sand import heaps_of
+from .sand import HeapState, heaps_of
 
 if TYPE_CHECKING:
     from ...rendering.renderer import Renderer
@@ -39,21 +40,30 @@ MAX_SMOOTH = 8192
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
 
+@dataclass(slots=True)
+class SceneryState(Record):
+    """What changes of what is seen, besides the poses."""
+
+    water: Water
+    """The water; scene updaters change its fog."""
+    light: Light
+    """The sun; scene updaters change its rate."""
+    heaps: list[HeapState]
+    """The sand of each heap."""
+
+
 class Scenery:
     """The models of a scene in its water; acquires a renderer for the first image.
 
     Args:
         model: of the scene.
-        state: where everything is.
+        engine: where everything is.
         pool: lends the renderer; without one the scenery has a renderer of its own.
     """
 
-    STATE = ("water", "light", "heaps")
-    """Attributes of its state, for snapshots."""
-
-    def __init__(self, model: SceneModel, state: Engine, pool: RendererPool | None) -> None:
+    def __init__(self, model: SceneModel, engine: Engine, pool: RendererPool | None) -> None:
         scene = model.scene
-        self._state = state
+        self._engine = engine
         self._own_pool = RendererPool()
         self._pool = pool or self._own_pool
         self._renderer: Renderer | None = None
@@ -63,10 +73,6 @@ class Scenery:
         self._vehicle_labels = unique(self._vehicle_names)
         self.parts = model.parts
         """The models of the scene and whose they are."""
-        self.water = Water.of(scene.ocean_state, model.compatibility)
-        """The water as it is now; scene updaters change its fog."""
-        self.light = Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene))
-        """The sun as it shines now; scene updaters change its rate."""
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
         self.mounted_lamps: tuple[MountedLamp | Led, ...] = ()
         """The lamps and signal lamps of the scene."""
@@ -77,6 +83,12 @@ class Scenery:
             scene, [(p.object, self.corners(p)) for p in self.parts if p.object is not None]
         )
         """The sand over buried objects."""
+        self.state = SceneryState(
+            Water.of(scene.ocean_state, model.compatibility),
+            Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene)),
+            [heap.state for heap in self.heaps],
+        )
+        """What changes of it."""
         self._drawn_heaps: dict[int, tuple[int, int, Model]] = {}  # version, handle, model
 
     def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
@@ -98,9 +110,9 @@ class Scenery:
         """The present pose of a part, with its scale, (4, 4) [m]."""
         if part.vehicle is None:
             assert part.object is not None
-            frame = self._state.poses.object(part.object).matrix
+            frame = self._engine.poses.object(part.object).matrix
         else:
-            frame = self._state.poses.link_frame(part.vehicle, part.link)
+            frame = self._engine.poses.link_frame(part.vehicle, part.link)
         return product(frame, part.frame_from_mesh)
 
     def corners(self, part: Part) -> Array:
@@ -121,7 +133,7 @@ class Scenery:
         rendered = self._draw(
             world_from_camera,
             intrinsics,
-            self.water,
+            self.state.water,
             targets=frozenset({"colour"}),
             colour="linear16" if std > 0.0 else "uint8",
         )
@@ -135,7 +147,7 @@ class Scenery:
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
         """Render the distance along the optical axis, (h, w) [m]; +inf = nothing there."""
         wanted = frozenset({"range"})
-        rendered = self._draw(world_from_camera, intrinsics, self.water, targets=wanted)
+        rendered = self._draw(world_from_camera, intrinsics, self.state.water, targets=wanted)
         return rendered.depth.astype(np.float64)
 
     def segmentation(
@@ -143,7 +155,7 @@ class Scenery:
     ) -> npt.NDArray[np.uint16]:
         """Render the number of the body that each pixel sees, (h, w); 0: none."""
         wanted = frozenset({"ids"})
-        rendered = self._draw(world_from_camera, intrinsics, self.water, targets=wanted)
+        rendered = self._draw(world_from_camera, intrinsics, self.state.water, targets=wanted)
         assert rendered.ids is not None
         return rendered.ids
 
@@ -156,7 +168,7 @@ class Scenery:
         targets: Collection[str] = ALL_TARGETS,
     ) -> RenderedImage:
         """Render a noise-free image with range and ids, optionally at another fog density."""
-        water = self.water if fog is None else replace(self.water, fog=fog)
+        water = self.state.water if fog is None else replace(self.state.water, fog=fog)
         return self._draw(world_from_camera, intrinsics, water, targets=frozenset(targets))
 
     def render_view(
@@ -180,14 +192,14 @@ class Scenery:
             samples: the colour of a pixel is the mean of so many in width and in height, so that
                 edges are smooth; range and ids are not drawn then.
         """
-        density = self.water.fog if fog is None else fog
+        density = self.state.water.fog if fog is None else fog
         many = samples > 1 and max(intrinsics.width, intrinsics.height) * samples <= MAX_SMOOTH
         size = intrinsics.width * samples, intrinsics.height * samples
         rendered = self._draw(
             world_from_camera,
             intrinsics.resized(*size) if many else intrinsics,
-            replace(self.water, fog=density, has_air=True, fog_distance="ray"),
-            light=replace(self.light, is_polished=True),
+            replace(self.state.water, fog=density, has_air=True, fog_distance="ray"),
+            light=replace(self.state.light, is_polished=True),
             targets=frozenset({"colour"} if many else targets),
             hidden=hidden,
         )
@@ -211,19 +223,19 @@ class Scenery:
         renderer = self._open()
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
-        if self._drawn_version != self._state.poses.version:
+        if self._drawn_version != self._engine.poses.version:
             for part, handle in zip(self.parts, self._handles, strict=True):
                 renderer.place(handle, self.world_from_mesh(part))
             if self.mounted_projector is not None:
                 self._projector = _projecting(*self.mounted_projector)
-            self._drawn_version = self._state.poses.version
+            self._drawn_version = self._engine.poses.version
         self._draw_heaps(renderer)
         shining = [lamp for lamp in self.mounted_lamps if lamp.is_on]
         return renderer.draw(
             world_from_camera,
             intrinsics,
             water,
-            self.light if light is None else light,
+            self.state.light if light is None else light,
             targets=targets,
             colour=colour,
             hidden=self._hidden if hidden is None else hidden,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy.typing as npt
 from ...base.geometry import Array, Pose
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
+from ...base.record import Record
 from ...currents import Place, TotalCurrent, bind_currents
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
@@ -21,6 +23,14 @@ WaterRow = tuple[Array, Array, Array | None]
 """Velocity, acceleration and rotation of the water at some points."""
 NEARBY = 0.05
 """Half the distance over which shear is taken [m]."""
+
+
+@dataclass(slots=True)
+class WaterState(Record):
+    """What changes of the flow."""
+
+    added: Flow | None = None
+    """What is added to the currents of the scene."""
 
 
 class WaterMotion:
@@ -36,7 +46,10 @@ class WaterMotion:
         self._world_from_localized = scene.world_from_localized
         self._localized_from_world = scene.world_from_localized.inverse()
         self._scene_current = bind_currents(specs, place)
-        self.set(None)
+        self._added: Flow | None = None
+        self._sum: Flow = self._scene_current
+        self.state = WaterState()
+        """What changes of it."""
         self._felt_by: Sequence[str] = ()  # the vehicle at each point of `during`
         self._names: tuple[str, ...] = ()  # their names, each once
         self._felt = np.zeros(0, np.int64)  # the number of its name, for each point
@@ -47,24 +60,28 @@ class WaterMotion:
 
     def set(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
-        self._flow: Flow
-        if current is None:
-            self._flow = self._scene_current
-        elif self._scene_current.is_still:
-            self._flow = current
-        else:
-            self._flow = TotalCurrent([self._scene_current, current])
-        self._is_still = self._flow.is_still
+        self.state.added = current
+
+    @property
+    def _flow(self) -> Flow:
+        added = self.state.added
+        if added is not self._added:
+            self._added, scene = added, self._scene_current
+            if added is None:
+                self._sum = scene
+            else:
+                self._sum = added if scene.is_still else TotalCurrent([scene, added])
+        return self._sum
 
     @property
     def is_still(self) -> bool:
         """Whether the water does not move at all."""
-        return self._is_still
+        return self._flow.is_still
 
     @property
     def is_uniform(self) -> bool:
         """Whether it moves the same everywhere, or not at all."""
-        return self._is_still or self._flow.is_uniform
+        return self._flow.is_still or self._flow.is_uniform
 
     def during(
         self, positions: Callable[[], Array], times: Sequence[float], vehicles: Sequence[str]
@@ -80,7 +97,7 @@ class WaterMotion:
         Returns:
             Velocity [m/s], acceleration [m/s2] and rotation [rad/s], (times, n, 9).
         """
-        if self._is_still:
+        if self._flow.is_still:
             return None
         if self._flow.is_uniform:
             return self._everywhere(times, vehicles)
@@ -142,7 +159,7 @@ class WaterMotion:
 
     def velocity(self, points: Array, time: float, vehicle: str) -> Array:
         """Return the velocity at points of W (n, 3) [m] as a vehicle feels it, (n, 3) [m/s]."""
-        if self._is_still:
+        if self.is_still:
             return np.zeros((len(points), 3))
         localized = self._localized_from_world.transform(points)
         velocity = self._flow.velocity(localized, time, (vehicle,) * len(points))

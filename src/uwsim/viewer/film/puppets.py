@@ -54,7 +54,7 @@ class Puppets:
         for lamp in world.devices:
             if isinstance(lamp, MountedLamp):
                 brightness = self.signal(f"{LAMP}{lamp.spec.name}", before)
-                lamp.brightness = 1.0 if brightness is None else brightness
+                lamp.state.brightness = 1.0 if brightness is None else brightness
         for number, heap in enumerate(world.scenery.heaps):
             heap.show(self.track.sand.spots(number, before))
 

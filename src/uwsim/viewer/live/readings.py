@@ -36,7 +36,7 @@ class Readings:
         if not world.vehicles:
             return
         self._vehicle = world.vehicle(world.vehicles[vehicle])
-        self._is_simulated = world.state.is_simulated(self._vehicle.index)
+        self._is_simulated = world.engine.is_simulated(self._vehicle.index)
         for element, part in world.scene.vehicles[vehicle].all_parts():
             if isinstance(part, ForceSensorSpec | BatterySpec):
                 with suppress(UnknownName):  # one on a link that is not there is left out

@@ -20,6 +20,7 @@ import numpy.typing as npt
 from ...algorithms.pilot import AXES
 from ...base.external_values import MAX_COORDINATE, read_number
 from ...base.geometry import Pose, rotation_from_quaternion
+from ...base.record import assign_fields, copied_fields
 from ...base.terminal import warn
 from ...benchmark.updaters import Level
 from ...errors import BadSetting
@@ -29,7 +30,6 @@ from ...runs.trial.level_row import LevelRow
 from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
 from ...simulation.markers.lines import described, looks_of
-from ...simulation.snapshot import packed, put_state, state_of, unpacked
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import FIELD, view_from_pose
 from .clock import NAP, Clock
@@ -44,7 +44,7 @@ RATE = 30.0
 """Rows a second of the wall clock [Hz]."""
 PROMPT = 0.01
 """A row goes out so long after an input has changed, when its vehicle has begun to move [s]."""
-MOVED = ("state", "scenery", "devices", "_vehicles")
+MOVED = ("engine", "scenery", "devices", "vehicles")
 """What of a world goes back to its beginning at a reset."""
 IMAGE_RATE = 10.0
 """Images a second of the wall clock [Hz]."""
@@ -112,7 +112,7 @@ class LiveView:
             "mapping": {} if mapping is None else dict(mapping.keys),
             "reserved": [] if mapping is None else sorted(mapping.keys),
         }
-        self._resets, self._first = resets, b""
+        self._resets, self._first = resets, dict[str, Any]()
         self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
         self._prompt = math.inf  # when a row that follows an input is due
 
@@ -133,7 +133,7 @@ class LiveView:
         self._simulation, self._state = simulation, TrackedState(simulation.world)
         self._levels, self._measures, self._markers = [], (), {}
         self._sand = [heap.version for heap in simulation.world.scenery.heaps]
-        self._first = packed(state_of(simulation.world, MOVED)) if self._resets else b""
+        self._first = copied_fields(simulation.state, MOVED if self._resets else ())
         self._due = dict.fromkeys(self._due, 0.0)
         self._readings = Readings(simulation, self._piloted["vehicle"])
         self._topics = HeardTopics(simulation.bus, lambda: simulation.time, self._wall)
@@ -405,9 +405,8 @@ class LiveView:
     def _reset(self) -> None:
         """Put vehicles, joints and objects back where they began, at rest; time goes on."""
         assert self._simulation is not None
-        world = self._simulation.world
-        put_state(world, unpacked(self._first), MOVED)
-        world.scenery.redraw()
+        assign_fields(self._simulation.state, self._first)
+        self._simulation.world.scenery.redraw()
         self._prompt = min(self._prompt, self._wall())
 
     def _take(self, viewer: int, values: tuple[float, ...]) -> None:

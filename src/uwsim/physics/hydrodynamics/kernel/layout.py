@@ -9,6 +9,7 @@ never misread.
 from __future__ import annotations
 
 import ctypes
+from functools import cache
 from typing import Any
 
 import mujoco
@@ -92,6 +93,18 @@ def check(model: mujoco.MjModel, data: mujoco.MjData, at: npt.NDArray[np.int64])
                 f"MuJoCo {mujoco.__version__} keeps {name!r} elsewhere than its own description "
                 "says; the hydrodynamics need mujoco>=4.0,<4.1."
             )
+
+
+@cache
+def data_places() -> tuple[dict[str, slice], int]:
+    """The bytes of every field of mjData by its name, and the size of mjData."""
+    places: dict[str, int] = {}
+    fields = structs.STRUCTS["mjData"].fields
+    size, _ = _walk(fields, places)
+    return {
+        each.name: slice(places[each.name], places[each.name] + _size(each.type)[0])
+        for each in fields
+    }, size
 
 
 def _read(place: int, kind: Any) -> Any:

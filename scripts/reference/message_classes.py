@@ -1,0 +1,310 @@
+"""The message classes of ``src/uwsim/messages``, made from definitions: a module for each package.
+
+Types of ROS are defined by the texts that rosbags ships; those of a folder of ``messages`` by its
+``.msg`` and ``.srv`` files. There the comment above the first line is the docstring of the class,
+and one behind a field is that of the field. Defaults are ROS's: 0, False, an empty text or list,
+arrays of zeros, and what a text gives, as ``uint8 result 1``.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from graphlib import TopologicalSorter
+from pathlib import Path
+from typing import Any
+
+from rosbags.interfaces import Nodetype
+from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
+ROS: dict[str, dict[str, str]] = {
+    "std_msgs": {
+        "builtin_interfaces/Time": "A moment, from the beginning of the simulation.",
+        "Header": "When and in which frame.",
+        "Bool": "True or False.",
+        "Float64": "A number.",
+        "String": "Text.",
+        "MultiArrayDimension": "One dimension of an array.",
+        "MultiArrayLayout": "The layout of an array.",
+        "Float32MultiArray": "Numbers of 32 bits.",
+        "Float64MultiArray": "Numbers of 64 bits.",
+        "UInt8MultiArray": "Bytes.",
+        "ColorRGBA": "A colour and its opacity [0..1].",
+        "builtin_interfaces/Duration": "A span of time.",
+    },
+    "geometry_msgs": {
+        "Point": "A place [m].",
+        "Vector3": "A direction with a length.",
+        "Quaternion": "A rotation; the identity by default (w is 1).",
+        "Pose": "A place and a rotation.",
+        "PoseStamped": "A pose, with its time and frame.",
+        "PoseWithCovariance": "A pose and its 6x6 covariance, by rows.",
+        "Twist": "Linear [m/s] and angular [rad/s] velocity.",
+        "TwistStamped": "A twist, with its time and frame.",
+        "TwistWithCovariance": "A twist and its 6x6 covariance, by rows.",
+        "Wrench": "Force [N] and torque [N m].",
+        "WrenchStamped": "A wrench, with its time and frame.",
+        "Transform": "Where a frame is in another: its origin [m] and its rotation.",
+        "TransformStamped": "A transform with its time, the frame it is in and the frame it is of.",
+    },
+    "sensor_msgs": {
+        "Image": "Pixels, row 0 at the top.",
+        "RegionOfInterest": "A part of an image [px].",
+        "CameraInfo": (
+            "What kind of camera it is: distortion d, intrinsics k, rectification r, projection p."
+        ),
+        "JointState": "Names, positions [rad or m], velocities and efforts of joints.",
+        "BatteryState": (
+            "Voltage [V], current [A], below 0 while it is drained, charge [A h] and share left "
+            "[0..1]."
+        ),
+        "Range": "The distance to what is nearest in a cone [m].",
+        "LaserScan": "Distances along rays of a plane, at equal angles [m, rad].",
+        "PointField": "The offset and type of a field of each point.",
+        "PointCloud2": "Points as bytes.",
+        "CompressedImage": "An image as the bytes of a PNG or JPEG file.",
+        "Imu": (
+            "Attitude, angular velocity [rad/s], specific force [m/s2]; 3x3 covariances by rows."
+        ),
+        "NavSatStatus": "Whether a receiver of satellites knows its position.",
+        "NavSatFix": (
+            "Latitude and longitude [deg], altitude [m], and their 3x3 covariance east, north, up "
+            "[m2]."
+        ),
+    },
+    "nav_msgs": {
+        "Odometry": "Pose and velocity of a vehicle.",
+        "Path": "Poses, one after the other.",
+    },
+    "tf2_msgs": {"TFMessage": "Transforms between frames."},
+    "visualization_msgs": {
+        "MeshFile": "The content of a mesh file.",
+        "UVCoordinate": "A place in a texture.",
+        "Marker": (
+            "A shape to show: `ns` and `id` name it; type, pose, scale [m] and colour say what it "
+            "is."
+        ),
+        "MarkerArray": "Several shapes.",
+    },
+    "simulation_interfaces": {
+        "geometry_msgs/Accel": "Linear [m/s^2] and angular [rad/s^2] acceleration."
+    },
+}
+"""Module -> types of ROS in it -> their docstrings; of its package, unless another is named."""
+MODULES = {"marine_acoustic_msgs": "sonar", "underwater_sensor_msgs": "underwater"}
+"""Package -> its module, where that has another name."""
+DEFAULTS = {"geometry_msgs/msg/Quaternion": {"w": "1.0"}}
+"""Type of ROS -> field -> its default in ROS 2's text, which rosbags does not keep."""
+SERVICES = ("simulation_interfaces",)
+"""Packages whose services are generated, too; the others' are in ``services.py``."""
+SCALARS = {"bool": ("bool", "False"), "string": ("str", '""'), "float": ("float", "0.0")}
+"""Type of a field, without its bits -> annotation and default; the others are whole numbers."""
+DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
+"""Type of a field -> numpy's, where the two differ."""
+WIDTH = 100
+LINE = re.compile(r"\S+\s+(?P<name>\w+)(?:\s+(?P<default>[^=\s#]+))?\s*(?:#\s*(?P<doc>.*))?")
+"""A field in a text: type, name, perhaps a default and a comment."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Definition:
+    """A type as a class is made of it."""
+
+    name: str
+    """Its name in ROS 2, as ``std_msgs/msg/Header``."""
+    doc: str
+    """The docstring of the class."""
+    constants: Sequence[tuple[str, str, Any]]
+    """Name, type and value."""
+    fields: Sequence[tuple[str, Any]]
+    """Name, and rosbags' description of the type."""
+    defaults: Mapping[str, str]
+    """Field -> its default, if that is not the one of its type."""
+    docs: Mapping[str, str]
+    """Field -> its docstring, if it has one."""
+
+    @property
+    def class_name(self) -> str:
+        """The name of the class."""
+        base = self.name.rpartition("/")[2]
+        return base.removesuffix("_Request").replace("_Response", "Response")
+
+
+def modules(folder: Path) -> dict[str, str]:
+    """Return the text of every generated module of ``messages`` by its name.
+
+    Raises:
+        ValueError: a text has no comment above its fields, or a field of a type that is not there.
+    """
+    own = {path.parts[-3] for path in folder.glob("*/msg/*.msg")}
+    packages = {
+        package: [
+            *(_of_ros(package, name, doc) for name, doc in ROS.get(package, {}).items()),
+            *_sorted(_of_folder(folder / package, package)),
+        ]
+        for package in (*ROS, *sorted(own - ROS.keys()))
+    }
+    module_of = {
+        each.name: MODULES.get(package, package)
+        for package, types in packages.items()
+        for each in types
+    }
+    return {
+        MODULES.get(package, package): _module(package, types, module_of)
+        for package, types in packages.items()
+    }
+
+
+def _of_ros(package: str, name: str, doc: str) -> Definition:
+    full = f"{package}/{name}" if "/" not in name else name
+    full = full.replace("/", "/msg/")
+    constants, fields = get_typestore(Stores.ROS2_JAZZY).fielddefs[full]
+    defaults = DEFAULTS.get(full, {})
+    return Definition(
+        name=full, doc=doc, constants=constants, fields=fields, defaults=defaults, docs={}
+    )
+
+
+def _of_folder(folder: Path, package: str) -> Iterator[Definition]:
+    for path in sorted(folder.glob("msg/*.msg")):
+        yield _of_text(f"{package}/msg/{path.stem}", path.read_text(encoding="utf-8"), path)
+    for path in sorted(folder.glob("srv/*.srv")) if package in SERVICES else ():
+        request, response = re.split(r"^---\n", path.read_text(encoding="utf-8"), flags=re.M)
+        purpose = f"Request of ``{path.stem}``: "
+        yield _of_text(f"{package}/srv/{path.stem}_Request", request, path, purpose=purpose)
+        response = f"# Response of ``{path.stem}``.\n{response}"
+        yield _of_text(f"{package}/srv/{path.stem}_Response", response, path)
+
+
+def _of_text(name: str, text: str, path: Path, *, purpose: str = "") -> Definition:
+    comment = re.match(r"(#.*\n)*", text)
+    doc = re.sub(r"^# ?", "", comment[0] if comment else "", flags=re.M).strip()
+    if not doc:
+        raise ValueError(f"{path}:1: expected a comment, which is the docstring of the class")
+    if purpose:
+        doc = f"{purpose}{doc[0].lower()}{doc[1:]}"
+    ((constants, fields),) = get_types_from_msg(text, name).values()
+    names = {field for field, _ in fields}
+    lines = [found for found in map(LINE.fullmatch, text.splitlines()) if found]
+    return Definition(
+        name=name,
+        doc=doc,
+        constants=constants,
+        fields=fields,
+        defaults={line["name"]: line["default"] for line in lines if line["default"]},
+        docs={line["name"]: line["doc"] for line in lines if line["doc"] and line["name"] in names},
+    )
+
+
+def _sorted(types: Iterable[Definition]) -> list[Definition]:
+    """Sort the types of a package by name, those that others contain first."""
+    by_name = {each.name: each for each in types}
+    order = TopologicalSorter(
+        {name: sorted(_inner(each) & by_name.keys()) for name, each in by_name.items()}
+    )
+    return [by_name[name] for name in order.static_order()]
+
+
+def _inner(definition: Definition) -> set[str]:
+    """The types in a type."""
+    found = set()
+    for _, (kind, inner) in definition.fields:
+        if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
+            kind, inner = inner[0]
+        if kind == Nodetype.NAME:
+            found.add(inner)
+    return found
+
+
+def _module(package: str, types: list[Definition], module_of: Mapping[str, str]) -> str:
+    """Return the text of the module of a package."""
+    body = "".join(f"\n\n{_class(each)}" for each in types)
+    arrays = sorted(set(re.findall(r"=(_[A-Z]\w+)\n? *\)", body)))
+    needed = {name for each in types for name in _inner(each)}
+    if lacking := sorted(needed - module_of.keys()):
+        raise ValueError(f"{package}: uwsim.messages has no {', '.join(lacking)}")
+    imports: dict[str, list[str]] = {}
+    for name in sorted(needed - {each.name for each in types}):
+        imports.setdefault(module_of[name], []).append(name.rpartition("/")[2])
+    parts = [
+        f'"""Messages of {package}, generated by scripts/messages (see `uwsim.messages`)."""\n',
+        "from __future__ import annotations\n",
+        f"from dataclasses import dataclass{', field' if 'field(' in body else ''}\n"
+        + ("from functools import partial\n" if arrays else "")
+        + f"from typing import {'Any, ' if arrays else ''}ClassVar\n",
+        "import numpy as np\n" if arrays else "",
+        "".join(
+            f"from .{module} import {', '.join(sorted(names, key=_import_order))}\n"
+            for module, names in sorted(imports.items())
+        ),
+        "".join(_factory(name) for name in arrays),
+    ]
+    return "\n".join(part for part in parts if part) + body
+
+
+def _import_order(name: str) -> tuple[bool, str]:
+    """Return the place of a name in an import: ruff sorts those without small letters first."""
+    return not name.isupper(), name
+
+
+def _factory(name: str) -> str:
+    """Return what makes an array, anew for each message: ``_FLOAT64_9``, that of nine zeros."""
+    dtype, _, length = name[1:].lower().rpartition("_")
+    return f"{name}: Any = partial(np.zeros, {length}, np.{dtype})\n"
+
+
+def _class(definition: Definition) -> str:
+    """Return the text of a class."""
+    is_long = "\n" in definition.doc
+    text = f'"""{definition.doc}{chr(10) if is_long else ""}"""\n\n'
+    for name, _, value in definition.constants:
+        text += f"{name}: ClassVar[{type(value).__name__}] = {value!r}\n"
+    for name, kind in definition.fields:
+        annotation, default = _field(definition.name, kind)
+        default = definition.defaults.get(name, default)
+        line = f"{name}: {annotation} = {default}\n"
+        if len(line) + 3 > WIDTH:
+            line = line.replace("field(", "field(\n    ").removesuffix(")\n") + "\n)\n"
+        text += line
+        if name in definition.docs:
+            text += f'"""{definition.docs[name]}"""\n'
+    text += f'__msgtype__: ClassVar[str] = "{definition.name}"\n'
+    indented = re.sub(r"^(?=.)", "    ", text, flags=re.M)
+    return f"@dataclass\nclass {definition.class_name}:\n{indented}"
+
+
+def _field(owner: str, kind: Any) -> tuple[str, str]:
+    """Return the annotation and the default of a field."""
+    node, inner = kind
+    if node == Nodetype.NAME:
+        name = inner.rpartition("/")[2]
+        return name, f"field(default_factory={name})"
+    if node == Nodetype.BASE:
+        return SCALARS.get(inner[0].rstrip("0123456789"), ("int", "0"))
+    ((node, inner), length) = inner
+    if node == Nodetype.NAME and kind[0] == Nodetype.SEQUENCE:
+        return f"list[{inner.rpartition('/')[2]}]", "field(default_factory=list)"
+    if node == Nodetype.BASE and inner[0] == "string" and kind[0] == Nodetype.SEQUENCE:
+        return "list[str]", "field(default_factory=list)"
+    if node == Nodetype.NAME or inner[0] == "string":
+        raise ValueError(f"{owner}: an array of {length} texts or messages; expected a list")
+    dtype = DTYPES.get(inner[0], inner[0])
+    length = length if kind[0] == Nodetype.ARRAY else 0
+    annotation = f"np.ndarray[tuple[int, ...], np.dtype[np.{dtype}]]"
+    return annotation, f"field(default_factory=_{dtype.upper()}_{length})"
+
+
+def main() -> None:
+    """Write the modules of the folder given that are not as they should be."""
+    folder = Path(sys.argv[1])
+    for module, text in modules(folder).items():
+        path = folder / f"{module}.py"
+        if not path.exists() or path.read_text(encoding="utf-8") != text:
+            path.write_text(text, encoding="utf-8")
+            print(path)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,23 @@
+"""Hashes of specs."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+from typing import Any
+
+import numpy as np
+
+
+def digest_of(spec: object) -> str:
+    """Return a hash of what a spec says, wherever its file lies."""
+    return hashlib.sha256(repr(_plain(spec)).encode()).hexdigest()
+
+
+def _plain(value: Any) -> object:
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        fields = [each.name for each in dataclasses.fields(value) if each.compare]
+        return type(value).__name__, [(name, _plain(getattr(value, name))) for name in fields]
+    if isinstance(value, list | tuple):
+        return [_plain(each) for each in value]
+    return value.tolist() if isinstance(value, np.ndarray) else value

@@ -1,0 +1,289 @@
+"""Records: all that changes of a part while a simulation runs.
+
+A part of a running scene keeps what changes in one record, its ``state``, and sets no other
+attribute after it was made. The records lie in each other as the parts do; the outermost is the
+state of a whole simulation. In a running one they hold what runs: arrays that compiled code writes,
+random generators, the engine's memory. `copied` returns a record of values alone, and `assign`
+writes such values back into what runs.
+
+A record is a dataclass with slots. Its fields hold numbers, texts, tuples and frozen dataclasses,
+which are never changed but replaced; arrays, lists, dictionaries and queues of them; generators;
+`Live` parts; and records, alone or in lists and dictionaries.
+"""
+
+from __future__ import annotations
+
+import abc
+import dataclasses
+from collections import deque
+from collections.abc import Callable, Collection, Mapping
+from operator import attrgetter
+from typing import Any, Generic, Protocol, TypeVar
+
+import numpy as np
+
+from ..errors import UwsimError
+
+R = TypeVar("R", bound="Record")
+
+
+class Record:
+    """The base of all records: ``@dataclass(slots=True) class GpsState(Record)``."""
+
+    __slots__: tuple[str, ...] = ()
+
+
+@dataclasses.dataclass(slots=True)
+class NoState(Record):
+    """The record of a part that does not change."""
+
+
+@dataclasses.dataclass(slots=True)
+class RandomState(Record):
+    """The record of a part that changes by what it draws alone."""
+
+    random: np.random.Generator
+    """The generator that it draws from."""
+
+
+class Item(Record):
+    """The base of what lies in the queues and tables of records.
+
+    No part has it as its ``state``, so `assign` replaces it, and what it lies in, as a whole.
+    """
+
+    __slots__ = ()
+
+
+class Live(abc.ABC):
+    """Something that runs outside Python's objects, and whose values can be read and set."""
+
+    @abc.abstractmethod
+    def value(self) -> object:
+        """Return its present value, which does not change any more."""
+
+    @abc.abstractmethod
+    def set(self, value: object) -> None:
+        """Set the value; raises UwsimError where it is none of this part."""
+
+
+class Part(Protocol):
+    """A part of a running scene."""
+
+    @property
+    def state(self) -> Record:
+        """All that changes of it."""
+
+
+P = TypeVar("P", bound=Part)
+
+
+class Lazy(Live, Generic[P]):
+    """A part that is made when it is first needed, and with it its record.
+
+    Args:
+        make: makes it.
+    """
+
+    def __init__(self, make: Callable[[], P]) -> None:
+        self._make = make
+        self.part: P | None = None
+        """The part; None before it was needed."""
+
+    def made(self) -> P:
+        """Return the part; make it if it is not there."""
+        if self.part is None:
+            self.part = self._make()
+        return self.part
+
+    def value(self) -> Record | None:
+        """Return the record of the part; None before it was needed."""
+        return None if self.part is None else copied_record(self.part.state)
+
+    def set(self, value: object) -> None:
+        """Set the record of the part, which is made or given up as needed."""
+        if value is None:
+            self.part = None
+            return
+        assign(self.made().state, _checked(value, Record))
+
+
+@dataclasses.dataclass(frozen=True, slots=True)
+class Drawn:
+    """How far a random generator has drawn."""
+
+    words: bytes
+    """Its counter, key and buffer, little-endian words of 64 bits."""
+    position: int
+    """How many words of the buffer are drawn."""
+    half: int | None
+    """The half of a word that is left."""
+
+    @staticmethod
+    def by(generator: np.random.Generator) -> Drawn:
+        """Read it from a generator of `uwsim.base.rng.stream`."""
+        state: Any = generator.bit_generator.state
+        counter, key = state["state"].values()
+        words = counter.tobytes() + key.tobytes() + state["buffer"].tobytes()
+        half = state["uinteger"] if state["has_uint32"] else None
+        return Drawn(words, state["buffer_pos"], half)
+
+    def set(self, generator: np.random.Generator) -> None:
+        """Let a generator go on from here."""
+        words = np.frombuffer(self.words, np.uint64)
+        generator.bit_generator.state = {
+            "bit_generator": "Philox",
+            "state": {"counter": words[:4], "key": words[4:6]},
+            "buffer": words[6:],
+            "buffer_pos": self.position,
+            "has_uint32": int(self.half is not None),
+            "uinteger": self.half or 0,
+        }
+
+
+def copied(value: Any) -> Any:
+    """Return a value that shares nothing that changes with this one."""
+    return _COPIES[type(value)](value)
+
+
+def copied_record(record: R) -> R:
+    """Return a record of values alone."""
+    kind, copies = type(record), _COPIES
+    return kind(*[copies[type(each)](each) for each in _FIELDS[kind](record)])
+
+
+def fields_of(record: object) -> tuple[Any, ...]:
+    """Return the values of the fields of a dataclass with slots, as they are."""
+    found: tuple[Any, ...] = _FIELDS[type(record)](record)
+    return found
+
+
+class _Fields(dict[type, Callable[[Any], Any]]):
+    """What returns the values of the fields, by the type of dataclass."""
+
+    def __missing__(self, kind: type) -> Callable[[Any], Any]:
+        names = [each.name for each in dataclasses.fields(kind)]
+        several = attrgetter(*names) if len(names) > 1 else None
+        self[kind] = several or (lambda one: tuple(getattr(one, name) for name in names))
+        return self[kind]
+
+
+class _Copies(dict[type, Callable[[Any], Any]]):
+    """What copies a value, by its type."""
+
+    def __missing__(self, kind: type) -> Callable[[Any], Any]:
+        self[kind] = _itself
+        if issubclass(kind, Record):
+            self[kind] = copied_record
+        elif issubclass(kind, Live):
+            self[kind] = kind.value
+        return self[kind]
+
+
+def _itself(value: Any) -> Any:
+    return value
+
+
+def _copied_array(value: Any) -> Any:
+    return value.copy() if value.flags.writeable else value
+
+
+_FIELDS = _Fields()
+_COPIES: _Copies = _Copies(
+    {
+        np.ndarray: _copied_array,
+        np.random.Generator: Drawn.by,
+        list: lambda value: [_COPIES[type(each)](each) for each in value],
+        dict: lambda value: {key: _COPIES[type(each)](each) for key, each in value.items()},
+        deque: lambda value: deque(map(copied, value), value.maxlen),
+    }
+)
+
+
+def assign(record: Record, values: Record) -> None:
+    """Write the values of a copied record into one that runs.
+
+    Raises:
+        UwsimError: they are those of another part.
+    """
+    if type(record) is not type(values):
+        raise of_another_scene()
+    assign_fields(record, dict(zip(values.__slots__, fields_of(values), strict=True)))
+
+
+def copied_fields(record: Record, names: Collection[str]) -> dict[str, Any]:
+    """Return the values of some fields of a record, by name."""
+    return {name: copied(getattr(record, name)) for name in names}
+
+
+def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
+    """Write the copied values of some fields into a record that runs.
+
+    Raises:
+        UwsimError: they are those of another part.
+    """
+    for name, then in values.items():
+        if not _is_assigned(getattr(record, name), then):
+            setattr(record, name, copied(then))
+
+
+def _is_assigned(now: Any, then: Any) -> bool:
+    """Write a value into what holds it; False where the field must be set instead."""
+    if _is_parts(now):
+        assign(now, then)
+    elif isinstance(now, np.random.Generator):
+        _checked(then, Drawn).set(now)
+    elif isinstance(now, Live):
+        now.set(then)
+    elif isinstance(now, np.ndarray) and now.flags.writeable:
+        if not isinstance(then, np.ndarray) or (then.shape, then.dtype) != (now.shape, now.dtype):
+            return False
+        now[...] = then
+    elif isinstance(now, dict) and any(map(_is_parts, now.values())):
+        if list(_checked(then, dict)) != list(now):
+            raise of_another_scene()
+        for key, each in now.items():
+            assign(each, then[key])
+    elif isinstance(now, list) and any(map(_is_parts, now)):
+        if len(_checked(then, list)) != len(now):
+            raise of_another_scene()
+        for each, values in zip(now, then, strict=True):
+            assign(each, values)
+    else:
+        return False
+    return True
+
+
+def _is_parts(value: object) -> bool:
+    """Whether it is the record of a part."""
+    return isinstance(value, Record) and not isinstance(value, Item)
+
+
+def is_same(first: Any, second: Any) -> bool:
+    """Whether two copied values are the same to the bit; nan is the same as nan."""
+    if type(first) is not type(second):
+        return False
+    if isinstance(first, np.ndarray):
+        is_alike = (first.shape, first.dtype) == (second.shape, second.dtype)
+        return is_alike and first.tobytes() == second.tobytes()
+    if isinstance(first, Record):
+        return all(is_same(getattr(first, n), getattr(second, n)) for n in first.__slots__)
+    if dataclasses.is_dataclass(first):
+        fields = [each.name for each in dataclasses.fields(first) if each.compare]
+        return all(is_same(getattr(first, name), getattr(second, name)) for name in fields)
+    if isinstance(first, dict):
+        return list(first) == list(second) and all(is_same(first[k], second[k]) for k in first)
+    if isinstance(first, list | tuple | deque):
+        return len(first) == len(second) and all(map(is_same, first, second))
+    return bool(first == second) or (first != first and second != second)
+
+
+def of_another_scene() -> UwsimError:
+    """Return the error of a state that belongs to other parts."""
+    return UwsimError("The saved simulation is not of this scene.")
+
+
+def _checked(value: Any, kind: type) -> Any:
+    if not isinstance(value, kind):
+        raise of_another_scene()
+    return value

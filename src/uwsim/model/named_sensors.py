@@ -1,0 +1,52 @@
+"""The sensor that a ``<u:sensorToROS>`` names: its message type, or why there is not one."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ..errors import choices
+from ..scene.spec import SceneSpec
+from ..sensors.sensor import measured_by
+from ..sensors.virtual_camera import VirtualCameraSpec
+from ..topics import InterfaceSpec
+from ..topics.sensor_topic import SensorToROSSpec
+
+
+class NamedSensors:
+    """The sensors of a scene, and its devices that measure, by name."""
+
+    def __init__(self, scene: SceneSpec) -> None:
+        self._types: dict[str, dict[str, type]] = {}
+        """Name -> element -> message type."""
+        self._cameras: set[str] = set()
+        for vehicle in scene.vehicles:
+            self._cameras |= {camera.name for camera in vehicle.parts_of(VirtualCameraSpec)}
+            for element, part in vehicle.all_parts():
+                type_ = measured_by(type(part))
+                if type_ is not None and element in SensorToROSSpec.sources:
+                    name = str(getattr(part, "name", ""))
+                    self._types.setdefault(name, {})[element] = type_
+
+    def carried(self, interface: InterfaceSpec) -> Mapping[str, type]:
+        """Return the types of an interface's messages, by the field that names the topic."""
+        if not isinstance(interface, SensorToROSSpec):
+            return interface.carries()
+        types = [*self._types.get(interface.name, {}).values()]
+        return {"topic": types[-1]} if types else {}
+
+    def error(self, interface: InterfaceSpec) -> str | None:
+        """Report why a ``<u:sensorToROS>`` does not name one sensor; None if it does."""
+        if not isinstance(interface, SensorToROSSpec):
+            return None
+        name = interface.name
+        elements = sorted(self._types.get(name, {}))
+        if len(elements) == 1:
+            return None
+        if elements:
+            kinds = "> and of a <".join(elements)
+            return f"{name!r} is the name of a <{kinds}>; expected that of one sensor"
+        found = f"no sensor is called {name!r}"
+        if name in self._cameras:
+            found = f"{name!r} is a <virtualCamera>, which <VirtualCameraToROSImage> publishes"
+        expected = "expected the name of a sensor, or of a device that measures"
+        return f"{found}; {expected}.{choices(name, sorted(self._types), called='Sensors')}"

@@ -1,0 +1,1 @@
+"""The state of a simulation: one record of all that changes while it runs."""

@@ -1,0 +1,135 @@
+"""Records as bytes: of numbers, texts, arrays, messages and records of uwsim, and nothing else."""
+
+from __future__ import annotations
+
+import dataclasses
+import importlib
+import io
+import pickle
+from collections import deque
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+import numpy as np
+
+from ...base.record import fields_of
+from ...errors import UwsimError
+from ...version import __version__
+
+T = TypeVar("T")
+ALLOWED = {
+    ("numpy", "dtype"),
+    ("numpy", "ndarray"),
+    ("numpy._core.multiarray", "_reconstruct"),
+    ("numpy._core.multiarray", "scalar"),
+    ("numpy._core.numeric", "_frombuffer"),
+    ("collections", "deque"),
+}
+"""Types allowed in bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
+
+
+def pack(value: object) -> bytes:
+    """Return a copied value as bytes, with the version of uwsim.
+
+    Raises:
+        UwsimError: something in it has no bytes.
+    """
+    try:
+        return pickle.dumps((__version__, _FLAT[type(value)](value)), protocol=5)
+    except (pickle.PicklingError, AttributeError, TypeError) as error:
+        raise UwsimError(f"The state cannot be saved: {error}.") from None
+
+
+def unpack(data: bytes, kind: type[T]) -> T:
+    """Read a value of a type from bytes.
+
+    Raises:
+        UwsimError: these are no such bytes, or another version of uwsim wrote them.
+    """
+    try:
+        version, flat = _Unpickler(io.BytesIO(data)).load()
+        value = _raised(flat)
+    except Exception as error:  # whatever damaged bytes make of themselves
+        raise UwsimError(f"These bytes are no saved simulation: {error}.") from None
+    if version != __version__:
+        raise UwsimError(f"The simulation was not saved by uwsim {__version__}.")
+    if not isinstance(value, kind):
+        raise UwsimError("These bytes are no saved simulation.")
+    return value
+
+
+class _Flat(dict[type, Callable[[Any], Any]]):
+    """What makes lists of a value, by its type: pickle takes longer for records and arrays.
+
+    A list in what it makes begins with a tag. Whatever is no record, array or container stays.
+    """
+
+    def __missing__(self, kind: type) -> Callable[[Any], Any]:
+        self[kind] = _itself
+        if dataclasses.is_dataclass(kind) and "__slots__" in vars(kind):
+            name = f"{kind.__module__}:{kind.__qualname__}"
+            self[kind] = lambda value: [
+                RECORD,
+                name,
+                *[self[type(each)](each) for each in fields_of(value)],
+            ]
+        return self[kind]
+
+
+RECORD, ARRAY, LIST, DICT, QUEUE = range(5)
+
+
+def _itself(value: Any) -> Any:
+    return value
+
+
+def _flat_array(array: Any) -> list[Any]:
+    kind = array.dtype
+    return [ARRAY, kind if kind.names else kind.str, array.shape, array.tobytes()]
+
+
+_FLAT: _Flat = _Flat(
+    {
+        np.ndarray: _flat_array,
+        list: lambda value: [LIST, *[_FLAT[type(each)](each) for each in value]],
+        dict: lambda value: [DICT, *value, *[_FLAT[type(each)](each) for each in value.values()]],
+        deque: lambda value: [QUEUE, value.maxlen, *[_FLAT[type(each)](each) for each in value]],
+    }
+)
+
+
+def _raised(flat: Any) -> Any:
+    """Return the value that lists were made of."""
+    if type(flat) is not list:
+        return flat
+    tag, *rest = flat
+    if tag == RECORD:
+        return _allowed_dataclass(*rest[0].split(":"))(*map(_raised, rest[1:]))
+    if tag == ARRAY:
+        kind, shape, data = rest
+        return np.frombuffer(data, kind).reshape(shape).copy()
+    if tag == LIST:
+        return [_raised(each) for each in rest]
+    if tag == QUEUE:
+        return deque(map(_raised, rest[1:]), rest[0])
+    n = len(rest) // 2
+    return dict(zip(rest[:n], map(_raised, rest[n:]), strict=True))
+
+
+def _allowed_dataclass(module: str, name: str) -> Any:
+    """Return a dataclass of uwsim or rosbags; raises UnpicklingError for all else."""
+    found = None
+    if module.startswith(("uwsim.", "rosbags.")):
+        found = getattr(importlib.import_module(module), name, None)
+    if not isinstance(found, type) or not dataclasses.is_dataclass(found):
+        raise pickle.UnpicklingError(f"{module}.{name} has no place in them")
+    return found
+
+
+class _Unpickler(pickle.Unpickler):
+    """Makes numbers, arrays, messages and records, and calls nothing else."""
+
+    def find_class(self, module: str, name: str) -> Any:
+        if (module, name) in ALLOWED:
+            return super().find_class(module, name)
+        return _allowed_dataclass(module, name)

@@ -1,0 +1,152 @@
+"""The state of a simulation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Self
+
+from ...base.record import Live, Record, copied_record, is_same, of_another_scene
+from ...bus.bus import BusState
+from ...errors import UwsimError
+from ...model.scene_model import SceneModel
+from ...network.network import NetworkState
+from ...physics.engine_state import EngineState
+from ..access.topics import AccessState
+from ..collision.below_ground import BelowGroundState
+from ..collision.contacts import ContactsState
+from ..faulty_topic import FaultyTopicState
+from ..markers.spawned import MarkersState
+from ..nodes.node import NodeState
+from ..scenery.scenery import SceneryState
+from ..schedule import ScheduleState
+from ..trajectories import TrajectoryState
+from ..vehicles import VehicleState
+from ..water.water_motion import WaterState
+from .saved_bytes import pack, unpack
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """What does not change while a simulation runs: its states fit no other."""
+
+    seed: int
+    """The seed of every random stream."""
+    timestep: float
+    """The length of a step [s]."""
+    compatibility: str
+    """The compatibility quirks that are on."""
+    scene: str
+    """The hash of the scene, with its variations."""
+
+
+class OwnIdentity(Live):
+    """The identity of a running simulation.
+
+    Args:
+        model: of the scene.
+    """
+
+    def __init__(self, model: SceneModel) -> None:
+        self._model = model
+        self._identity: Identity | None = None
+
+    def value(self) -> Identity:
+        """Return the identity."""
+        if self._identity is None:
+            model = self._model
+            quirks = ", ".join(sorted(model.compatibility)) or "none"
+            self._identity = Identity(model.seed, model.timestep, quirks, model.digest)
+        return self._identity
+
+    def set(self, value: object) -> None:
+        """Raise UwsimError where a state is of another simulation."""
+        own = self.value()
+        if not isinstance(value, Identity):
+            raise of_another_scene()
+        for name in ("seed", "timestep", "compatibility"):
+            mine, theirs = getattr(own, name), getattr(value, name)
+            if mine != theirs:
+                unit = " s" if name == "timestep" else ""
+                raise UwsimError(
+                    f"The saved simulation has {name} {theirs}{unit}; this one has {mine}{unit}."
+                )
+        if own.scene != value.scene:
+            raise of_another_scene()
+
+
+@dataclass(slots=True, eq=False)
+class State(Record):
+    """All that changes of a simulation while it runs.
+
+    `uwsim.Simulation.state` is that of the running simulation and changes with it; a `copy` does
+    not. Two states are equal if all their numbers are, to the bit.
+
+    Not part of it: callbacks, the hash of the images published so far, and what algorithms keep
+    that offer no ``save`` and ``restore``.
+    """
+
+    identity: OwnIdentity
+    """The simulation that it belongs to; a state of another one cannot be set."""
+    bus: BusState
+    """The step, and the messages on their way."""
+    engine: EngineState
+    """Poses, velocities, actuators: the physics."""
+    vehicles: list[VehicleState]
+    """What changes of each vehicle besides the physics."""
+    sensors: list[Record]
+    """What changes of each sensor."""
+    devices: list[Record]
+    """What changes of each device."""
+    forces: list[Record]
+    """What changes of each force."""
+    interfaces: list[Record]
+    """What changes of each element of ``<rosInterfaces>``."""
+    faults: list[FaultyTopicState]
+    """What changes of each topic of a sensor with faults."""
+    scenery: SceneryState
+    """Fog, light and sand."""
+    water: WaterState
+    """The current that a program has set."""
+    contacts: ContactsState
+    """What is known of contacts besides the engine's."""
+    below_ground: BelowGroundState
+    """What the last look for bodies below the ground has found."""
+    schedule: ScheduleState
+    """What is to be done later."""
+    network: NetworkState
+    """Packets between communication devices."""
+    markers: MarkersState
+    """What programs have spawned."""
+    trajectories: list[TrajectoryState]
+    """Where bodies went."""
+    access: AccessState
+    """What a program has read, and whether the first samples are published."""
+    nodes: list[NodeState]
+    """The timers and the states of attached algorithms."""
+
+    def copy(self) -> Self:
+        """Return a state of values alone, which the simulation does not change."""
+        return copied_record(self)
+
+    def to_bytes(self) -> bytes:
+        """Return it as bytes, for the same version of uwsim.
+
+        Raises:
+            UwsimError: a part of it, as a current of a program's own class, has no bytes.
+        """
+        return pack(self.copy())
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Self:
+        """Read it from bytes.
+
+        Raises:
+            UwsimError: the bytes are damaged, or another version of uwsim has written them.
+        """
+        return unpack(data, cls)
+
+    def __eq__(self, other: object) -> bool:
+        """Compare all values, to the bit."""
+        return isinstance(other, State) and is_same(self.copy(), other.copy())
+
+    __hash__ = None  # type: ignore[assignment]
