@@ -53,7 +53,7 @@ class Clock(Onlooker):
 def measure() -> dict[str, object]:
     """Run the episode several times."""
     os.environ["LP_NUM_THREADS"] = "0"  # of the rasteriser, which is made with the first image
-    level = ["fog=0", "current=0"]
+    level = [("fog", 0.0), ("current", 0.0)]
     plan = make_plan(PlanRequest(benchmark="grasp", seed=SEED, levels=level))
     [trial] = plan.trials()
     pool = RendererPool()

@@ -7,13 +7,31 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
 import uwsim
-from uwsim.messages import TwistStamped, Vector3
+from tests.support.failing import Raises
+from tests.support.short_benchmark import write_benchmark
+from uwsim.bus import Node
+from uwsim.cli import main
+from uwsim.errors import RunFailed
+from uwsim.messages import Empty, TwistStamped, Vector3
+from uwsim.results.directory import alone_in
+
+CLEAR = {"fog": [0]}
+
+
+class Tuned:
+    """Starts the benchmark, and has one parameter."""
+
+    PARAMETERS: ClassVar = {"kp": 0.5}
+
+    def start(self, node: Node) -> None:
+        node.parameters["kp"]
+        node.call("startBench", Empty())
 
 
 def test_every_public_name_is_there_and_listed() -> None:
@@ -138,36 +156,133 @@ def test_two_simulations_do_not_see_each_other() -> None:
     assert alone == beside
 
 
-def page_without_machine(report: Path) -> str:
-    """A report without what two runs do not share: host, dates, durations, the command typed."""
-    text = report.read_text()
-    text = re.sub(r"<pre>uwsim bench .*?\n", "", text)
-    return re.sub(r"<h2[^>]*>Provenance.*?(?=<h2|</main|</body)", "", text, flags=re.DOTALL)
+TIMES = {"began", "wall_s", "real_time_factor", "load", "command"}
+"""What differs in the provenance of two runs."""
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Every file of a result directory, without what two runs do not share.
+
+    That is, in ``provenance.json``, `TIMES`: when the run began, how long it took, the load of the
+    machine, and the command that was typed, which is empty from Python. The report shows the
+    provenance as a table and the command in a line; both are left out of ``report.html``.
+    """
+    found = {
+        path.relative_to(folder).as_posix(): path.read_bytes()
+        for path in folder.rglob("*")
+        if path.is_file()
+    }
+    provenance = json.loads(found["provenance.json"])
+    assert provenance.keys() >= TIMES
+    kept = [(name, value) for name, value in provenance.items() if name not in TIMES]
+    found["provenance.json"] = json.dumps(kept).encode()
+    page = re.sub(r"<pre>uwsim bench .*?\n", "", found["report.html"].decode())
+    page = re.sub(r"<h2[^>]*>Provenance.*?(?=<h2|</main|</body)", "", page, flags=re.DOTALL)
+    found["report.html"] = page.encode()
+    return found
 
 
 @pytest.mark.slow
-def test_a_benchmark_in_python_is_that_of_the_command(tmp_path: Path) -> None:
+@pytest.mark.parametrize("workers", [0, 1])
+def test_a_result_directory_of_python_has_the_bytes_of_one_of_the_command(
+    workers: int, tmp_path: Path
+) -> None:
+    """All files byte for byte, but for what two runs of the command do not share (`contents`)."""
     levels = {"fog": [0.5]}
     own = tmp_path / "python" / "one.result"
-    result = uwsim.bench("visibility", algorithm="esm", levels=levels, seeds=(1,), out=own)
+    result = uwsim.bench(
+        "visibility", algorithm="esm", levels=levels, seeds=(1, 2), workers=workers, out=own
+    )
     out = tmp_path / "command" / "one.result"
-    command = [sys.executable, "-m", "uwsim", "bench", "visibility", "--seed", "1"]
-    command += ["--level", "fog=0.5", "--algorithm", "esm", "--out", str(out)]
-    subprocess.run(command, check=True, capture_output=True)
-    stored = uwsim.read_result(out)
-    assert stored.rows == result.rows
-    assert json.loads((out / "result.json").read_text())["rows"] == [list(result.rows[0])]
-    files = sorted(path.relative_to(out) for path in out.rglob("*") if path.is_file())
-    assert files == sorted(path.relative_to(own) for path in own.rglob("*") if path.is_file())
-    same = [path for path in files if path.suffix in (".svg", ".csv", ".dat", ".json")]
-    for path in same:
-        if path.name != "provenance.json":
-            assert (own / path).read_bytes() == (out / path).read_bytes(), path
-    pages = [page_without_machine(folder / "report.html") for folder in (own, out)]
-    assert pages[0] == pages[1]
+    command = [sys.executable, "-m", "uwsim", "bench", "visibility", "--seed", "1", "--repeat", "2"]
+    command += ["--level", "fog=0.5", "--algorithm", "esm", "--workers", str(workers)]
+    subprocess.run([*command, "--out", str(out)], check=True, capture_output=True)
+    assert uwsim.read_result(out).rows == result.rows
+    ours, theirs = contents(own), contents(out)
+    assert {"control/result.json", "report.html", "plots/total.png"} <= theirs.keys()
+    assert ours.keys() == theirs.keys()
+    assert [name for name in ours if ours[name] != theirs[name]] == []
 
 
-@pytest.mark.parametrize("value", ["0.5", None, True])
+def test_a_class_that_breaks_in_every_row_is_an_error_and_all_is_written(tmp_path: Path) -> None:
+    benchmark, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
+    with pytest.raises(RunFailed, match=r"Every row ended in 'algorithm error': .*no focus"):
+        uwsim.bench(benchmark, algorithm=Raises, levels={"fog": [0]}, out=out)
+    result = uwsim.read_result(out)
+    assert result.values("status") == ("algorithm error",)
+    assert dict(result.run.clients or ()) == {"tests.support.failing:Raises": "in process"}
+    assert (out / "report.html").is_file()
+    assert (out / "control" / "result.json").is_file()
+
+
+def test_a_class_is_what_is_tested_also_where_the_benchmark_names_none(tmp_path: Path) -> None:
+    benchmark = write_benchmark(tmp_path, "0.2")
+    with pytest.raises(uwsim.UwsimError, match="no parameter 'gain'"):
+        uwsim.bench(benchmark, algorithm=Tuned, settings={"algorithm.gain": 1})
+    benchmark.write_text(benchmark.read_text().replace(' u:algorithm="esm"', ""))
+    kp = {"algorithm.kp": 1}
+    result = uwsim.bench(benchmark, algorithm=Tuned, settings=kp, levels=CLEAR)
+    assert result.run.algorithm == "tests.test_api:Tuned"
+    own = type("Own", (Tuned,), {"__module__": "scripted"})  # no pilot of an earlier result
+    result = uwsim.bench(benchmark, algorithm=own, settings=kp, levels=CLEAR)
+    assert result.run.algorithm == "scripted:Own"
+
+
+@pytest.mark.slow
+def test_a_program_that_does_all_in_its_process_needs_no_guard(tmp_path: Path) -> None:
+    program = tmp_path / "program.py"
+    call = f"uwsim.bench({str(write_benchmark(tmp_path, '0.2'))!r}, levels={{'fog': [0]}}, out='o')"
+    program.write_text(f"import uwsim\nprint('begun')\n{call}\n")
+    done = subprocess.run(
+        [sys.executable, program], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert (done.stdout, done.stderr) == ("begun\n", "")
+    assert (tmp_path / "o" / "report.html").is_file()
+
+
+def test_progress_is_reported_from_none_to_all_levels(tmp_path: Path) -> None:
+    seen: list[tuple[int, int]] = []
+    uwsim.bench(
+        write_benchmark(tmp_path, "0.2"),
+        algorithm="frozen",
+        on_progress=lambda done, total: seen.append((done, total)),
+    )
+    assert seen == [(0, 3), (1, 3), (2, 3), (3, 3)]
+
+
+def test_all_that_is_wrong_with_a_benchmark_is_reported_at_once(tmp_path: Path) -> None:
+    (tmp_path / "notes.txt").touch()
+    with pytest.raises(uwsim.UwsimError) as caught:
+        uwsim.bench("visibility", algorithm="emm", workers=-1, levels={"fogg": [0]}, out=tmp_path)
+    lines = str(caught.value).splitlines()
+    for words in ("--workers -1: ", "No algorithm is called 'emm'", "--level fogg: ", "not empty"):
+        assert sum(words in line for line in lines) == 1, lines
+
+
+def test_a_directory_into_which_another_run_writes_is_refused(tmp_path: Path) -> None:
+    with (
+        alone_in(tmp_path / "out"),
+        pytest.raises(uwsim.UwsimError, match="another run is writing into it"),
+    ):
+        uwsim.bench(write_benchmark(tmp_path, "0.2"), levels=CLEAR, out=tmp_path / "out")
+
+
+@pytest.mark.slow
+def test_a_run_that_failed_in_python_is_resumed_by_the_command(tmp_path: Path) -> None:
+    def interrupt(done: int, total: int) -> None:
+        if done == 1:
+            raise KeyboardInterrupt
+
+    benchmark, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
+    with pytest.raises(KeyboardInterrupt):
+        uwsim.bench(benchmark, algorithm="frozen", out=out, on_progress=interrupt)
+    assert len(uwsim.read_result(out).rows) == 1
+    call = ["bench", str(benchmark), "--algorithm", "frozen", "--out", str(out)]
+    assert main([*call, "--resume"]) == 0
+    assert len(uwsim.read_result(out).rows) == 3
+
+
+@pytest.mark.parametrize("value", ["0.5", None, True, float("nan")])
 def test_a_level_that_is_no_number_is_refused(value: object) -> None:
     with pytest.raises(uwsim.UwsimError, match="expected numbers"):
         uwsim.bench("visibility", levels={"fog": [value]})  # type: ignore[list-item]
@@ -191,6 +306,7 @@ def test_a_level_is_named_by_its_number_however_many_digits_it_has(tmp_path: Pat
     path.write_text(THIRDS)
     result = uwsim.bench(path, levels={"fog": [1 / 3, np.float32(0)]})
     assert [row[0] for row in result.rows] == pytest.approx([0.0, 1 / 3], abs=1e-12)
+    assert result.run.levels == (("fog", 1 / 3), ("fog", 0.0))
 
 
 def test_seeds_that_are_not_consecutive_are_refused() -> None:

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .results.result import Result
     from .simulation import Simulation
     from .simulation.access.boxes import OrientedBox
+    from .simulation.state.state import State
     from .viewer.replay import Replay
 
 __all__ = [
@@ -39,6 +40,7 @@ __all__ = [
     "Replay",
     "Result",
     "Simulation",
+    "State",
     "UwsimError",
     "__version__",
     "bench",
@@ -59,6 +61,7 @@ _HOMES = {
     "Replay": "viewer.replay",
     "Result": "results.result",
     "Simulation": "simulation",
+    "State": "simulation.state.state",
     "UwsimError": "errors",
     "bench": "api",
     "check": "api",

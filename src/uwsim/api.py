@@ -7,26 +7,28 @@ that names the file, the line and the nearest right name.
 
 from __future__ import annotations
 
+import math
 import tempfile
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from functools import partial
 from numbers import Real
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import BadSetting, Diagnostic, RunFailed
+from .errors import AllErrors, BadSetting, Diagnostic
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
     from .analysis.comparison.model import Comparison
     from .bus import Algorithm
     from .results.result import Result
-    from .runs.run import Run
-    from .runs.timing import Stopwatch
     from .scene.spec import SceneSpec
     from .simulation import Simulation
 
 Setting = str | float | int
+OnProgress = Callable[[int, int], object]
+"""Takes the number of finished levels, and that of all levels."""
 
 
 def load(
@@ -87,56 +89,98 @@ def bench(
     data_path: Sequence[str | Path] = (),
     workers: int = 0,
     out: str | Path | None = None,
+    on_progress: OnProgress | None = None,
 ) -> Result:
-    """Run a benchmark as ``uwsim bench`` does, with the same numbers in the same bytes.
+    """Run a benchmark as ``uwsim bench`` does.
+
+    With the same options ``out`` has the same files with the same bytes, but for what two runs of
+    the command do not share either: date, durations and load in ``provenance.json``, where the
+    typed command is empty here, and the same facts in ``report.html``. Warnings about files, and
+    the Python code that they name, are printed on standard error.
 
     Args:
         benchmark: a benchmark file or a bundled name.
         scene: the scene; without it the one that the benchmark names.
-        algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class.
+        algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class; a class runs in
+            the process of the simulation, as with ``--in-process``.
         seeds: of the repeats; consecutive, such as ``range(6)``.
-        levels: only these levels of the sweep, as numbers: ``{"fog": [0.0, 0.5]}``.
+        levels: only these levels of the sweep, as numbers: ``{"fog": [0.0, 1 / 3]}``.
         settings: values to change, as ``--set`` names them; ``algorithm.kp`` is a parameter.
         data_path: more folders in which files are looked for.
-        workers: processes to use; 0 runs everything in this process.
+        workers: processes to use; 0 runs everything in this process, the control and the report
+            included. A program that uses more needs ``if __name__ == "__main__":``.
         out: the result directory, which must be empty or not there yet: it receives all files that
-            ``uwsim bench`` writes, the report included. Without it nothing is kept but what is
-            returned.
+            ``uwsim bench`` writes, the control and the report included. Without it nothing is kept
+            but what is returned.
+        on_progress: called with the number of finished levels and that of all levels: at the
+            beginning, and after each level.
 
     Raises:
-        UwsimError: an input is wrong, or a run failed; finished rows are kept in ``out``.
+        UwsimError: an input is wrong, or a run failed as it does with the command: also if a
+            simulation failed, or the algorithm in every row. Finished rows are kept in ``out``.
     """
+    from .analysis.load_reporter import load_reporter
     from .results.directory import check as check_directory
-    from .runs.executors.choose import CALLBACK_LIMIT, executor_of
-    from .runs.executors.executor import run_all
-    from .runs.planning.make_plan import make_plan
+    from .results.directory import prepared
+    from .runs.execute import Callbacks, execute, plan_all, prepare_execution
+    from .runs.executors.background import BackgroundProcess, Jobs
+    from .runs.executors.choose import CALLBACK_LIMIT
     from .runs.planning.plan_request import PlanRequest
-    from .runs.prepare import prepare_run
-    from .runs.timing import Stopwatch
 
+    name, kind = _name_and_class(algorithm)
     request = PlanRequest(
         benchmark=str(benchmark),
         scene=None if scene is None else str(scene),
-        algorithm=algorithm if isinstance(algorithm, str) else None,
+        algorithm=name,
+        algorithm_class=kind,
+        in_process=kind is not None,
         seed=_first_of(seeds),
         repeat=len(seeds),
-        levels=_texts_of(levels or {}),
+        levels=_pairs_of(levels or {}),
         settings=[f"{path}={value}" for path, value in _checked_settings(settings).items()],
         data_path=tuple(Path(folder) for folder in data_path),
     )
-    plan = make_plan(request)
-    if algorithm is not None and not isinstance(algorithm, str):
-        name = f"{algorithm.__module__}:{algorithm.__qualname__}"
-        plan = replace(plan, algorithm=replace(plan.algorithm, cls=algorithm, name=name))
-    executor = executor_of(str(workers), CALLBACK_LIMIT)
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)
-        check_directory(directory, resume=False, overwrite=False, results=[])
-        run, watch = prepare_run(plan, directory), Stopwatch()
-        (result,) = run_all([run], executor)
-        if out is not None:
-            _write_report(run, watch, workers)
+        wrong = AllErrors()
+        executor, plans = plan_all([request], str(workers), CALLBACK_LIMIT, wrong)
+        with wrong.kept():
+            check_directory(directory, resume=False, overwrite=False)
+        wrong.check()
+        execution = prepare_execution(plans, executor, directory, workers=str(workers))
+        open_jobs = partial(BackgroundProcess if workers else Jobs, load_reporter)
+        (result,) = execute(
+            execution,
+            prepared(directory, resume=False, overwrite=False),
+            None if out is None else open_jobs,
+            Callbacks(progress=partial(_counted, on_progress)),
+        )
     return result
+
+
+def _name_and_class(
+    algorithm: str | type[Algorithm] | None,
+) -> tuple[str | None, type[Algorithm] | None]:
+    """Return the name of an algorithm, and its class if that is given."""
+    if algorithm is None or isinstance(algorithm, str):
+        return algorithm, None
+    return f"{algorithm.__module__}:{algorithm.__qualname__}", algorithm
+
+
+@contextmanager
+def _counted(
+    on_progress: OnProgress | None, title: str, total: int, done: int
+) -> Iterator[Callable[[], None]]:
+    """Call a function with the numbers of finished levels and of all levels."""
+
+    def on_level() -> None:
+        nonlocal done
+        done += 1
+        report(done, total)
+
+    report = on_progress or (lambda done, total: None)
+    report(done, total)
+    yield on_level
 
 
 def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Setting]:
@@ -148,38 +192,18 @@ def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Se
     )
 
 
-def _write_report(run: Run, watch: Stopwatch, workers: int) -> None:
-    """Run the control, and write the provenance and the report, as ``uwsim bench`` does."""
-    from .analysis.report import write_report
-    from .base.terminal import warn
-    from .results.provenance import save_provenance
-    from .runs.control import CONTROL, control_of, wants_control
-    from .runs.executors.executor import run_all
-    from .runs.timing import Timing
-
-    if wants_control(run.plan):
-        try:
-            run_all([control_of(run)])
-        except (RunFailed, OSError) as error:
-            warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
-    timing = Timing(
-        began=watch.began, wall=watch.passed(), workers=str(workers), command=(), runs=[run]
-    )
-    save_provenance(timing.provenance(run), run.out)
-    write_report(run.out)
-
-
-def _texts_of(levels: Mapping[str, Sequence[float]]) -> list[str]:
-    """Return levels as ``NAME=VALUE``, with all digits; BadSetting if one is not a number."""
-    texts: list[str] = []
+def _pairs_of(levels: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
+    """Return the names and values of levels; BadSetting if one is not a number."""
+    pairs: list[tuple[str, float]] = []
     if not isinstance(levels, Mapping) or any(isinstance(v, Real) for v in levels.values()):
         raise BadSetting(f"levels={levels!r:.200}: expected names and lists, as {{'fog': [0.5]}}.")
     for name, values in levels.items():
         for value in values:
-            if isinstance(value, bool) or not isinstance(value, Real):
+            is_number = isinstance(value, Real) and not isinstance(value, bool)
+            if not is_number or not math.isfinite(value):
                 raise BadSetting(f"levels={{{name!r}: [{value!r}]}}: expected numbers.")
-            texts.append(f"{name}={float(value)!r}")
-    return texts
+            pairs.append((name, float(value)))
+    return pairs
 
 
 def _first_of(seeds: Sequence[int]) -> int:

@@ -366,7 +366,7 @@ def test_whatever_a_plugin_raises_is_one_line(tmp_path: Path, error: str, said: 
 def play(folder: Path, was: str, now: str) -> Result:
     assert was in PARTS
     (folder / "parts.py").write_text(PARTS.replace(was, now))
-    plan = plan_of("b.xml", folder / "parts.py", levels=["murk=0"], in_process=True)
+    plan = plan_of("b.xml", folder / "parts.py", levels=[("murk", 0.0)], in_process=True)
     inputs, renderer = hash_inputs(plan)
     bench = Run(plan=plan, out=folder / "out", inputs=inputs, renderer=renderer)
     return run_all([bench])[0]

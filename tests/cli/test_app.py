@@ -11,6 +11,7 @@ import pytest
 from uwsim import errors
 from uwsim.base import terminal
 from uwsim.base.numerics import compiling
+from uwsim.base.system_errors import as_run_failed
 from uwsim.cli import COMMANDS, app, exit_status, main
 
 
@@ -239,9 +240,9 @@ def test_an_error_of_normal_length_is_shown_whole() -> None:
 
 def test_what_the_system_refuses_while_a_run_is_on_is_a_failed_run() -> None:
     said = r"No such file or directory: out/result\.json"
-    with pytest.raises(errors.RunFailed, match=said), exit_status.running():
+    with pytest.raises(errors.RunFailed, match=said), as_run_failed():
         raise FileNotFoundError(2, "No such file or directory", "out/result.json")
-    with pytest.raises(BrokenPipeError), exit_status.running():
+    with pytest.raises(BrokenPipeError), as_run_failed():
         raise BrokenPipeError
 
 

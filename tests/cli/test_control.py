@@ -8,10 +8,11 @@ from pathlib import Path
 
 import pytest
 
+import uwsim
 from tests.support.short_benchmark import bench_of, write_benchmark
 from tests.support.short_trial import with_algorithm
 from uwsim.cli import main
-from uwsim.runs import control
+from uwsim.runs import execute
 from uwsim.runs.control import control_of, image_topic
 from uwsim.runs.run import Run
 
@@ -42,10 +43,13 @@ def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
         no_images = with_algorithm(found.plan, parameters={"image_topic": "/uwsim/camera1_info"})
         return replace(found, plan=no_images)
 
-    monkeypatch.setattr(control, "control_of", bound_to_fail)
+    monkeypatch.setattr(execute, "control_of", bound_to_fail)
     path, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
     assert main(["bench", str(path), "--level", "fog=0", "--out", str(out)]) == 0
     said = capsys.readouterr()
     assert "warning: the report lacks the control 'frozen', which failed: Topic '" in said.err
     assert f"report: {out}/report.html" in said.out
     assert (out / "report.html").is_file()
+    uwsim.bench(path, levels={"fog": [0]}, out=tmp_path / "python")
+    assert "warning: the report lacks the control 'frozen', which" in capsys.readouterr().err
+    assert (tmp_path / "python" / "report.html").is_file()

@@ -141,7 +141,7 @@ def play(algorithm: str, out: Path, *settings: str) -> Station:
             algorithm=algorithm,
             seed=1,
             repeat=1,
-            levels=["current=0.1"],
+            levels=[("current", 0.1)],
             settings=[f"{camera}.resw=320", f"{camera}.resh=240", *settings],
         )
     )

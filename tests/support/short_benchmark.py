@@ -4,6 +4,7 @@ import hashlib
 from pathlib import Path
 from typing import Any
 
+from uwsim.cli.options.levels import read_level
 from uwsim.results.result import Result
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.planning.make_plan import make_plan
@@ -66,7 +67,7 @@ def bench_of(
             seed=seed,
             repeat=repeat,
             mode=mode,
-            levels=levels or [],
+            levels=[read_level(text) for text in levels or ()],
             settings=settings or [],
             compat=compat or [],
             in_process=in_process,

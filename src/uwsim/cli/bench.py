@@ -2,30 +2,28 @@
 
 from __future__ import annotations
 
-import shutil
 import sys
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..analysis.load_reporter import load_reporter
 from ..analysis.repeats_note import repeats_note
 from ..base.files.file_names import file_names
 from ..base.interrupts import raise_from_now_on
+from ..base.system_errors import as_run_failed
 from ..base.terminal import warn
-from ..errors import AllErrors, BadSetting, RunFailed
-from ..runs.executors.choose import n_at_once
-from ..runs.foreign_code import announce_code
-from ..runs.planning.make_plan import make_plan, say_warnings
+from ..errors import AllErrors, BadSetting
 from ..runs.planning.plan_request import PlanRequest
-from ..runs.timing import Stopwatch, Timing
-from .exit_status import running
 from .options.client_options import ClientOptions
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, in_group
+from .options.levels import read_levels
 from .options.live import LiveOptions
 from .options.options import (
     CodeOptions,
@@ -41,8 +39,8 @@ from .output.progress import progress
 
 if TYPE_CHECKING:
     from ..results.result import Result
-    from ..runs.executors.background import BackgroundProcess
-    from ..runs.executors.executor import Executor, Outcome
+    from ..runs.execute import Callbacks
+    from ..runs.executors.executor import OnLevel
     from ..runs.planning.plan import Plan
     from ..runs.run import Run
     from ..runs.trial.onlooker import Onlooker
@@ -116,17 +114,19 @@ class BenchOptions:
         """Where the result goes."""
         return self.out or Path(f"{Path(self.task.benchmark).stem}.result")
 
-    def request(self, algorithm: str | None) -> PlanRequest:
-        """Return what is asked for of one algorithm."""
-        return replace(
-            request_of(self.task, self.changes, self.files),
-            algorithm=algorithm,
-            seed=self.seed,
-            repeat=self.repeat,
-            mode=self.mode,
-            levels=self.level or (),
-            client=self.outside.client_spec(),
-        )
+    def requests(self, levels: Sequence[tuple[str, float]], wrong: AllErrors) -> list[PlanRequest]:
+        """Return what is asked for of each algorithm, none with an error; collects errors."""
+        with wrong.kept():
+            request = replace(
+                request_of(self.task, self.changes, self.files),
+                seed=self.seed,
+                repeat=self.repeat,
+                mode=self.mode,
+                levels=levels,
+                client=self.outside.client_spec(),
+            )
+            return [replace(request, algorithm=name) for name in self.algorithm or (None,)]
+        return []
 
 
 def bench(context: typer.Context, options: BenchOptions) -> None:
@@ -137,17 +137,16 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     --resume continues an interrupted run; trials that are run again are recorded anew.
     """
     from ..results.directory import check, prepared
-    from ..runs.prepare import prepare_runs
+    from ..runs.execute import execute, plan_all, prepare_execution
+    from ..runs.executors.background import BackgroundProcess
 
-    wrong, executor, folders = AllErrors(), None, []
+    wrong, wrong_levels, folders = AllErrors(), AllErrors(), []
     options.outside.check(wrong, options.by.workers)
     how = {"resume": options.resume, "overwrite": options.overwrite}
+    requests = options.requests(read_levels(options.level, wrong_levels), wrong)
+    executor, plans = plan_all(requests, options.by.workers, options.by.callback_limit, wrong)
     with wrong.kept():
-        executor = options.by.executor()
-    plans: list[Plan] = []
-    for name in options.algorithm or (None,):
-        with wrong.kept():
-            plans.append(make_plan(options.request(name)))
+        wrong_levels.check()
     with wrong.kept():
         check_live(options, plans)
     with wrong.kept():
@@ -159,27 +158,34 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         if len(plans) == len(options.algorithm or (None,)):
             recordings = recordings_of(options, plans, folders)
     wrong.check()
-    assert executor is not None
 
-    watch = Stopwatch()
-    announce_code(plans[0].scene)
-    runs = prepare_runs(plans, options.directory, folders)
-    record(runs, recordings, is_resumed=options.resume)
-    say_warnings(plans[0])
+    execution = prepare_execution(
+        plans,
+        executor,
+        options.directory,
+        workers=options.by.workers,
+        folders=folders,
+        command=context.obj,
+    )
+    record(execution.runs, recordings, is_resumed=options.resume)
     raise_from_now_on()
     if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
         print(note, file=sys.stderr)
     with (
-        running(),
+        as_run_failed(),
         looked_at(options.live, plans) as onlooker,  # first: a port that is taken changes nothing
-        prepared(options.directory, **how, results=folders),
     ):
         if onlooker is not None:
             from ..runs.executors.executor import SerialExecutor
 
             limit = options.by.callback_limit or None
-            executor = SerialExecutor(onlooker, callback_limit=limit)
-        run_and_finish(runs, executor, options.by.workers, watch, context.obj)
+            execution = replace(execution, executor=SerialExecutor(onlooker, callback_limit=limit))
+        execute(
+            execution,
+            prepared(options.directory, **how, results=folders),
+            partial(BackgroundProcess, load_reporter),
+            RunOutput(execution.runs, options.by.at_once).callbacks(),
+        )
 
 
 def recordings_of(
@@ -239,67 +245,6 @@ def looked_at(live: LiveOptions, plans: Sequence[Plan]) -> Iterator[Onlooker | N
         yield view
 
 
-def run_and_finish(
-    runs: Sequence[Run],
-    executor: Executor,
-    workers: str,
-    watch: Stopwatch,
-    command: Sequence[str],
-) -> None:
-    """Run one benchmark with each algorithm, and write and print all results.
-
-    Args:
-        runs: an algorithm each.
-        executor: who executes the trials.
-        workers: the same, as it was said.
-        watch: started with the command.
-        command: what was typed behind ``uwsim``.
-
-    Raises:
-        UwsimError: the first failure; the other algorithms are run and written.
-        RunFailed: a simulation failed, or an algorithm broke in every row.
-    """
-    from ..results.provenance import save_beginning
-    from ..runs.control import control_of, wants_control
-    from ..runs.executors.background import BackgroundProcess
-    from ..runs.failed_algorithms import (
-        refuse_if_a_process_ended,
-        refuse_if_a_simulation_failed,
-        refuse_if_all_broke,
-    )
-    from ..runs.sealed import is_foreign
-
-    for run in runs:
-        if message := save_beginning(command, run.out):
-            warn(message)
-    with BackgroundProcess(load_reporter) as background:
-        controls = [control_of(run) for run in runs if wants_control(run.plan)]
-        waits = any(is_foreign(run.plan) for run in runs)  # it could read the control's rows
-        if controls and not waits:
-            background.ask(controls[0])
-        outcome = run_with_progress(runs, executor, n_at_once(workers))
-        failed = {id(run) for run, _ in outcome.failures}
-        if controls and len(failed) < len(runs):
-            if waits:
-                background.ask(controls[0])
-            wait_for_controls(background, controls)
-        timing = Timing(
-            began=watch.began, wall=watch.passed(), workers=workers, command=command, runs=runs
-        )
-        for run, result in zip(runs, outcome.results, strict=True):
-            if id(run) not in failed:
-                if len(runs) > 1:
-                    print(f"{run.plan.algorithm.name}:")
-                finish(run, result, background, timing)
-    if len(runs) > 1 and not failed:
-        print("compare: uwsim compare " + " ".join(str(run.out) for run in runs))
-    for _, error in outcome.failures:
-        raise error
-    refuse_if_a_simulation_failed(runs, outcome.results)
-    refuse_if_a_process_ended(runs, outcome.results)
-    refuse_if_all_broke(runs, outcome.results)
-
-
 def folders_of(algorithms: Sequence[str]) -> list[str]:
     """Name the folder of each algorithm's result; none where there is one algorithm.
 
@@ -316,54 +261,52 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
     return list(file_names(algorithms, taken=FOLDERS).values())
 
 
-def run_with_progress(runs: Sequence[Run], executor: Executor, at_once: int) -> Outcome:
-    """Run one benchmark with each algorithm, showing progress."""
-    from ..runs.executors.executor import run_each
+class RunOutput:
+    """What is printed of runs.
 
-    names = ", ".join(run.plan.algorithm.name for run in runs)
-    title = f"{Path(runs[0].plan.benchmark.path).stem} ({names})"
-    total = sum(len(trial.levels) for run in runs for trial in run.plan.trials())
-    done = sum(run.n_finished() for run in runs)
-    with progress(title, total, done=done, of="levels", at_once=at_once) as on_level:
-        return run_each(runs, executor, on_level=on_level)
+    Args:
+        runs: an algorithm each.
+        at_once: how many levels run at one time.
+    """
 
+    def __init__(self, runs: Sequence[Run], at_once: int) -> None:
+        self._runs, self._at_once = runs, at_once
+        self._n_written = 0
 
-def wait_for_controls(background: BackgroundProcess, controls: Sequence[Run]) -> None:
-    """Wait for the control of a run; the results are complete without it."""
-    from ..runs.control import CONTROL
+    def callbacks(self) -> Callbacks:
+        """Return what prints."""
+        from ..runs.execute import Callbacks
 
-    try:
-        background.wait()
-        for other in controls[1:]:  # the control looks at nothing: it is the same for all
-            shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
-    except (RunFailed, OSError) as error:
-        warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
+        return Callbacks(
+            progress=self._progress, on_rows=self._print_table, on_report=self._print_written
+        )
 
+    def _progress(self, title: str, total: int, done: int) -> AbstractContextManager[OnLevel]:
+        """Show how far the runs are."""
+        return progress(title, total, done=done, of="levels", at_once=self._at_once)
 
-def load_reporter() -> Callable[[Path], object]:
-    """Import and return the function that draws a report."""
-    from ..analysis.report import write_report
+    def _print_table(self, run: Run, result: Result) -> None:
+        """Print the rows of a run."""
+        from ..results.table import table
 
-    return write_report
+        if len(self._runs) > 1:
+            print(f"{run.plan.algorithm.name}:")
+        console = standard_output()
+        console.print(table(result, width=console.width))
 
+    def _print_written(self, run: Run, result: Result) -> None:
+        """Print what reduces confidence in a run, and where its result is."""
+        from ..results.directory import REPORT
+        from ..results.refused_lines import refused_lines
 
-def finish(run: Run, result: Result, background: BackgroundProcess, timing: Timing) -> None:
-    """Write provenance, plots and report, and print the table."""
-    from ..results.directory import REPORT
-    from ..results.provenance import carried, save_provenance
-    from ..results.refused_lines import refused_lines
-    from ..results.table import table
-
-    save_provenance({**timing.provenance(run), **carried(run.out)}, run.out)
-    background.ask(run.out)
-    console = standard_output()
-    console.print(table(result, width=console.width))
-    background.wait()
-    report = run.out / REPORT
-    for line in refused_lines(result):
-        warn(line)
-    shown = {remark.text.partition(": ")[2] for remark in result.remarks}  # beside a status
-    for note in result.run.notes or ():
-        if note.partition(": ")[2] not in shown:
-            warn(note)
-    print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
+        for line in refused_lines(result):
+            warn(line)
+        shown = {remark.text.partition(": ")[2] for remark in result.remarks}  # beside a status
+        for note in result.run.notes or ():
+            if note.partition(": ")[2] not in shown:
+                warn(note)
+        report = run.out / REPORT
+        print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")
+        self._n_written += 1
+        if self._n_written == len(self._runs) > 1:
+            print("compare: uwsim compare " + " ".join(str(run.out) for run in self._runs))

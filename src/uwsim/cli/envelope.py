@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -10,25 +9,20 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..base.interrupts import raise_from_now_on
-from ..base.terminal import printable, warn
+from ..base.terminal import printable
 from ..envelope.directory import check_out, prepared
 from ..envelope.search_request import SearchRequest, search_request
 from ..errors import AllErrors, BadSetting
-from ..runs.foreign_code import announce_code
-from ..runs.planning.make_plan import make_plan, say_warnings
-from ..runs.planning.option_values import chosen_level
 from ..runs.planning.plan_request import PlanRequest
-from ..runs.timing import Stopwatch
-from .exit_status import running
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group
+from .options.levels import read_levels
 from .options.options import CodeOptions, SettingOptions, TaskOptions, WorkerOptions, request_of
 from .output.progress import progress
 
 if TYPE_CHECKING:
     from ..envelope import Envelope
-    from ..runs.executors.executor import Executor
-    from ..runs.planning.plan import Plan
+    from ..runs.execute import Execution
 
 MAX_REPEATS = 1000
 
@@ -94,14 +88,6 @@ class SearchOptions:
         ),
     ] = None
 
-    def fixed(self, wrong: AllErrors) -> list[tuple[str, float]]:
-        """Read ``--level``; keeps each that is wrong."""
-        chosen = []
-        for text in self.level or []:
-            with wrong.kept():
-                chosen.append(chosen_level(text))
-        return chosen
-
 
 @dataclass(frozen=True, kw_only=True)
 class EnvelopeOptions:
@@ -156,14 +142,17 @@ class EnvelopeOptions:
         """One a search."""
         return tuple(range(self.seed, self.seed + self.repeat))
 
-    def plan_request(self) -> PlanRequest:
-        """Return what is asked for of each run."""
-        return replace(
-            request_of(self.task, self.changes, self.files),
-            algorithm=self.algorithm,
-            seed=self.seed,
-            mode="independent",
-        )
+    def plan_requests(self, wrong: AllErrors) -> list[PlanRequest]:
+        """Return what is asked for of each run, none with an error; collects errors."""
+        with wrong.kept():
+            request = replace(
+                request_of(self.task, self.changes, self.files),
+                algorithm=self.algorithm,
+                seed=self.seed,
+                mode="independent",
+            )
+            return [request]
+        return []
 
 
 def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
@@ -181,26 +170,31 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
     seeds.
     """
     from ..envelope import plan_for
+    from ..runs.execute import plan_all, prepare_execution
 
-    wrong, executor, plan, request = AllErrors(), None, None, None
+    wrong, request, search = AllErrors(), None, options.search
+    workers = options.by.workers
+    requests = options.plan_requests(wrong)
+    executor, plans = plan_all(requests, workers, options.by.callback_limit, wrong)
     with wrong.kept():
-        executor = options.by.executor()
-    with wrong.kept():
-        check_numbers(options.search.confidence, options.repeat)
-    with wrong.kept():
-        plan = make_plan(options.plan_request())
-    search = options.search
-    chosen = search.fixed(wrong)
+        check_numbers(search.confidence, options.repeat)
+    chosen = read_levels(search.level, wrong)
     with wrong.kept():
         check_out(options.directory, resume=options.resume, overwrite=options.overwrite)
-    if plan is not None:
+    for plan in plans:
         ends = (search.start, search.stop, search.tolerance)
         request = search_request(plan, search.over, search.until, ends, chosen, wrong)
     wrong.check()
-    assert executor is not None
-    assert plan is not None
     assert request is not None
-    search_and_write(plan_for(plan), request, executor, options, context.obj)
+    execution = prepare_execution(
+        [plan_for(plan) for plan in plans],
+        executor,
+        options.directory,
+        workers=workers,
+        command=context.obj,
+    )
+    raise_from_now_on()
+    search_and_write(execution, request, options)
 
 
 def check_numbers(confidence: float, repeat: int) -> None:
@@ -212,36 +206,22 @@ def check_numbers(confidence: float, repeat: int) -> None:
 
 
 def search_and_write(
-    plan: Plan,
-    request: SearchRequest,
-    executor: Executor,
-    options: EnvelopeOptions,
-    command: Sequence[str],
+    execution: Execution, request: SearchRequest, options: EnvelopeOptions
 ) -> None:
     """Search, write and print the result."""
     from ..envelope.find import find, most_runs
     from ..envelope.plot import draw
-    from ..results.provenance import carried, machine, save_beginning, save_provenance
-    from ..runs.prepare import prepare_run
+    from ..runs.execute import begun
 
-    directory = options.directory
-    announce_code(plan.scene)
-    run = prepare_run(plan, directory)
-    say_warnings(plan)
-    raise_from_now_on()
-    watch = Stopwatch()
+    [run], directory = execution.runs, options.directory
     asked = request.asked(options.seeds, options.search.confidence)
-    with running(), prepared(directory, resume=options.resume, overwrite=options.overwrite):
-        if message := save_beginning(command, directory):
-            warn(message)
-        title = f"{Path(plan.benchmark.path).stem} ({plan.algorithm.name}), at most"
-        most = most_runs(asked)
+    with begun(execution, prepared(directory, resume=options.resume, overwrite=options.overwrite)):
+        title, most = f"{execution.title}, at most", most_runs(asked)
         with progress(title, most, of="runs", at_once=options.by.at_once) as on_run:
-            envelope = find(run, request, asked, executor, on_run)
+            envelope = find(run, request, asked, execution.executor, on_run)
         envelope.save(directory)
         draw(envelope, directory)
-        how = {"wall_s": watch.passed(), "command": list(command)}
-        save_provenance({**machine(), **how, **carried(directory)}, directory)
+        execution.save_provenance(run, {"wall_s": execution.stopwatch.passed()})
     tell(envelope, directory)
 
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import typer
 
 from ..base import interrupts
+from ..base.system_errors import system_error_text
 from ..base.terminal import printable
-from ..errors import RUN_ERRORS, FileError, RunFailed, SeveralErrors, UwsimError
+from ..errors import RUN_ERRORS, FileError, SeveralErrors, UwsimError
 
 WRONG_INPUT = 2
 RUN_FAILED = 3
@@ -47,24 +45,7 @@ def one_line(error: BaseException) -> str:
     elif isinstance(error, UwsimError):
         message = str(error)
     elif isinstance(error, OSError) and error.filename is not None:
-        message = _of_system(error)
+        message = system_error_text(error)
     else:
         message = f"{type(error).__name__}: {error} (--traceback shows where)"
     return printable(f"uwsim: {message.strip()}") if message.strip() else ""
-
-
-@contextmanager
-def running() -> Iterator[None]:
-    """Turn system errors in this block into `RunFailed`, because the inputs were checked before."""
-    try:
-        yield
-    except BrokenPipeError:
-        raise  # the reader of the output has closed it
-    except OSError as error:
-        raise RunFailed(_of_system(error)) from error
-
-
-def _of_system(error: OSError) -> str:
-    if error.filename is None:
-        return error.strerror or str(error)
-    return f"{error.strerror}: {error.filename}"

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from ..base.interrupts import raise_from_now_on
 from ..base.read_parameters import unread_note
+from ..base.system_errors import as_run_failed
 from ..base.terminal import print_warnings, warn
 from ..errors import AllErrors, BadSetting, RunFailed, did_you_mean
 from ..runs.foreign_code import announce_code, refuse_code
@@ -20,7 +21,6 @@ from ..runs.planning.make_plan import OF_ALGORITHM, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.program import load_program
 from ..runs.stand_ins import warn_of_stand_ins
-from .exit_status import running
 from .options.connections import ConnectionOptions, connected
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
@@ -233,7 +233,7 @@ def run_and_report(
             node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
         for sentence in node.unconnected():
             warn(sentence)
-    with running(), ExitStack() as last, ExitStack() as stack:
+    with as_run_failed(), ExitStack() as last, ExitStack() as stack:
         stack.enter_context(aside)
         recorder = None
         if output.record is not None:

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ..base.interrupts import raise_from_now_on
+from ..base.system_errors import as_run_failed
 from ..base.terminal import printable
 from ..errors import ResultError
 from ..runs.foreign_code import announce_code
 from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
-from .exit_status import RUN_FAILED, running
+from .exit_status import RUN_FAILED
 from .options.help_texts import FILES, RUN, in_group
 from .options.options import CodeOptions, ResultArgument, WorkerOptions
 from .output.progress import progress
@@ -168,7 +169,10 @@ def verify(
     for line in others.values():
         typer.echo(printable(line))
     raise_from_now_on()
-    with running(), progress("replaying", n_levels, of="levels", at_once=by.at_once) as on_level:
+    with (
+        as_run_failed(),
+        progress("replaying", n_levels, of="levels", at_once=by.at_once) as on_level,
+    ):
         found = compare(directory, stored, run, trials, executor=executor, on_level=on_level)
     for line in tell(found, n_whole, others):
         typer.echo(printable(line))

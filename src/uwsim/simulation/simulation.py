@@ -100,8 +100,7 @@ class Simulation:
         }
         """What publishes images, by topic."""
         self._access = TopicAccess(self.bus, read)
-        self.state = self._make_state()
-        """All that changes of it; it changes while the simulation runs, a ``copy()`` does not."""
+        self._state = self._make_state()
         self._animate()
 
     def _make_state(self) -> State:
@@ -153,6 +152,11 @@ class Simulation:
     def model(self) -> SceneModel:
         """What does not change while it runs."""
         return self.world.model
+
+    @property
+    def state(self) -> State:
+        """All that changes of it; it changes while the simulation runs, a ``copy()`` does not."""
+        return self._state
 
     @property
     def bus(self) -> Bus:

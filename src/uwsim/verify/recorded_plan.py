@@ -78,7 +78,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         seed=_needed(run, "seed"),
         repeat=_needed(run, "repeats"),
         mode=_needed(run, "mode"),
-        levels=[f"{name}={value!r}" for name, value in run.levels or ()],
+        levels=run.levels or (),
         settings=[s for s in settings if not (is_blind and s.startswith("algorithm."))],
         compat=run.compatibility or (),
         data_path=overrides.data_path,

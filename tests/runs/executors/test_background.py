@@ -14,7 +14,7 @@ import pytest
 
 from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
 from tests.support.synthetic_results import one_level
-from uwsim.cli.bench import load_reporter
+from uwsim.analysis.load_reporter import load_reporter
 from uwsim.errors import RunFailed
 from uwsim.results import journal
 from uwsim.results.result_file import save
@@ -82,7 +82,7 @@ def test_a_control_whose_process_died_on_the_way_has_the_same_bytes(tmp_path: Pa
 
 PARENT = """
 import time
-from uwsim.cli.bench import load_reporter
+from uwsim.analysis.load_reporter import load_reporter
 from uwsim.runs.executors.background import BackgroundProcess
 with BackgroundProcess(load_reporter) as background:
     print(background._process.pid, flush=True)

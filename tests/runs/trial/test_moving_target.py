@@ -27,7 +27,7 @@ def test_guesses_published_in_a_burst_score_what_they_are_worth(tmp_path: Path) 
 
 def blind(algorithm: str, out: Path) -> dict[str, float]:
     """Play the clear level without drawing anything; returns the measures."""
-    plan = replace(plan_of(algorithm, ["fog=0"]), is_blind=True)
+    plan = replace(plan_of(algorithm, [("fog", 0.0)]), is_blind=True)
     [row] = [row for row in execute(plan, plan.trials()[0]) if isinstance(row, LevelRow)]
     assert row.status == "ok"
     return {name: value for name, (value, _) in row.measures.items() if value is not None}
@@ -44,14 +44,14 @@ def test_in_clear_water_a_tracker_beats_a_blob_of_colour(tmp_path: Path) -> None
 
 
 def totals(algorithm: str, out: Path) -> dict[float, float | None]:
-    plan = plan_of(algorithm, ["fog=0", "fog=0.9"])
+    plan = plan_of(algorithm, [("fog", 0.0), ("fog", 0.9)])
     inputs, renderer = hash_inputs(plan)
     [result] = run_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
     fogs = [value for value in result.numbers("fog") if value is not None]
     return dict(zip(fogs, result.numbers("total"), strict=True))
 
 
-def plan_of(algorithm: str, levels: list[str]) -> Plan:
+def plan_of(algorithm: str, levels: list[tuple[str, float]]) -> Plan:
     return make_plan(
         PlanRequest(
             benchmark="visibility-moving", algorithm=algorithm, seed=1, repeat=1, levels=levels

@@ -13,7 +13,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import Self, cast
 
 from ...base.terminal import ignore_casts
 from ...benchmark.plugin import raised
@@ -28,25 +28,59 @@ Reporter = Callable[[], Callable[[Path], object]]
 """Loads what draws the report of a result directory, which is heavy; returns it."""
 
 
-class BackgroundProcess:
-    """Executes jobs one after the other in its own process, which ends with this one.
-
-    A context manager: whatever the process was about when the block is left, it is stopped.
-    """
+class Jobs:
+    """Executes jobs one after the other in this process, each when it is waited for."""
 
     def __init__(self, reporter: Reporter) -> None:
         self._reporter = reporter
+        self._asked: deque[Job] = deque()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Hold nothing."""
+
+    def ask(self, job: Job) -> None:
+        """Give it something to do."""
+        self._asked.append(job)
+
+    def wait(self) -> None:
+        """Wait until the oldest job that was not waited for is done.
+
+        Raises:
+            RunFailed: it could not be done.
+        """
+        why = self._execute(self._asked.popleft())
+        if why is not None:
+            raise RunFailed(why)
+
+    def _execute(self, job: Job) -> str | None:
+        """Do a job; returns why it could not be done."""
+        return _done(job, self._reporter)
+
+
+class BackgroundProcess(Jobs):
+    """Executes jobs one after the other in its own process, which ends with this one.
+
+    A context manager: whatever the process was about when the block is left, it is stopped. The
+    main module of a program that starts one is imported there again.
+    """
+
+    def __init__(self, reporter: Reporter) -> None:
+        super().__init__(reporter)
         context = multiprocessing.get_context("spawn")
         self._here, there = context.Pipe()
         parent, self._parent = context.Pipe(duplex=False)
         self._process = context.Process(target=_serve, args=(there, parent, reporter), daemon=True)
         start_ignoring_interrupts(self._process)
-        self._asked: deque[Job] = deque()
         there.close()
         parent.close()
-
-    def __enter__(self) -> Self:
-        return self
 
     def __exit__(
         self,
@@ -61,23 +95,16 @@ class BackgroundProcess:
 
     def ask(self, job: Job) -> None:
         """Give it something to do."""
-        self._asked.append(job)
+        super().ask(job)
         with suppress(OSError):  # it is gone: `wait` sees to the job
             self._here.send(job)
 
-    def wait(self) -> None:
-        """Wait until the oldest job that was not waited for is done; do it here if it is lost.
-
-        Raises:
-            RunFailed: it could not be done.
-        """
-        job = self._asked.popleft()
+    def _execute(self, job: Job) -> str | None:
+        """Wait for a job; do it here if the process is lost."""
         try:
-            why = self._here.recv()
+            return cast("str | None", self._here.recv())
         except (EOFError, OSError):  # the process died
-            why = _done(job, self._reporter)
-        if why is not None:
-            raise RunFailed(why)
+            return super()._execute(job)
 
 
 def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:

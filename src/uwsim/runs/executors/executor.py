@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Protocol
 
 from ...base.interrupts import is_of_user, raise_if_interrupted
+from ...base.system_errors import system_error_text
 from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimError
 from ...results.journal import path_of
 from ...results.result import Result
@@ -172,7 +173,7 @@ def found_by_running(error: Exception) -> Exception:
     if isinstance(error, UwsimError) and not isinstance(error, RUN_ERRORS):
         failed = RunFailed(str(error))
     elif isinstance(error, OSError) and error.filename is not None:
-        failed = RunFailed(f"{error.strerror}: {error.filename}")
+        failed = RunFailed(system_error_text(error))
     else:
         return error
     failed.__cause__ = error
@@ -243,6 +244,12 @@ class Outcome:
     """One each, as far as it ran; also on disk."""
     failures: tuple[tuple[Run, Exception], ...]
     """Runs that failed, and why, in the order in which it happened."""
+
+    def finished(self, runs: Sequence[Run]) -> list[tuple[Run, Result]]:
+        """Return those of the runs that did not fail, with their results."""
+        failed = {id(run) for run, _ in self.failures}
+        pairs = zip(runs, self.results, strict=True)
+        return [(run, result) for run, result in pairs if id(run) not in failed]
 
 
 def run_each(

@@ -75,7 +75,9 @@ def make_plan(request: PlanRequest) -> Plan:
         if scene is not None and request.no_code:
             refuse_code(scene)
     with wrong.kept():
-        if not (request.algorithm or "").startswith(PREFIX):  # else it has been said what is wrong
+        kind = request.algorithm_class
+        name = request.algorithm or ""
+        if kind is None and not name.startswith(PREFIX):  # else it has been said what is wrong
             kind = _algorithm(request, read)
     with wrong.kept():
         check_client(request, parameters)

@@ -1,4 +1,4 @@
-"""Parsing option texts: ``NAME=VALUE``, modes, levels, names of quirks."""
+"""Checking options: settings ``NAME=VALUE``, modes, levels, names of quirks."""
 
 from __future__ import annotations
 
@@ -43,17 +43,16 @@ def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
 
 
 def levels_of(
-    texts: Sequence[str], spec: BenchmarkSpec | None, wrong: AllErrors
+    wanted: Sequence[tuple[str, float]], spec: BenchmarkSpec | None, wrong: AllErrors
 ) -> tuple[tuple[str, float], ...]:
-    """Parse ``--level``; collects errors and levels that the sweep does not have."""
+    """Return the wanted levels that the sweep has; collects errors for the others."""
     from ...benchmark import updaters
     from .plan import chosen_levels
 
-    levels = () if spec is None or not texts else updaters.levels(spec.scene_updater)
+    levels = () if spec is None or not wanted else updaters.levels(spec.scene_updater)
     chosen = []
-    for text in texts:
+    for pair in wanted:
         with wrong.kept():
-            pair = chosen_level(text)
             if levels:
                 chosen_levels(levels, [pair])
             chosen.append(pair)
@@ -66,15 +65,6 @@ def split(setting: str, option: str) -> tuple[str, str]:
     if not equals or not name.strip():
         raise BadSetting(f"{option} {setting!r}: expected NAME=VALUE.")
     return name.strip(), value.strip()
-
-
-def chosen_level(text: str) -> tuple[str, float]:
-    """Read ``fog=0.5``; raises BadSetting."""
-    name, value = split(text, "--level")
-    number = number_or_text(value)
-    if isinstance(number, str):
-        raise BadSetting(f"--level {text!r}: expected a number behind {name!r}.")
-    return name, number
 
 
 def number_or_text(text: str) -> float | str:

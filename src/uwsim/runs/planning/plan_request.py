@@ -1,4 +1,4 @@
-"""A request for a run: the user's options as text, before any file is read."""
+"""A request for a run: the user's options, before any file is read."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from ...bus import Algorithm
     from ...middleware.lockstep.spec import ClientSpec
 
 
@@ -21,14 +22,16 @@ class PlanRequest:
     """A scene file or a bundled name; without it the one that the benchmark names."""
     algorithm: str | None = None
     """A name or ``module:Class``; without it the one that the benchmark names."""
+    algorithm_class: type[Algorithm] | None = None
+    """The class that ``algorithm`` names, where a program has it; None: it is looked for."""
     seed: int = 0
     """Seed of the first repeat."""
     repeat: int = 1
     """Number of repeats."""
     mode: str | None = None
     """``sequential`` or ``independent``; None: that of the benchmark."""
-    levels: Sequence[str] = ()
-    """``NAME=VALUE`` of the levels to run; all without any."""
+    levels: Sequence[tuple[str, float]] = ()
+    """Names and values of the levels to run; all without any."""
     settings: Sequence[str] = ()
     """``PATH=VALUE`` of each ``--set``."""
     compat: Sequence[str] = ()

@@ -26,7 +26,7 @@ def with_stored_pilot(request: PlanRequest) -> tuple[PlanRequest, dict[int, byte
         ResultError: there is no such result.
     """
     name = request.algorithm or ""
-    if not name.startswith(PREFIX):
+    if not name.startswith(PREFIX) or request.algorithm_class is not None:
         return request, {}
     given = Path(name.removeprefix(PREFIX))
     directory = given.parent if given.name == "result.json" else given

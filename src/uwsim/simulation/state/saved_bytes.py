@@ -35,7 +35,10 @@ def pack(value: object) -> bytes:
         UwsimError: something in it has no bytes.
     """
     try:
-        return pickle.dumps((__version__, _FLAT[type(value)](value)), protocol=5)
+        pickler = pickle.Pickler(stream := io.BytesIO(), protocol=5)
+        pickler.fast = True  # the same bytes whichever values are one object
+        pickler.dump((__version__, _FLAT[type(value)](value)))
+        return stream.getvalue()
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise UwsimError(f"The state cannot be saved: {error}.") from None
 

@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import uwsim
-from uwsim.messages import TwistStamped, Vector3
+from uwsim.currents import Constant
+from uwsim.messages import CameraInfo, TwistStamped, Vector3
 
 SCENES = ["currents-scene", "visibility-moving-scene", "cirs"]
 
@@ -144,4 +145,77 @@ def test_with_an_algorithm_attached_nothing_is_saved() -> None:
     with uwsim.load("visibility-scene") as simulation:
         simulation.attach(Quiet())
         with pytest.raises(uwsim.UwsimError, match="Quiet is attached"):
+            simulation.save()
+
+
+class Counting:
+    """An algorithm that saves itself: it counts messages and drives by a timer."""
+
+    def __init__(self) -> None:
+        self.n_heard = 0
+
+    def start(self, node: uwsim.Node) -> None:
+        drive = node.publisher("/dataNavigator", TwistStamped)
+        random = node.random
+
+        def steer() -> None:
+            twist = TwistStamped()
+            twist.twist.linear = Vector3(x=0.1 * random.random(), y=0.01 * self.n_heard, z=0.0)
+            drive(twist)
+
+        node.subscribe("/uwsim/camera1_info", CameraInfo, self.hear)
+        node.every(0.03, steer)
+
+    def hear(self, _message: CameraInfo) -> None:
+        self.n_heard += 1
+
+    def save(self) -> bytes:
+        return self.n_heard.to_bytes(4, "little")
+
+    def restore(self, data: bytes) -> None:
+        self.n_heard = int.from_bytes(data, "little")
+
+
+def test_an_algorithm_that_saves_itself_goes_on_with_the_simulation() -> None:
+    with uwsim.load("currents-scene", seed=4) as simulation:
+        algorithm = Counting()
+        simulation.attach(algorithm)
+        simulation.advance(0.3)
+        saved, state, heard = simulation.save(), simulation.state.copy(), algorithm.n_heard
+        assert heard > 0
+        simulation.advance(0.3)
+        later = simulation.state.copy()
+        assert algorithm.n_heard > heard
+        for again in (saved, state):
+            simulation.restore(again)
+            assert algorithm.n_heard == heard
+            simulation.advance(0.3)
+            assert simulation.state == later
+
+
+def test_a_copy_of_the_state_stays_and_has_bytes() -> None:
+    with uwsim.load("currents-scene") as simulation:
+        first = simulation.state.copy()
+        assert first == simulation.state
+        simulation.advance(0.01)
+        assert first != simulation.state
+        assert uwsim.State.from_bytes(first.to_bytes()) == first
+        assert uwsim.State.from_bytes(simulation.save()) == simulation.state
+        simulation.restore(first)
+        assert first == simulation.state
+        assert simulation.time == 0.0
+
+
+def test_a_current_of_a_programs_own_class_has_no_bytes() -> None:
+    class Own(Constant):
+        pass
+
+    with uwsim.load("currents-scene") as simulation:
+        simulation.set_current(Own((0.1, 0.0, 0.0)))
+        copy = simulation.state.copy()
+        with pytest.raises(uwsim.UwsimError, match="The state cannot be saved"):
+            simulation.save()
+        simulation.set_current(None)
+        simulation.restore(copy)
+        with pytest.raises(uwsim.UwsimError, match="The state cannot be saved"):
             simulation.save()

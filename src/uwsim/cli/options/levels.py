@@ -1,0 +1,26 @@
+"""Reading the texts of ``--level``, as ``fog=0.5``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...errors import AllErrors, BadSetting
+from ...runs.planning.option_values import number_or_text, split
+
+
+def read_levels(texts: Sequence[str] | None, wrong: AllErrors) -> list[tuple[str, float]]:
+    """Read every ``--level``; collects errors."""
+    levels = []
+    for text in texts or ():
+        with wrong.kept():
+            levels.append(read_level(text))
+    return levels
+
+
+def read_level(text: str) -> tuple[str, float]:
+    """Read ``fog=0.5``; raises BadSetting."""
+    name, value = split(text, "--level")
+    number = number_or_text(value)
+    if isinstance(number, str):
+        raise BadSetting(f"--level {text!r}: expected a number behind {name!r}.")
+    return name, number

@@ -1,0 +1,266 @@
+"""Executing runs: requests -> plans -> runs -> rows, controls, provenance and reports.
+
+``uwsim bench`` and `uwsim.bench` execute their runs here: `plan_all`, `prepare_execution`,
+`execute`. ``uwsim envelope`` executes the runs of its search within `begun`.
+"""
+
+from __future__ import annotations
+
+import datetime
+import shutil
+import time
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, field
+from importlib.metadata import version
+from pathlib import Path
+
+from ..base.system_errors import as_run_failed
+from ..base.terminal import warn
+from ..errors import AllErrors, RunFailed
+from ..results.provenance import carried, machine, save_beginning, save_provenance
+from ..results.result import Result
+from .control import CONTROL, control_of, wants_control
+from .executors.background import Jobs
+from .executors.choose import executor_of
+from .executors.executor import Executor, OnLevel, Outcome, run_each
+from .failed_algorithms import (
+    refuse_if_a_process_ended,
+    refuse_if_a_simulation_failed,
+    refuse_if_all_broke,
+)
+from .foreign_code import announce_code
+from .planning.make_plan import make_plan, say_warnings
+from .planning.plan import Plan
+from .planning.plan_request import PlanRequest
+from .prepare import prepare_runs
+from .run import Run
+from .sealed import is_foreign
+
+PACKAGES = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
+"""Packages whose versions are recorded."""
+Progress = Callable[[str, int, int], AbstractContextManager[OnLevel]]
+"""Shows how far runs are; takes their title, the number of levels, and how many are finished."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stopwatch:
+    """When a run began, and how long it has taken since.
+
+    The time of day may be set while a run lasts; durations are measured by a monotonic clock.
+    """
+
+    began: float = field(default_factory=time.time)
+    """Time of day [s since 1970]."""
+    start: float = field(default_factory=time.monotonic)
+    """The same moment on the clock that only runs [s]."""
+
+    def passed(self) -> float:
+        """How long ago that was [s]."""
+        return time.monotonic() - self.start
+
+
+@dataclass(frozen=True, kw_only=True)
+class Execution:
+    """Runs that are executed together, and what is recorded of it."""
+
+    runs: Sequence[Run]
+    """The runs of one benchmark, an algorithm each."""
+    executor: Executor
+    """Who executes the trials."""
+    workers: str
+    """The same, as the command names it."""
+    command: Sequence[str] = ()
+    """What was typed behind ``uwsim``; nothing if a program runs it."""
+    stopwatch: Stopwatch = field(default_factory=Stopwatch)
+    """Runs since the files were read."""
+
+    @property
+    def title(self) -> str:
+        """The benchmark and its algorithms."""
+        names = ", ".join(run.plan.algorithm.name for run in self.runs)
+        return f"{Path(self.runs[0].plan.benchmark.path).stem} ({names})"
+
+    def timing(self) -> dict[str, object]:
+        """Return when and how fast the runs were executed until now."""
+        wall, simulated = self.stopwatch.passed(), sum(run.simulated_s for run in self.runs)
+        began = datetime.datetime.fromtimestamp(self.stopwatch.began, datetime.UTC)
+        return {
+            "began": began.isoformat(),
+            "algorithms": [run.plan.algorithm.name for run in self.runs],
+            "wall_s": wall,
+            "simulated_s": simulated,
+            "real_time_factor": simulated / wall if wall > 0.0 else None,
+            "workers": int(self.workers) if self.workers.isdigit() else self.workers,
+        }
+
+    def save_provenance(self, run: Run, facts: Mapping[str, object]) -> None:
+        """Write facts, command, machine and packages; none of it enters a score."""
+        own = {
+            "command": list(self.command),
+            **machine(),
+            "packages": {name: version(name) for name in PACKAGES},
+        }
+        save_provenance({**facts, **own, **carried(run.out)}, run.out)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Callbacks:
+    """The functions that are called while runs are executed."""
+
+    progress: Progress
+    """Shows how many levels are finished."""
+    on_rows: Callable[[Run, Result], None] = lambda run, result: None
+    """Called when the rows of a run are complete, and its report is being drawn."""
+    on_report: Callable[[Run, Result], None] = lambda run, result: None
+    """Called when the report of a run is drawn."""
+
+
+def plan_all(
+    requests: Sequence[PlanRequest], workers: str, callback_limit: float, wrong: AllErrors
+) -> tuple[Executor | None, list[Plan]]:
+    """Choose the executor and make the plans; collects all errors.
+
+    Args:
+        requests: what is asked for of each algorithm.
+        workers: how many, or ``ray``.
+        callback_limit: how long a call into an algorithm may take [s]; 0 for ever.
+        wrong: keeps what is wrong.
+    """
+    executor: Executor | None = None
+    with wrong.kept():
+        executor = executor_of(workers, callback_limit)
+    plans = []
+    for request in requests:
+        with wrong.kept():
+            plans.append(make_plan(request))
+    return executor, plans
+
+
+def prepare_execution(
+    plans: Sequence[Plan],
+    executor: Executor | None,
+    out: Path,
+    *,
+    workers: str,
+    folders: Sequence[str] = (),
+    command: Sequence[str] = (),
+) -> Execution:
+    """Open the scene once and hash its files; prints its code and what in it is unlikely.
+
+    Args:
+        plans: plans of `plan_all` without an error, which differ in the algorithm alone.
+        executor: that of `plan_all`.
+        out: the result directory.
+        workers: the executor, as the command names it.
+        folders: of each algorithm's result in ``out``; none where there is one algorithm.
+        command: what was typed behind ``uwsim``.
+
+    Raises:
+        UwsimError: a file, a body, a camera or a service that is not there.
+    """
+    assert executor is not None
+    stopwatch = Stopwatch()
+    announce_code(plans[0].scene)
+    runs = prepare_runs(plans, out, folders)
+    say_warnings(plans[0])
+    return Execution(
+        runs=runs, executor=executor, workers=workers, command=command, stopwatch=stopwatch
+    )
+
+
+@contextmanager
+def begun(execution: Execution, directory: AbstractContextManager[None]) -> Iterator[None]:
+    """Take the directory for the runs, and record in it that they have begun.
+
+    Args:
+        execution: what runs in this block; a system error there is a `RunFailed`.
+        directory: locks and empties the directory.
+    """
+    with as_run_failed(), directory:
+        for run in execution.runs:
+            if message := save_beginning(execution.command, run.out):
+                warn(message)
+        yield
+
+
+def execute(
+    execution: Execution,
+    directory: AbstractContextManager[None],
+    open_jobs: Callable[[], Jobs] | None,
+    callbacks: Callbacks,
+) -> tuple[Result, ...]:
+    """Run one benchmark with each algorithm, and write all results.
+
+    Args:
+        execution: what runs.
+        directory: locks and empties the result directory.
+        open_jobs: opens what makes controls and reports; None: there are none.
+        callbacks: called meanwhile.
+
+    Raises:
+        UwsimError: the first failure; the other algorithms are run and written.
+        RunFailed: a simulation failed, or an algorithm broke in every row.
+    """
+    runs = execution.runs
+    with begun(execution, directory):
+        if open_jobs is None:
+            outcome = _run(execution, callbacks.progress)
+            _save_provenances(execution, outcome)
+        else:
+            with open_jobs() as jobs:
+                outcome = _run_with_controls(execution, jobs, callbacks.progress)
+                _save_provenances(execution, outcome)
+                for run, result in outcome.finished(runs):
+                    jobs.ask(run.out)
+                    callbacks.on_rows(run, result)
+                    jobs.wait()
+                    callbacks.on_report(run, result)
+        for _, error in outcome.failures:
+            raise error
+        refuse_if_a_simulation_failed(runs, outcome.results)
+        refuse_if_a_process_ended(runs, outcome.results)
+        refuse_if_all_broke(runs, outcome.results)
+        return outcome.results
+
+
+def _run(execution: Execution, progress: Progress) -> Outcome:
+    """Run all trials that are not finished."""
+    runs = execution.runs
+    total = sum(len(trial.levels) for run in runs for trial in run.plan.trials())
+    done = sum(run.n_finished() for run in runs)
+    with progress(execution.title, total, done) as on_level:
+        return run_each(runs, execution.executor, on_level=on_level)
+
+
+def _run_with_controls(execution: Execution, jobs: Jobs, progress: Progress) -> Outcome:
+    """Run the trials and the control, beside them unless an algorithm could read its rows."""
+    runs = execution.runs
+    controls = [control_of(run) for run in runs if wants_control(run.plan)]
+    waits = any(is_foreign(run.plan) for run in runs)
+    if controls and not waits:
+        jobs.ask(controls[0])
+    outcome = _run(execution, progress)
+    if controls and outcome.finished(runs):
+        if waits:
+            jobs.ask(controls[0])
+        _wait_for_controls(jobs, controls)
+    return outcome
+
+
+def _wait_for_controls(jobs: Jobs, controls: Sequence[Run]) -> None:
+    """Wait for the control of a run; the results are complete without it."""
+    try:
+        jobs.wait()
+        for other in controls[1:]:  # the control looks at nothing: it is the same for all
+            shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
+    except (RunFailed, OSError) as error:
+        warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
+
+
+def _save_provenances(execution: Execution, outcome: Outcome) -> None:
+    """Write the provenance of every run that is finished."""
+    timing = execution.timing()
+    for run, _ in outcome.finished(execution.runs):
+        own = {"lost_workers": run.n_lost, "resumed": run.n_resumed}
+        execution.save_provenance(run, {**timing, **own})
