@@ -18,7 +18,7 @@ MAX_MODULES = 20
 
 GROUND = {"errors", "version", "base", "acoustics", "rays", "schema"}
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
-PARTS = BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"}
+PARTS = BASE | {"currents", "forces", "sensors", "devices", "topics", "scene", "assets"}
 ENGINES = PARTS | {"model", "physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
@@ -35,10 +35,11 @@ MAY_IMPORT: dict[str, set[str]] = {
     "statistics": GROUND | {"statistics"},
     "middleware": BASE | {"middleware"},
     "currents": BASE | {"currents"},
+    "forces": BASE | {"forces"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},
     "topics": BASE | {"sensors", "devices", "topics"},
-    "scene": BASE | {"currents", "sensors", "devices", "topics", "scene", "assets"},
+    "scene": PARTS,
     "assets": BASE | {"assets"},
     "model": PARTS | {"model"},
     "physics": PARTS | {"model", "physics"},

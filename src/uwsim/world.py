@@ -382,3 +382,69 @@ class SensorWorld(World, Protocol):
             world_from_camera: where the camera is; OpenGL axes.
             intrinsics: its pinhole.
         """
+
+
+class Attachment(Protocol):
+    """A frame fixed to a body, at whose origin a force acts: on a vehicle, a link or an object."""
+
+    @property
+    def name(self) -> str:
+        """The name of the body."""
+
+    @property
+    def vehicle(self) -> str:
+        """The name of the vehicle that it is on; empty on an object."""
+
+    @property
+    def world_from_body(self) -> Pose:
+        """Where the frame is now; its axes are those of the body."""
+
+    def motion(self) -> BodyMotion:
+        """Return how its origin moves now, over ground, in W.
+
+        Of a simulated vehicle and of a loose object that is the engine's. Another vehicle moves as
+        `MovingBody.motion` says; another object counts as at rest.
+        """
+
+
+class ForceWorld(Protocol):
+    """The simulation as a force (`uwsim.forces`) sees it."""
+
+    @property
+    def timestep(self) -> float:
+        """Length of a step [s]."""
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: the scene's offset."""
+
+    @property
+    def surface_height(self) -> float:
+        """Height of the water's surface in W [m]."""
+
+    def attach(self, name: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> Attachment:
+        """Fix a frame to a body; UnknownName if there is none.
+
+        Args:
+            name: a vehicle (its base), a link ``vehicle/link`` (its kinematic frame), or an object
+                (its mesh frame), as `World.body` has them.
+            position: of the frame's origin in the body, (3,) [m].
+        """
+
+    def water_velocity(
+        self, points: npt.NDArray[np.float64], time: float, vehicle: str
+    ) -> npt.NDArray[np.float64]:
+        """Return the velocity of the water at points of W, (n, 3) [m/s].
+
+        Args:
+            points: (n, 3) [m].
+            time: [s].
+            vehicle: name of the vehicle whose water it is: some currents are felt by one alone;
+                empty for none.
+        """
+
+    def water_density(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+        """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 above it."""
+
+    def stream(self, name: str) -> np.random.Generator:
+        """The random generator of that name under the run's seed."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Literal
 
 import mujoco
@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Pose, quaternion_from_rotation
-from ..base.numerics.linear import turned_back
+from ..base.numerics.linear import cross, turned, turned_back
 from ..model.body_names import loose_joint, vehicle_joint
 from ..model.scene_model import SceneModel
 from ..scene.spec import SceneSpec
@@ -164,6 +164,21 @@ class Engine:
         self.lift.end_step()
         self._contacts.look_again(hold=True)
         self.poses.moved()
+
+    def push(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
+        """Let wrenches act on bodies in the steps from now on, in place of those before.
+
+        Args:
+            wrenches: the number of a body of the engine, a point in its frame (3,) [m], and the
+                force and the torque about this point, in W, (6,) [N, N m].
+        """
+        self.poses.refresh()
+        axes, middles = self._data.xmat.reshape(-1, 3, 3), self._model.body_ipos
+        applied = self._data.xfrc_applied
+        applied[:] = 0.0
+        for body, point, wrench in wrenches:
+            applied[body] += wrench
+            applied[body, 3:] += cross(turned(axes[body], point - middles[body]), wrench[:3])
 
     def fall(self) -> None:
         """Advance the original's physics by one step, if the scene uses it.

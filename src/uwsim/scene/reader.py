@@ -10,6 +10,7 @@ from pathlib import Path
 from ..errors import AssetError, Diagnostic, SceneError, choices
 from ..schema import Diagnostics, Document, check_head, diagnostic_at, read
 from .checks.angles import check_angles
+from .checks.forces import check_forces
 from .checks.looks import check_looks
 from .checks.models import MAX_FILES, Library, check_models
 from .checks.names import check_left_out, check_names
@@ -116,6 +117,7 @@ def check_scene(
         check_looks(scene if settled is None else settled(scene), robots, diagnostics)
         check_angles(scene, diagnostics)
         check_water(scene.ocean_state, diagnostics)
+        check_forces(scene, robots, diagnostics)
         if library is not None:
             check_models(scene, document, library, diagnostics)
         not_simulated(document.root, diagnostics)
@@ -152,6 +154,7 @@ def scene_warnings(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Di
     diagnostics = Diagnostics(scene.path or "the scene")
     check_left_out(scene, robots, diagnostics)
     check_angles(scene, diagnostics)
+    check_forces(scene, robots, diagnostics)
     expanded = [scene.expansion, *(robot.expansion for robot in robots.values())]
     return [
         *dict.fromkeys(warning for each in expanded for warning in each.warnings),

@@ -28,7 +28,8 @@ from ..base.geodesy import Geodetic
 from ..base.geometry import Pose
 from ..devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
-from ..schema import REQUIRED, Expansion, Original, Spec, element
+from ..forces import FORCES, ForceSpec
+from ..schema import NAMESPACE, REQUIRED, Expansion, Original, Spec, element
 from ..topics import INTERFACES, InterfaceSpec
 from .object import ObjectSpec, PhysicsSpec
 from .ocean_state import OceanStateSpec
@@ -105,6 +106,11 @@ class SceneSpec(Spec):
     """Topics in and out."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
     """Values that are drawn anew for each seed."""
+    forces: tuple[ForceSpec, ...] = element(
+        namespaced=True, default=(),
+        choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in FORCES.items()},
+    )  # fmt: skip
+    """Forces on bodies besides those of the water."""
     path: str = dataclasses.field(default="", compare=False, metadata={"path": True})
     """The file it was read from."""
     is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})

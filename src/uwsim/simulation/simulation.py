@@ -2,7 +2,7 @@
 
 .. code-block:: text
 
-    apply_commands -> step_devices -> advect_kinematic -> step_physics -> animate
+    apply_commands -> step_devices -> advect_kinematic -> forces -> step_physics -> animate
       -> update_contacts -> publish: samples that are due (images first), messages on the bus,
          algorithms' callbacks -> observers
 
@@ -33,6 +33,7 @@ from ..world import Flow
 from .access import arguments
 from .access.boxes import OrientedBox, oriented_boxes
 from .access.topics import TopicAccess
+from .forces import engine_wrenches
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scenery.renderer_pool import RendererPool
@@ -112,6 +113,7 @@ class Simulation:
             vehicles=[vehicle.state for vehicle in world.every_vehicle],
             sensors=[sensor.state for sensor in world.every_sensor],
             devices=[device.state for device in world.devices],
+            forces=[force.state for force in world.forces],
             interfaces=[interface.state for interface in world.interfaces],
             faults=[topic.state for topic in world.faulty_topics],
             scenery=world.scenery.state,
@@ -216,13 +218,15 @@ class Simulation:
         """How many steps from this one on the forces may act alone, of those wanted.
 
         In the step after them a command, a sample, a timer or a device may be due; observers,
-        water that is not the same everywhere and what drifts with it have to do in every step.
+        forces, water that is not the same everywhere and what drifts with it have to do in every
+        step.
         """
         world, now = self.world, self.step
         delivery = self.bus.next_delivery
         if (
             delivery <= now
             or self._watchers
+            or world.forces
             or world.touch.is_laid
             or not world.engine.is_dynamic
             or world.engine.moves_by_step
@@ -403,6 +407,8 @@ class Simulation:
     def _step_physics(self, n: int) -> None:
         """Advance the physics by some steps, in the flow of the water at their times."""
         engine, water = self.world.engine, self.world.water
+        if self.world.forces:
+            engine.push(engine_wrenches(self.world.forces, self.time - self.timestep))
         if not engine.is_dynamic:
             engine.fall()
             self.world.below_ground.look(self.step)

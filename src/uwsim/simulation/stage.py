@@ -30,6 +30,7 @@ from ..topics.interface import Binds, Interface
 from ..world import Flow
 from .datagrams import Datagrams
 from .faulty_topic import FaultyTopic, faults_of
+from .forces import bind_forces
 from .frames import object_frames, vehicle_frames
 from .markers import SERVICE, Markers
 from .scenery.renderer_pool import RendererPool
@@ -84,6 +85,8 @@ class SceneStage(SceneWorld):
         """The topics of sensors with faults."""
         self.devices = tuple(self._bound_devices())
         """What acts in the step, in the file's order."""
+        self.forces = bind_forces(self)
+        """What acts on bodies besides the water, in the file's order."""
         place = Path(self.scene.path) if self.scene.path else None
         self.markers = Markers(
             lambda: self.time, partial(has_model, named_by=place, data_path=model.data_path)

@@ -48,7 +48,14 @@ class LinkMotion:
             speeds: of the degrees of freedom, (nv,) [m/s, rad/s].
             rates: of these speeds, (nv,) [m/s2, rad/s2].
         """
-        model, own, body = self._model, self._moved(speeds), self._poses.link_body(index, link)
+        return self._at(self._poses.link_body(index, link), point, speeds, rates)
+
+    def of_body(self, body: int, point: Array) -> BodyMotion:
+        """Return the motion of a point of W, (3,) [m], on a body of the engine, by its number."""
+        return self._at(body, point, self._data.qvel, self._data.qacc)
+
+    def _at(self, body: int, point: Array, speeds: Array, rates: Array) -> BodyMotion:
+        model, own = self._model, self._moved(speeds)
         place, turn, place_rate, turn_rate = self._jacobians
         mujoco.mj_jac(model, own, place, turn, point, body)
         mujoco.mj_jacDot(model, own, place_rate, turn_rate, point, body)

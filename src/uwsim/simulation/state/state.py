@@ -97,6 +97,8 @@ class State(Record):
     """What changes of each sensor."""
     devices: list[Record]
     """What changes of each device."""
+    forces: list[Record]
+    """What changes of each force."""
     interfaces: list[Record]
     """What changes of each element of ``<rosInterfaces>``."""
     faults: list[FaultyTopicState]
