@@ -36,3 +36,8 @@ def loose_joint(index: int) -> str:
 def grip(vehicle: int, link: str, thing: int) -> str:
     """Name in the model of the constraint by which a link holds a loose object."""
     return f"grip/{vehicle}/{link}/{thing}"
+
+
+def owner_of(name: str) -> str:
+    """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
+    return "/".join(name.split("/")[:2])

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 
 from ..base.digest import digest_of
 from ..base.engine import mujoco
@@ -16,7 +17,7 @@ from ..devices.object_picker import ObjectPickerSpec
 from ..scene.hydrodynamics import VehicleHydrodynamics
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
-from .body_names import object_body
+from .body_names import object_body, owner_of
 from .collision.scene_shapes import collision_shapes
 from .collision.shapes import CollisionShape
 from .collision.solid_grounds import SolidGround, solid_grounds
@@ -59,6 +60,15 @@ class SceneModel:
     def digest(self) -> str:
         """The hash of the scene, with its variations; of the spec, wherever its file lies."""
         return digest_of(self.scene)
+
+    @cached_property
+    def shape_owners(self) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
+        """What the engine's shapes belong to, ``vehicle/1``, sorted; and its number for each."""
+        engine = self.engine_model
+        owners = [owner_of(engine.geom(i).name) for i in range(engine.ngeom)]
+        names = sorted(set(owners))
+        numbers = {name: i for i, name in enumerate(names)}
+        return tuple(names), np.array([numbers[owner] for owner in owners], np.int64)
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:

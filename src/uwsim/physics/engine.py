@@ -70,7 +70,7 @@ class Engine:
         """How the links of vehicles move."""
         self.grips = Grips(model, data, self.poses, dynamics, shapes)
         """Objects that vehicles hold."""
-        self._contacts = EngineContacts(scene, model, data, shapes)
+        self._contacts = EngineContacts(scene_model, model, data)
         self._check = StepCheck(model, data, names)
         free = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
         self._free_places = {i: int(model.jnt_qposadr[joint]) for i, joint in free.items()}

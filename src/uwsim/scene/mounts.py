@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -42,12 +43,12 @@ class MountFrames:
     robot: RobotSpec
     world_from_localized: Pose
 
-    @property
+    @cached_property
     def world_from_base(self) -> Pose:
         """Where its base is, without its scale."""
         return self.world_from_localized @ self.vehicle.localized_from_base
 
-    @property
+    @cached_property
     def directions(self) -> dict[str, Array]:
         """Unit vectors in W of what the words mean: each is one of the base's axes.
 
@@ -69,8 +70,12 @@ class MountFrames:
 
     def world_from_link(self, link: str, *, visual: bool = False) -> Pose:
         """Where a link is, without any scale; its visual frame if asked for."""
-        poses = link_poses(self.robot, self.vehicle.joint_values)
-        return self.world_from_base @ poses[link] @ link_from_frame(self.robot, link, visual)
+        base_from_link = self._base_from_links[link]
+        return self.world_from_base @ base_from_link @ link_from_frame(self.robot, link, visual)
+
+    @cached_property
+    def _base_from_links(self) -> dict[str, Pose]:
+        return link_poses(self.robot, self.vehicle.joint_values)
 
     def frame_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
         """Its pose in its link's frame, or in the link's visual frame.

@@ -7,7 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from ..assets import has_model
 from ..assets.pattern import read_pattern
@@ -155,8 +155,8 @@ class SceneStage(SceneWorld):
         for spec in self.scene.ros_interfaces:
             # one that names what is not there is left out, as in the original
             with suppress(UnknownName):
-                if spec.is_simulated() and isinstance(spec, Binds):
-                    yield spec.bind(self)
+                if spec.is_simulated():
+                    yield cast("Binds", spec).bind(self)
 
     def _bound_trajectories(self) -> Iterator[Trajectory]:
         localized_from_world = self.world_from_localized.inverse()

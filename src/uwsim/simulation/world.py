@@ -121,7 +121,7 @@ class SceneWorld:
             for element, part in spec.all_parts():
                 # a sensor on a link that is not there is left out, as in the original
                 with suppress(UnknownName):
-                    if isinstance(part, BindsSensor) and not isinstance(part, DeviceSpec):
+                    if not isinstance(part, DeviceSpec) and isinstance(part, BindsSensor):
                         sensors[element, part.name] = part.bind(self, vehicle)
         return sensors
 

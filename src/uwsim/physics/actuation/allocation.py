@@ -19,6 +19,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -155,6 +156,7 @@ def wrench(thruster: ThrusterSpec, reference: Array) -> Array:
     return np.concatenate([direction, np.cross(arm, direction)])
 
 
+@lru_cache(maxsize=256)
 def curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
     """Thrust [N] and the command that gives it [1], both rising."""
     commands = np.linspace(*thruster.limits, N_POINTS)
@@ -165,7 +167,10 @@ def curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
         numbers = thruster.forward if command > 0.0 else backward
         force = sum(c * size ** (i + 1) for i, c in enumerate(numbers))
         thrusts.append(math.copysign(force, command))
-    return np.maximum.accumulate(np.array(thrusts)), commands
+    found = np.maximum.accumulate(np.array(thrusts)), commands
+    for each in found:
+        each.flags.writeable = False  # whoever asks again gets the same
+    return found
 
 
 def _allocation(

@@ -6,7 +6,7 @@ what is left of it while they press into each other.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -18,6 +18,8 @@ from ...base.geometry import Array
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import cross, dot, turned_back
 from ...base.record import Record
+from ...model.body_names import owner_of
+from ...model.scene_model import SceneModel
 from ...scene.spec import SceneSpec
 from ...world import Contact
 
@@ -37,29 +39,21 @@ class EngineContacts:
     """Contacts that MuJoCo found in the last step.
 
     Args:
-        scene: spec of the scene.
-        model: of the scene.
+        scene_model: the model of the scene.
+        model: that of the engine.
         data: its state.
-        shapes: names of the bodies that have shapes.
     """
 
-    def __init__(
-        self,
-        scene: SceneSpec,
-        model: mujoco.MjModel,
-        data: mujoco.MjData,
-        shapes: Collection[str],
-    ) -> None:
+    def __init__(self, scene_model: SceneModel, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
-        owners = [owner_of(model.geom(i).name) for i in range(model.ngeom)]
-        self._owners = np.array(owners)
-        self._names = [name_of(scene, owner) for owner in owners]
-        self._numbers = {owner: i for i, owner in enumerate(sorted(set(owners)))}
-        self._owner_numbers = np.array([self._numbers[owner] for owner in owners], np.int64)
+        owners, self._owner_numbers = scene_model.shape_owners
+        self._names = [name_of(scene_model.scene, owner) for owner in owners]
+        self._numbers = {owner: i for i, owner in enumerate(owners)}
         self._labels = sorted(set(self._names))
         labels = {name: i for i, name in enumerate(self._labels)}
-        self._name_numbers = np.array([labels[name] for name in self._names], np.int64)
-        self._touchable = frozenset(owner_of(name) for name in shapes)
+        own_labels = np.array([labels[name] for name in self._names], np.int64)
+        self._name_numbers = own_labels[self._owner_numbers]
+        self._touchable = frozenset(owner_of(name) for name in scene_model.shapes)
         self.state = EngineContactsState()
         """Whether they hold."""
         self._looked_up: Pressing | None = None
@@ -84,7 +78,8 @@ class EngineContacts:
             return None
         if not self.state.hold:
             return []
-        return contacts_of(self._model, self._data, self._owners == owner, self._names)
+        is_own = self._owner_numbers == self._numbers.get(owner, -1)
+        return _contacts_of(self._model, self._data, is_own, self._owner_numbers, self._names)
 
     def forces(self, kind: Literal["vehicle", "object"], index: int) -> dict[str, Array]:
         """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N]."""
@@ -188,11 +183,6 @@ def _sum_forces(
     return n
 
 
-def owner_of(name: str) -> str:
-    """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
-    return "/".join(name.split("/")[:2])
-
-
 def name_of(scene: SceneSpec, owner: str) -> str:
     """Its name in the scene."""
     kind, _, index = owner.partition("/")
@@ -207,10 +197,11 @@ def body_name(scene: SceneSpec, body: str) -> str:
     return "/".join([name_of(scene, owner_of(body)), *link])
 
 
-def contacts_of(
+def _contacts_of(
     model: mujoco.MjModel,
     data: mujoco.MjData,
     is_own: npt.NDArray[np.bool_],
+    owners: Numbers,
     names: Sequence[str],
 ) -> list[Contact]:
     """Return the contacts of some bodies with others.
@@ -219,7 +210,8 @@ def contacts_of(
         model: the model.
         data: its state after a step.
         is_own: which shapes are asked for, (ngeom,).
-        names: name of what each shape belongs to, (ngeom,).
+        owners: number of what each shape belongs to, (ngeom,).
+        names: the name of each of those.
     """
     if data.ncon == 0:
         return []
@@ -239,7 +231,7 @@ def contacts_of(
                 approach_speed=v_first - v_second,
                 own_speed=v_first if is_first else -v_second,
                 is_first=is_first,
-                other=names[found.geom[i][1 if is_first else 0]],
+                other=names[owners[found.geom[i][1 if is_first else 0]]],
                 position=tuple(found.pos[i].tolist()),
             )
         )

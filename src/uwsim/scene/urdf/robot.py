@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 import sys
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal
 
 from ...base.geometry import ZERO, Triple
@@ -171,7 +172,7 @@ class RobotSpec(Spec):
     expansion: Expansion = field(default=Expansion(), compare=False)
     """What is known of its xacro."""
 
-    @property
+    @cached_property
     def movable(self) -> tuple[JointSpec, ...]:
         """The joint vector: those that move and mimic none."""
         return tuple(joint for joint in self.joints if joint.moves and joint.mimic is None)

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -93,9 +94,13 @@ class ImagingSonar:
         azimuths = spec.azimuths
         self._echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
         self._ranges, self._directions = self._echoes.ranges, level_directions(azimuths)
-        self._levels, self._fan = Levels(spec, self._ranges), FanImage(azimuths, self._ranges)
+        self._azimuths, self._levels = azimuths, Levels(spec, self._ranges)
         self.state = ImagingState(random, np.zeros((spec.bins, spec.beams), np.float32))
         """What it has drawn and seen."""
+
+    @cached_property
+    def _fan(self) -> FanImage:
+        return FanImage(self._azimuths, self._ranges)
 
     def sample(self, time: float) -> ProjectedSonarImage:
         """Ping now, at ``time`` [s]."""

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -102,9 +103,12 @@ class ScanningSonar:
         self._echoes = Echoes(spec, world, np.zeros(1), step)
         self._azimuths, self._ranges = spec.azimuths, self._echoes.ranges
         self._levels = Levels(spec, self._ranges)
-        self._fan = FanImage(self._azimuths, self._ranges)
         self.state = ScanningState(random, np.zeros((spec.bins, len(self._azimuths)), np.float32))
         """What it has drawn and seen."""
+
+    @cached_property
+    def _fan(self) -> FanImage:
+        return FanImage(self._azimuths, self._ranges)
 
     @property
     def _place(self) -> int:
