@@ -12,8 +12,9 @@ Left out are diagnostics of the solver, and its times.
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 import mujoco
@@ -60,10 +61,7 @@ class EngineMemory(Live):
         self._forget = forget
         fields, size = data_places()
         self._struct = struct = _view(data._address, size)
-        kept = [
-            each for name, each in fields.items() if name in COUNTS or _is_between(name, fields)
-        ]
-        self._counts = np.concatenate([np.arange(each.start, each.stop) for each in kept])
+        self._counts = _places_of_counts()
         first, end = fields["contact"].start, fields["signature"].start
         self._places = struct[first:end].view(np.uint64)
         words = {n: struct[fields[n]].view(np.uint64) for n in ("buffer", "arena", "parena")}
@@ -104,9 +102,13 @@ class EngineMemory(Live):
         self._forget()
 
 
-def _is_between(name: str, fields: Mapping[str, slice]) -> bool:
-    first, last, place = (fields[each] for each in (FIRST, LAST, name))
-    return bool(first.start <= place.start <= last.start)
+@cache
+def _places_of_counts() -> npt.NDArray[np.intp]:
+    """The bytes of the struct that are kept."""
+    fields, _ = data_places()
+    first, last = fields[FIRST].start, fields[LAST].start
+    kept = [each for name, each in fields.items() if name in COUNTS or first <= each.start <= last]
+    return np.concatenate([np.arange(each.start, each.stop) for each in kept])
 
 
 def _view(address: int, size: int) -> Bytes:
