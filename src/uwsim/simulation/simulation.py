@@ -166,17 +166,17 @@ class Simulation:
     @property
     def step(self) -> int:
         """Physics steps since the simulation began."""
-        return self.world.step
+        return self._state.bus.step
 
     @property
     def timestep(self) -> float:
         """Length of a step [s]."""
-        return self.world.timestep
+        return self.world.model.timestep
 
     @property
     def time(self) -> float:
         """``step * timestep`` [s]."""
-        return self.world.time
+        return self._state.bus.step * self.world.model.timestep
 
     def start(self) -> None:
         """Publish the first samples, at step 0; the first `advance` does so, too."""
@@ -201,7 +201,7 @@ class Simulation:
 
     def _advance(self, wanted: int = 1) -> int:
         """Take a step, and of those wanted after it all that nothing comes between; how many."""
-        self.bus.step += 1
+        self._state.bus.step += 1
         self.world.schedule.apply_commands()
         self._step_devices()
         self._advect_kinematic()
@@ -379,11 +379,11 @@ class Simulation:
         return self.world.engine.motion
 
     def _publish(self) -> None:
-        bus = self.bus
+        bus, step = self.bus, self.step
         for images in self.images.values():
-            images.timer.tick(bus.step)
+            images.timer.tick(step)
         self.world.network.advance(nanoseconds(self.time))
-        self.world.schedule.tick(bus.step)
+        self.world.schedule.tick(step)
         bus.deliver()
         for node in self._nodes:
             node.tick()
@@ -422,7 +422,7 @@ class Simulation:
         try:
             engine.step(n, motion)
         finally:
-            self.bus.step = first + max(0, engine.n_steps - before - 1)
+            self._state.bus.step = first + max(0, engine.n_steps - before - 1)
         self.world.below_ground.look(self.step)
 
     def _animate(self) -> None:

@@ -71,7 +71,7 @@ class SceneWorld:
             lift_from_ground(model, self.engine)
         self.below_ground = BelowGround(model, self.engine)
         """Whether a body has passed through the ground."""
-        self.every_vehicle = bind_vehicles(model, self.engine, lambda: self._bus.step)
+        self.every_vehicle = bind_vehicles(model, self.engine, lambda: self._bus.state.step)
         """The vehicles, by their number in the file."""
         self.scenery = Scenery(model, self.engine, pool)
         """The visual side of the scene."""
@@ -138,12 +138,12 @@ class SceneWorld:
     @property
     def step(self) -> int:
         """Physics steps since the simulation began."""
-        return self._bus.step
+        return self._bus.state.step
 
     @property
     def time(self) -> float:
         """``step * timestep`` [s]."""
-        return self._bus.step * self.timestep
+        return self._bus.state.step * self.timestep
 
     @property
     def world_from_localized(self) -> Pose:
