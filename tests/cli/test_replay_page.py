@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from tests.support.packs import unpacked
 from tests.support.short_benchmark import run, write_benchmark
 from uwsim.analysis.report import write_report
 from uwsim.cli.replay import opened, recorded, show_page
 from uwsim.errors import BadSetting, UwsimError
-from uwsim.viewer.pack import unpacked
 
 
 @pytest.mark.slow

@@ -61,8 +61,7 @@ def test_the_mean_of_the_seventh_root_over_depth_is_seven_eighths() -> None:
 
 
 def test_the_log_law_is_the_law_of_the_wall() -> None:
-    friction = LOG.friction_velocity
-    assert friction == pytest.approx(math.hypot(*SURFACE) * 0.41 / math.log(20.0 / 0.002))
+    friction = math.hypot(*SURFACE) * 0.41 / math.log(20.0 / 0.002)
     speeds = np.linalg.norm(at_depths(LOG, 19.0, 10.0, 0.0), axis=1)
     assert speeds == pytest.approx(friction / 0.41 * np.log(np.array([1.0, 10.0, 20.0]) / 0.002))
 

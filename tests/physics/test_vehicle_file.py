@@ -13,9 +13,8 @@ from uwsim.scene.hydrodynamics import (
     BodyHydrodynamics,
     ThrusterSpec,
     VehicleHydrodynamics,
-    vehicle_errors,
 )
-from uwsim.scene.hydrodynamics.checks import body_errors
+from uwsim.scene.hydrodynamics.checks import body_errors, thruster_errors
 from uwsim.scene.hydrodynamics.spec import matrix
 from uwsim.scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle, vehicle_sets
@@ -155,18 +154,12 @@ def test_a_file_that_includes_itself_is_refused(tmp_path: Path) -> None:
     assert "includes itself" in diagnostics_of(tmp_path, text)[0]
 
 
-def test_errors_of_a_set_made_in_python_are_the_same() -> None:
-    vehicle = VehicleHydrodynamics(
-        name="v",
-        source="",
-        bodies=(BodyHydrodynamics(link="a"), BodyHydrodynamics(link="a", shape="box")),
-        thrusters=(ThrusterSpec(name="t", link="b", forward=(1.0,) * 10),),
-    )
-    assert vehicle_errors(vehicle, ["a"]) == [
-        "two entries for the link 'a'; only one may be",
+def test_errors_of_parts_made_in_python_are_the_same() -> None:
+    body = BodyHydrodynamics(link="a", shape="box")
+    thruster = ThrusterSpec(name="t", link="b", forward=(1.0,) * 10)
+    assert [*body_errors(body), *thruster_errors(thruster)] == [
         "link 'a': a box needs its 3 lengths (size) [m]",
         "thruster 't': forward has 10 coefficients; expected 1 to 9",
-        "thruster 't': the robot has no link 'b'. Links: a",
     ]
 
 

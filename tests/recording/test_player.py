@@ -66,8 +66,8 @@ def test_what_is_played_and_recorded_again_is_the_same(
         simulation.attach(player)
         simulation.advance(reader.duration)
         assert player.is_over
-        assert player.n_played == 8
     direct = recorded(tmp_path / f"direct{again}")
+    assert len(read(second)) == 8
     assert sorted(map(repr, read(second))) == sorted(map(repr, read(direct)))
     if kind == ".mcap":  # in a bag of ROS 1, messages of one time are sorted by topic
         assert second.read_bytes() == direct.read_bytes()

@@ -8,11 +8,12 @@ import pytest
 
 import uwsim
 from tests.support.opened import open_scene
+from tests.support.packs import numbers
 from uwsim.base.geometry import Pose
 from uwsim.simulation.tracked_bodies import TrackedBodies
 from uwsim.simulation.views import FIELD, focus_of, orbit_view
 from uwsim.viewer.head import scene_head
-from uwsim.viewer.pack import Blob, numbers
+from uwsim.viewer.pack import Blob
 
 Json = dict[str, Any]
 

@@ -3,7 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim.viewer.pack import Blob, as_text, from_text, numbers, packed, unpacked
+from tests.support.packs import from_text, numbers, unpacked
+from uwsim.viewer.pack import Blob, as_text, packed
 
 
 def test_what_was_packed_comes_back() -> None:

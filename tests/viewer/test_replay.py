@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.support.packs import from_text, numbers, unpacked
 from tests.support.short_benchmark import run, write_benchmark
 from tests.support.short_trial import DATA
 from tests.support.stored_rows import stored_row
@@ -15,7 +16,7 @@ from uwsim.errors import ResultError
 from uwsim.results.log import load_log
 from uwsim.results.motion import TrackLevel
 from uwsim.viewer.document import FOLDER, document
-from uwsim.viewer.pack import Blob, from_text, numbers, unpacked
+from uwsim.viewer.pack import Blob
 from uwsim.viewer.recorded import RecordedLevel, _level
 from uwsim.viewer.replay import Replay, _curve, _measures
 

@@ -23,7 +23,6 @@ bottom, thin walls that ring.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Literal, get_args
 
@@ -43,14 +42,6 @@ class Material:
     """Root mean square of the slopes of its facets, s [1]."""
     strength: float
     """Lambert's backscattering strength of a square metre, mu [dB]."""
-
-    def cross_section(self, angle: float) -> float:
-        """Return sigma at an angle of incidence [rad], [1]."""
-        cosine, tangent = math.cos(angle), math.tan(angle)
-        facets = math.exp(-0.5 * (tangent / self.slope) ** 2) / (cosine * cosine) ** 2
-        glint: float = self.reflection**2 / (8.0 * math.pi * self.slope**2) * facets
-        diffuse: float = 10.0 ** (0.1 * self.strength) * cosine * cosine
-        return glint + diffuse
 
 
 MATERIALS: dict[MaterialName, Material] = {

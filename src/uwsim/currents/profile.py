@@ -69,11 +69,6 @@ class LogProfileSpec(CurrentSpec):
     roughness: float = element(namespaced=True, default=0.001, above=0)
     """Roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
 
-    @property
-    def friction_velocity(self) -> float:
-        """``u*``: the square root of the ground's shear stress over the water's density [m/s]."""
-        return KARMAN * math.hypot(*self.velocity) / math.log(self.depth / self.roughness)
-
     def bind(self, place: Place) -> LogProfile:
         """Take the surface and the direction down from the scene.
 

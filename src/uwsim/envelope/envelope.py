@@ -122,8 +122,8 @@ class Envelope:
             summary = f"{n - self.n_unbroken} of {n} seeds break up to {stop}"
             if self.n_broken_at_once:
                 summary += f", {self.n_broken_at_once} of them already at {start}"
-            return f"{asked.over}: {summary}{self._limits(unit)}"
-        return f"{asked.over} {self._number(median.value)}{unit}{self._limits(unit)}"
+            return f"{asked.over}: {summary}{self._limits()}"
+        return f"{asked.over} {self._number(median.value)}{unit}{self._limits()}"
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -200,7 +200,7 @@ class Envelope:
     def _decimals(self) -> int:
         return max(0, math.ceil(-math.log10(self.asked.where.tolerance) - 1e-9))
 
-    def _limits(self, unit: str) -> str:
+    def _limits(self) -> str:
         median, asked = self.median, self.asked
         if median.confidence is None or median.low is None or median.high is None:
             fewest = fewest_for_median(asked.confidence)

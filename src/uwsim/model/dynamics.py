@@ -92,7 +92,7 @@ class Search:
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.dynamics is not None and index in robots:
                 self._read(index, vehicle.dynamics, robots[index])
-                self._refuse_scale(index, vehicle)
+                self._refuse_scale(vehicle)
             self._follow_thrusters(index, vehicle)
         self.found += inertias_refused(scene, robots, self.dynamics)
         self._settle_density()
@@ -246,7 +246,7 @@ class Search:
         place = (self._scene.world_from_localized @ vehicle.localized_from_base).position
         return self._scene.ocean_state.ocean_surface_height - float(place[2])
 
-    def _refuse_scale(self, index: int, vehicle: VehicleSpec) -> None:
+    def _refuse_scale(self, vehicle: VehicleSpec) -> None:
         """Masses, volumes and thrusts are those of the size that the files give."""
         if vehicle.scale_factor != (1.0, 1.0, 1.0):
             x, y, z = vehicle.scale_factor

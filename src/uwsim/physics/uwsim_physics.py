@@ -144,7 +144,7 @@ class _KinematicVehicle:
         state.step += 1
         if not np.array_equal(here, state.now):
             self._jumps.add(state.step)
-            state.velocity = self._speed(here)
+            state.velocity = self._speed()
             state.now = here
         is_moving = self._jumps.age(state.step) < self._jumps.n_steps
         data.qvel[self._v] = state.velocity if is_moving else 0.0
@@ -154,8 +154,8 @@ class _KinematicVehicle:
         self._data.qpos[self._q] = self.state.now
         self._data.qvel[self._v] = 0.0
 
-    def _speed(self, here: Array) -> Array:
-        """Compute the speed of the jump to ``here``, joint by joint, (n,) [m/s, rad/s].
+    def _speed(self) -> Array:
+        """Compute the speed of the jump to where it is now, joint by joint, (n,) [m/s, rad/s].
 
         It is 0 where a component is that of a placement.
         """

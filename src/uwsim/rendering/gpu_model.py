@@ -73,7 +73,7 @@ class Batch:
     size: int
     """... and how many they are."""
     texture: Texture | None
-    """Uploaded when first drawn: `GpuModels.texture`."""
+    """Uploaded when first drawn: `GpuModels.use`."""
     two_sided: bool
     opacity: float
     """1 hides what is behind it, 0 is not seen."""

@@ -16,7 +16,6 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.numerics.jit import njit
-from .grey import grey_truncated
 
 _GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
@@ -90,9 +89,3 @@ def _store(
                 value = value + levels * deviations[place] + half
                 stored[place] = np.uint8(max(min(value, np.float32(255.0)), np.float32(0.0)))
     return image
-
-
-def warm_up() -> None:
-    """Compile noise and grey, or load them from numba's cache, before a frame needs them."""
-    rng = np.random.Generator(np.random.Philox(0))
-    grey_truncated(add_noise(np.zeros((1, 1, 4), np.uint16), 0.01, rng))

@@ -49,8 +49,6 @@ class Verification:
     """Whether every replay gave what its trial stored."""
     not_compared: list[str] = field(default_factory=list)
     """What is not there to be compared."""
-    n_files: int = 0
-    """Files that were made anew from the stored trials."""
     trials: tuple[Trial, ...] = ()
     """Trials that were replayed."""
 
@@ -67,7 +65,7 @@ def finished(directory: Path, plan: Plan, result: Result) -> list[Trial]:
         stored = [journal.read_any(file)[1] for file in files]
         return [trial for trial, found in zip(trials, stored, strict=True) if found.end is not None]
     rows = _rows_by_level(result, plan)
-    return [trial for trial in trials if all(key in rows for key in _keys(trial, plan))]
+    return [trial for trial in trials if all(key in rows for key in _keys(trial))]
 
 
 def choose(trials: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
@@ -161,7 +159,6 @@ def _check_files(found: Verification, directory: Path, result: Result, run: Run)
         return
     for path in sorted(run.out.glob("*.*")):
         there = directory / path.name
-        found.n_files += 1
         if path.name == "result.json":
             _check_result(found, result, made)
         elif not there.is_file():
@@ -193,7 +190,7 @@ def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
     for trial in plan.trials():
         file = journal.path_of(directory, trial.index)
         n_stored = len(journal.read_any(file)[1].rows) if file.is_file() else 0
-        n_told = sum(key in rows for key in _keys(trial, plan))
+        n_told = sum(key in rows for key in _keys(trial))
         if n_stored < n_told:
             name = f"trial {trial.index} (seed {trial.seed})"
             what = f"{n_stored} rows can be read" if file.exists() else "is not there"
@@ -278,7 +275,7 @@ def _check_rows(found: Verification, result: Result, again: Run) -> None:
     made = again.write()
     expected = _rows_by_level(result, again.plan)
     names = {column.name for column in result.columns}
-    known = {key for trial in again.plan.trials() for key in _keys(trial, again.plan)}
+    known = {key for trial in again.plan.trials() for key in _keys(trial)}
     n = len(known & expected.keys())
     if len(result.rows) > n:
         found.add("result.json", f"{len(result.rows)} rows; expected {n}, one for each level")
@@ -319,6 +316,6 @@ def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
     return found
 
 
-def _keys(trial: Trial, plan: Plan) -> list[tuple[float, ...]]:
+def _keys(trial: Trial) -> list[tuple[float, ...]]:
     """The keys of `_rows_by_level` for a trial."""
     return [(float(trial.repeat), *(value for _, value in level.values)) for level in trial.levels]

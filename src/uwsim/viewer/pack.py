@@ -28,9 +28,7 @@ KINDS = {
     )
 }
 
-_MARKUP, _INSTEAD = b"<>&", b",./"
-_TO_TEXT = bytes.maketrans(_MARKUP, _INSTEAD)
-_FROM_TEXT = bytes.maketrans(_INSTEAD, _MARKUP)
+_TO_TEXT = bytes.maketrans(b"<>&", b",./")
 
 
 class Blob:
@@ -67,25 +65,6 @@ def packed(head: Json, blob: Blob) -> bytes:
     return gzip.compress(content, compresslevel=9, mtime=0)
 
 
-def unpacked(pack: bytes) -> tuple[dict[str, Any], bytes]:
-    """Return the JSON of a pack, and the bytes that it refers to."""
-    content = gzip.decompress(pack)
-    (length,) = struct.unpack_from("<I", content)
-    return json.loads(content[4 : 4 + length]), content[4 + length :]
-
-
-def numbers(ref: Ref | list[Any], data: bytes) -> npt.NDArray[Any]:
-    """Return the array that a reference means, flat."""
-    offset, count, kind = ref
-    dtype = {kind: dtype for dtype, kind in KINDS.items()}[kind]
-    return np.frombuffer(data, dtype, count, offset)
-
-
 def as_text(pack: bytes) -> str:
     """Return bytes as text for HTML, 5 characters for 4 bytes: base 85 without markup (`head`)."""
     return base64.b85encode(pack).translate(_TO_TEXT).decode("ascii")
-
-
-def from_text(text: str) -> bytes:
-    """Return the bytes of `as_text`."""
-    return base64.b85decode(text.encode("ascii").translate(_FROM_TEXT))

@@ -10,7 +10,6 @@ from tests.algorithms.textures import rectangle
 from uwsim.algorithms.esm.homography import (
     between,
     exponential,
-    generators,
     is_convex,
     unimodular,
     warp,
@@ -18,6 +17,15 @@ from uwsim.algorithms.esm.homography import (
 
 QUAD = rectangle(0.0, 0.0, 2.0, 2.0)
 coordinates = st.lists(st.floats(-1.5, 1.5), min_size=8, max_size=8)
+
+
+def generators() -> np.ndarray:
+    """The eight matrices A_i of sl(3), (8, 3, 3), as `exponential` orders them."""
+    a = np.zeros((8, 3, 3))
+    a[0, 0, 2] = a[1, 1, 2] = a[2, 0, 1] = a[3, 1, 0] = a[6, 2, 0] = a[7, 2, 1] = 1.0
+    a[4] = np.diag([1.0, -1.0, 0.0])
+    a[5] = np.diag([1.0, 1.0, -2.0]) / 3.0
+    return a
 
 
 @given(coordinates)

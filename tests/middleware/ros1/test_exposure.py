@@ -73,7 +73,7 @@ def test_a_page_in_a_browser_sets_no_parameter_and_ends_no_node(headers: dict[st
         body = SHUTDOWN.format("setParam", "/use_sim_time")
         assert status_of(port_of(graph.master.uri), body, headers) == 403
         assert status_of(port_of(sim.uri), SHUTDOWN.format("shutdown", "bye"), headers) == 403
-        assert sim.get_parameter("/use_sim_time") is None
+        assert call(graph.master.uri, "hasParam", "/x", "/use_sim_time") is False
         assert not any("asks this node to leave" in line for line in graph.printed)
         assert any("a request is refused" in line for line in graph.printed)
 

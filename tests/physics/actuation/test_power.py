@@ -10,7 +10,8 @@ import pytest
 
 from uwsim.physics.actuation.power import power_table
 from uwsim.physics.actuation.power_kernel import joint_power, thruster_power
-from uwsim.scene.hydrodynamics import ThrusterSpec, VehicleHydrodynamics, vehicle_errors
+from uwsim.scene.hydrodynamics import ThrusterSpec, VehicleHydrodynamics
+from uwsim.scene.hydrodynamics.checks import thruster_errors
 from uwsim.scene.hydrodynamics.spec import JointDrive
 from uwsim.scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
@@ -150,17 +151,7 @@ def test_a_drive_that_no_joint_can_have_is_refused(tmp_path: Path, given: str, s
     assert said in diagnostics[0]
 
 
-def test_errors_of_drives_made_in_python_are_reported_too() -> None:
-    vehicle = VehicleHydrodynamics(
-        name="v",
-        source="",
-        bodies=(),
-        thrusters=(thruster(efficiency=0.0),),
-        joints=(JointDrive(name="a", efficiency=2.0), JointDrive(name="a", copper_loss=-1.0)),
-    )
-    assert vehicle_errors(vehicle, ["base_link"]) == [
-        "two entries for the joint 'a'; only one may be",
+def test_an_error_of_a_thruster_made_in_python_is_reported_too() -> None:
+    assert thruster_errors(thruster(efficiency=0.0)) == [
         "thruster 't': efficiency is 0; expected a number > 0 and <= 1.41 [1]",
-        "joint 'a': efficiency is 2; expected a number > 0 and <= 1 [1]",
-        "joint 'a': copper loss is -1; expected a number >= 0 [W/(N m)2, W/N2]",
     ]

@@ -12,7 +12,7 @@ import pytest
 from tests.physics.water_models import FAR_BELOW, free_body, random_added_mass, set_options
 from uwsim.physics.hydrodynamics import callback, prepare
 from uwsim.physics.hydrodynamics.callback import CallbackTaken
-from uwsim.physics.hydrodynamics.hydrodynamics import NoWater, install
+from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, NoWater, install
 from uwsim.scene.hydrodynamics import BodyHydrodynamics, ThrusterSpec
 
 LINKS = ("base", "upper", "fore")
@@ -303,13 +303,24 @@ def wrist() -> mujoco.MjModel:
     return model
 
 
+def force_and_torque(
+    water: Hydrodynamics, data: mujoco.MjData, site: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """What the parent does to the body with a site, in the site's axes."""
+    body = water.model.site_bodyid[site]
+    torque, force = np.split(data.cfrc_int[body] - water.wrenches(data)[body], 2)
+    lever = data.site_xpos[site] - data.subtree_com[water.model.body_rootid[body]]
+    axes = data.site_xmat[site].reshape(3, 3)
+    return axes.T @ force, axes.T @ (torque - np.cross(lever, force))
+
+
 def test_a_force_sensor_at_rest_carries_the_weight_in_water() -> None:
     model = wrist()
     water, data = install(model), mujoco.MjData(model)
     data.qacc[:] = 0.0
     mujoco.mj_inverse(model, data)  # at rest, held by whatever is needed
     mujoco.mj_rnePostConstraint(model, data)
-    force, torque = water.force_and_torque(data, 0)
+    force, torque = force_and_torque(water, data, 0)
     assert force == pytest.approx([0.0, 0.0, (14.2 - 9.0) * 9.81], abs=1e-9)
     # what the arm gives balances weight at the centre of mass and buoyancy 1 cm beside it
     assert torque == pytest.approx([0.0, 9.0 * 9.81 * 0.01, 0.0], abs=1e-9)
@@ -321,7 +332,7 @@ def test_a_force_sensor_in_motion_balances_the_body_it_carries() -> None:
     water, data = install(model), mujoco.MjData(model)
     data.qpos[0], data.qvel[0] = 0.3, 1.5
     mujoco.mj_forward(model, data)
-    force, _ = water.force_and_torque(data, 0)
+    force, _ = force_and_torque(water, data, 0)
     axes = data.site_xmat[0].reshape(3, 3)
     acceleration = np.empty(6)
     mujoco.mj_objectAcceleration(model, data, mujoco.mjtObj.mjOBJ_BODY, 2, acceleration, 0)
@@ -392,7 +403,7 @@ def test_a_thruster_out_of_the_water_pushes_nothing() -> None:
     water.set_thrusters(data, [1.0])
     mujoco.mj_forward(model, data)
     assert not data.qfrc_passive.any()
-    water.set_elevation(data, 2.0)  # until a wave reaches it
+    water.water(data)[:, 6] = 2.0  # until a wave reaches it
     mujoco.mj_forward(model, data)
     assert np.linalg.norm(data.qfrc_passive[:3]) == pytest.approx(18.0)
 

@@ -57,15 +57,6 @@ def multiply(left: Array, right: Array) -> Array:
     return product
 
 
-def generators() -> Array:
-    """The eight matrices A_i of sl(3), (8, 3, 3), as `exponential` orders them."""
-    a = np.zeros((8, 3, 3))
-    a[0, 0, 2] = a[1, 1, 2] = a[2, 0, 1] = a[3, 1, 0] = a[6, 2, 0] = a[7, 2, 1] = 1.0
-    a[4] = np.diag([1.0, -1.0, 0.0])
-    a[5] = np.diag([1.0, 1.0, -2.0]) / 3.0
-    return a
-
-
 def unimodular(homography: Array) -> Array:
     """The same homography scaled to determinant 1."""
     scaled: Array = homography / math.cbrt(determinant(homography))

@@ -79,7 +79,7 @@ def draw_column(
         draw_repeats(axes, curve, look, with_boxes=len(curves) == 1)
         if len(curves) > 1:
             draw_end(axes, curve, look)
-    compared = _curves_of_control(control, result, column.name)
+    compared = _curves_of_control(control, column.name)
     above = [_is_far_above(other, curves) for other in compared]
     for other, is_above in zip(compared, above, strict=True):
         name = f"{CONTROL}, {other.name}" if other.name else CONTROL
@@ -345,7 +345,7 @@ def with_loss(name: str, curve: Curve) -> str:
     return f"{name} ({curve.loss_text})" if curve.losses else name
 
 
-def _curves_of_control(control: Result | None, result: Result, column: str) -> list[Curve]:
+def _curves_of_control(control: Result | None, column: str) -> list[Curve]:
     if control is None or column not in [c.name for c in control.columns]:
         return []
     return curves_of(control, column)[:1]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .cells import TaskCell, of_task, task_cells, task_measure
+from .cells import TaskCell, task_cells, task_measure
 from .crossing import Crossing, along, crossings, sentence
 from .figures import draw_task_figures
 from .phases import phase_means
@@ -13,7 +13,6 @@ __all__ = [
     "along",
     "crossings",
     "draw_task_figures",
-    "of_task",
     "phase_means",
     "sentence",
     "task_cells",

@@ -46,11 +46,6 @@ def task_measure(result: Result) -> Column | None:
     return result.columns[result.index(names[0].removesuffix(suffix))]
 
 
-def of_task(result: Result) -> bool:
-    """Whether a result is that of a task that succeeds or fails."""
-    return task_measure(result) is not None
-
-
 def task_cells(result: Result) -> list[TaskCell]:
     """Return the levels in the order of execution."""
     status = [str(cell) for cell in result.values(result.of_kind("status")[0].name)]

@@ -45,7 +45,7 @@ def _terrain(name: str, n: int, height: float) -> Shape:
     return surface(points, np.stack([x, y], axis=2) / 4.0)
 
 
-def _boulders(name: str, where: list[tuple[float, float, float]]) -> Shape:
+def _boulders(where: list[tuple[float, float, float]]) -> Shape:
     """Stones: squashed spheres at x, y with a radius."""
     stones = []
     for k, (x, y, radius) in enumerate(where):
@@ -63,7 +63,7 @@ def seafloor() -> tuple[Mesh, ...]:
     rock = worn("seafloor/rock", (0.38, 0.37, 0.33), grain=0.16)
     return (
         mesh(_terrain("seafloor/dunes", 44, 0.7).moved(z=-DEPTH), texture=sand()),
-        mesh(_boulders("seafloor", STONES), texture=rock),
+        mesh(_boulders(STONES), texture=rock),
     )
 
 

@@ -46,8 +46,6 @@ class Player:
         }
         """Topic in the recording -> topic on the bus."""
         self._types = reader.topics
-        self.n_played = 0
-        """Messages played so far."""
 
     def start(self, node: Node) -> None:
         """Publish from now on."""
@@ -69,5 +67,4 @@ class Player:
                 return
             if topic in self._publishers:
                 self._publishers[topic](message)
-                self.n_played += 1
             self._next = next(self._messages, None)

@@ -34,7 +34,7 @@ from .registrar import POLL, Registrar, Wanted
 from .rosout import rosout
 from .subscription import ReadingLimit, Subscription
 from .tcpros import PeerError, node_of
-from .xmlrpc import Answer, Refused, XmlRpcServer
+from .xmlrpc import Answer, XmlRpcServer
 
 NODE = "/uwsim"
 USE_SIM_TIME = MappingProxyType({"/use_sim_time": True})
@@ -113,17 +113,6 @@ class Ros1Bridge(Bridge):
     def wait(self, timeout: float) -> bool:
         """Wait until the master knows all topics and services; whether it does [s]."""
         return self._registrar.wait(timeout)
-
-    def get_parameter(self, name: str) -> Any:
-        """Return a parameter of the master; None if it is not set. Raises PeerError."""
-        try:
-            return self._registrar.call("getParam", name)
-        except Refused:
-            return None
-
-    def set_parameter(self, name: str, value: Any) -> None:
-        """Set a parameter of the master; raises PeerError."""
-        self._registrar.call("setParam", name, value)
 
     def n_connected(self, topic: str) -> int:
         """How many subscribers and publishers outside a topic is connected with now."""

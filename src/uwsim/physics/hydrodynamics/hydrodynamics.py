@@ -8,7 +8,6 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ...base.numerics.linear import turned_back
 from ...errors import UnknownName, UwsimError
 from . import callback
 from . import columns as c
@@ -91,12 +90,6 @@ class Hydrodynamics:
             point += row[c.CENTRE : c.CENTRE + 3]
         return np.asarray(point)
 
-    def set_elevation(
-        self, data: mujoco.MjData, elevation: float, *, body: int | None = None
-    ) -> None:
-        """Set the elevation of the surface at a body, or everywhere [m]."""
-        self.water(data)[slice(None) if body is None else body, 6] = elevation
-
     def set_thruster(self, data: mujoco.MjData, index: int, command: float) -> None:
         """Command a thruster by its number among the thrusters [1]."""
         data.ctrl[self._controls[index]] = command
@@ -124,10 +117,6 @@ class Hydrodynamics:
     def turn_fin(self, data: mujoco.MjData, name: str, angle: float) -> None:
         """Command the angle of a fin, by its actuator's name [rad]."""
         data.userdata[c.WATER_COLUMNS * self.model.nbody + self._fin(name)] = angle
-
-    def fin_angle(self, data: mujoco.MjData, name: str) -> float:
-        """Present angle of a fin [rad]."""
-        return float(data.act[self.model.actuator_actadr[self._fin(name)]])
 
     def stop_fin(self, data: mujoco.MjData, name: str) -> None:
         """Set the angle of a fin to 0."""
@@ -171,21 +160,6 @@ class Hydrodynamics:
         force or a torque sensor, else call ``mujoco.mj_rnePostConstraint`` first.
         """
         return callback.water_wrenches(self.model, data)
-
-    def force_and_torque(self, data: mujoco.MjData, site: int) -> tuple[Floats, Floats]:
-        """What a force-torque sensor at a site reads: force [N] and torque [N m], site axes.
-
-        MuJoCo's own sensors add up ``cfrc_int``, which lacks passive forces and so the water. Like
-        theirs, it is what the parent does to the body the site is on.
-        """
-        model = self.model
-        body = int(model.site_bodyid[site])
-        root = int(model.body_rootid[body])
-        inner = data.cfrc_int[body] - self.wrenches(data)[body]
-        axes = data.site_xmat[site].reshape(3, 3)
-        lever = data.site_xpos[site] - data.subtree_com[root]
-        torque = inner[:3] - np.cross(lever, inner[3:])
-        return turned_back(axes, inner[3:]), turned_back(axes, torque)
 
 
 def install(model: mujoco.MjModel) -> Hydrodynamics:

@@ -114,11 +114,6 @@ class MotionTrack:
         names = [signal.name for signal in self.signals]
         return self.values[:, names.index(name)] if name in names else None
 
-    def level_at(self, time: float) -> int | None:
-        """Return the number of the level measured at a time [s], or of the one before it."""
-        begun = [i for i, level in enumerate(self.levels) if level.began <= time + 1e-9]
-        return begun[-1] if begun else None
-
 
 def quantised(values: Array, steps: Array) -> Table:
     """Return values (..., m) as whole multiples of steps (m,)."""

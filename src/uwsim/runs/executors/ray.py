@@ -86,7 +86,7 @@ class RayExecutor:
                         while idle and idle[-1][1] != name:  # no process sees two algorithms
                             ray.kill(idle.pop()[0])
                         task = AssignedJob(job, idle.pop()[0] if idle else remote.remote())
-                        tasks[task.begin(ray)] = task
+                        tasks[task.begin()] = task
                     for worker, _ in idle:  # there is nothing left for them
                         ray.kill(worker)
                     idle.clear()
@@ -196,7 +196,7 @@ class AssignedJob:
     is_alive: bool = True
     """Whether the worker can be given another."""
 
-    def begin(self, ray: Any) -> Any:
+    def begin(self) -> Any:
         """Start the job; returns its events to come."""
         run, trial = self.job.run, self.job.trial
         self.writer = JournalWriter(run, trial)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from .checks import vehicle_errors
 from .spec import (
     BadHydrodynamics,
     BodyHydrodynamics,
@@ -17,5 +16,4 @@ __all__ = [
     "FinSpec",
     "ThrusterSpec",
     "VehicleHydrodynamics",
-    "vehicle_errors",
 ]

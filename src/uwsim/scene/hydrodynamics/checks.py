@@ -1,16 +1,14 @@
-"""Checks of the numbers of bodies, thrusters, fins and drives."""
+"""Checks of the numbers of bodies and thrusters."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 
 import numpy as np
 
 from ...base.geometry import Array
-from ...errors import choices, did_you_mean
+from ...errors import did_you_mean
 from ...schema import Numbers
-from .fin_checks import fin_errors
 from .number_checks import beyond_limits, listed, number_errors, words
 from .passivity import Kind, bearable_share, driving_motion
 from .spec import (
@@ -19,9 +17,7 @@ from .spec import (
     N_CURVE,
     SIZES,
     BodyHydrodynamics,
-    JointDrive,
     ThrusterSpec,
-    VehicleHydrodynamics,
     matrix,
 )
 
@@ -100,12 +96,6 @@ def thruster_errors(thruster: ThrusterSpec) -> list[str]:
     return errors or _thrust_errors(who, thruster)
 
 
-def drive_errors(drive: JointDrive) -> list[str]:
-    """Return every error in the numbers of a joint's drive."""
-    who = f"joint {drive.name!r}"
-    return number_errors(who, drive) or beyond_limits(who, drive)
-
-
 def density_errors(density: float) -> list[str]:
     """Return every error in the density of the water."""
     if LIQUIDS[0] <= density <= LIQUIDS[1]:
@@ -114,40 +104,6 @@ def density_errors(density: float) -> list[str]:
         f"density is {density:g}; expected that of a liquid, {LIQUIDS[0]:g} to {LIQUIDS[1]:g} "
         "(fresh water 1000, sea water 1025) [kg/m3]"
     ]
-
-
-def vehicle_errors(vehicle: VehicleHydrodynamics, links: Iterable[str]) -> list[str]:
-    """Return every error in a set, for a robot with these links."""
-    known = list(links)
-    errors = []
-    links_named = [body.link for body in vehicle.bodies]
-    for kind, names in (
-        ("link", links_named),
-        ("thruster", [thruster.name for thruster in vehicle.thrusters]),
-        ("fin", [fin.name for fin in vehicle.fins]),
-        ("joint", [drive.name for drive in vehicle.joints]),
-    ):
-        errors += [
-            f"two entries for the {kind} {name!r}; only one may be"
-            for name in sorted({name for name in names if names.count(name) > 1})
-        ]
-    for body in vehicle.bodies:
-        errors += body_errors(body)
-    for thruster in vehicle.thrusters:
-        errors += thruster_errors(thruster)
-    for fin in vehicle.fins:
-        errors += fin_errors(fin)
-    for drive in vehicle.joints:
-        errors += drive_errors(drive)
-    places = [("", link) for link in links_named]
-    places += [(f"thruster {one.name!r}: ", one.link) for one in vehicle.thrusters]
-    places += [(f"fin {one.name!r}: ", one.link) for one in vehicle.fins]
-    for who, link in places:
-        if link not in known:
-            errors.append(
-                f"{who}the robot has no link {link!r}.{choices(link, known, called='Links')}"
-            )
-    return errors + density_errors(vehicle.density)
 
 
 def _mass_errors(who: str, added: Array) -> list[str]:

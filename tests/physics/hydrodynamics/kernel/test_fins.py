@@ -100,10 +100,10 @@ def test_the_servo_turns_no_faster_than_its_rate_and_no_further_than_its_limits(
     water, data = in_water(replace(FIN, rate=0.2))
     water.turn_fin(data, "fin", 0.1)
     water.step(data, 100)
-    assert water.fin_angle(data, "fin") == pytest.approx(0.04, abs=1e-12)
+    assert data.act[0] == pytest.approx(0.04, abs=1e-12)
     water.turn_fin(data, "fin", 1.0)
     water.step(data, 1000)
-    assert water.fin_angle(data, "fin") == pytest.approx(0.35, abs=1e-12)
+    assert data.act[0] == pytest.approx(0.35, abs=1e-12)
 
 
 def test_the_servo_follows_with_its_lag_whatever_the_step() -> None:
@@ -111,7 +111,7 @@ def test_the_servo_follows_with_its_lag_whatever_the_step() -> None:
         water, data = in_water(replace(FIN, time_constant=0.1), timestep=timestep)
         water.turn_fin(data, "fin", 0.2)
         water.step(data, round(0.2 / timestep))
-        assert water.fin_angle(data, "fin") == pytest.approx(0.2 * (1 - math.exp(-2.0)), rel=1e-9)
+        assert data.act[0] == pytest.approx(0.2 * (1 - math.exp(-2.0)), rel=1e-9)
 
 
 def test_a_fin_out_of_the_water_does_nothing() -> None:
