@@ -12,11 +12,11 @@ from lxml import etree
 from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.bundled import bundled
 from uwsim.benchmark.measures import MEASURES
+from uwsim.checks.benchmark_tables import bundled_tables
 from uwsim.cli import main
 from uwsim.cli.list import KINDS, limit_in
 from uwsim.cli.options.descriptions import first_line, head_comment, without_title
 from uwsim.model.robots import find_file
-from uwsim.runs.tables import bundled_tables
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.unsupported import UNSUPPORTED, not_simulated
