@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from pathlib import Path
 
 from ..algorithms import load_algorithm
-from ..benchmark import truth_checks, warnings
+from ..benchmark.truth_checks import truth_diagnostics
 from ..benchmark.unknown_names import unknown_names
+from ..benchmark.updaters import ArmMoveUpdaterSpec, chain
 from ..errors import BadSetting, Diagnostic
+from ..schema import Diagnostics, parse
 from .subjects import CheckedBenchmark
 
 
@@ -27,15 +30,34 @@ def names_in_scene(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
 
 
 def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
-    """Return what of its arm positions the arms of the scene cannot take."""
+    """Warn of values for joints that do not exist, and of those beyond the limits of joints."""
     if not benchmark.is_whole:
         return ()
     vehicles = [vehicle.name for vehicle in benchmark.model.scene.vehicles]
-    return warnings.arm_warnings(benchmark.spec, vehicles, benchmark.model.robots)
+    diagnostics = Diagnostics(benchmark.spec.path)
+    nodes = parse(Path(benchmark.spec.path)).root.iter("armMoveUpdater")
+    specs = [s for s in chain(benchmark.spec.scene_updater) if isinstance(s, ArmMoveUpdaterSpec)]
+    for spec, node in zip(specs, nodes, strict=True):
+        if spec.target not in vehicles:
+            continue
+        joints = benchmark.model.robots[vehicles.index(spec.target)].movable
+        for given, place in zip(spec.arm_position, node.iterfind("armPosition"), strict=True):
+            if len(given) > len(joints):
+                diagnostics.warning(
+                    place,
+                    f"<armPosition> has {len(given)} values for {len(joints)} joints "
+                    f"({', '.join(joint.name for joint in joints)}); the rest is not used",
+                )
+            for joint, value, at in zip(joints, given, place.iterfind("joint"), strict=False):
+                held = joint.clamped(value)
+                if held != value:
+                    message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
+                    diagnostics.warning(at, message)
+    return diagnostics.all()
 
 
 def recorded_truths(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
     """Compare its recorded truths with what measures read of them."""
     if not benchmark.is_whole:
         return ()
-    return truth_checks.truth_diagnostics(benchmark.spec, benchmark.stage)
+    return truth_diagnostics(benchmark.spec, benchmark.stage)

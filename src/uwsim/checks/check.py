@@ -172,7 +172,6 @@ def _check_library(
 def _check_hydrodynamics(file: Path) -> list[Diagnostic]:
     """Return everything wrong with a hydrodynamics file; its links are looked up with a scene."""
     from ..scene.hydrodynamics.vehicle_file import read_vehicle_into
-    from ..schema import Diagnostics
 
     diagnostics = Diagnostics(file)
     read_vehicle_into(file, None, diagnostics)

@@ -6,13 +6,7 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from ..assets import (
-    has_model,
-    model_place_remark,
-    model_remarks,
-    package_remark,
-    why_unreadable,
-)
+from .. import assets
 from ..assets.doubtful_size import doubtful_size
 from ..errors import Diagnostic, SceneError, choices
 from ..scene.urdf.reader import read_robot
@@ -48,15 +42,17 @@ def mesh_files(robot: CheckedRobot) -> Iterator[Diagnostic]:
     """Report meshes that are not found, cannot be read, or are likely not in metres."""
     where = robot.where
     for name, shape in itertools.islice(_meshes(robot.spec).items(), MAX_FILES):
-        if why := why_unreadable(name, **where):
+        if why := assets.why_unreadable(name, **where):
             yield robot.error(shape, why)
-        elif not has_model(name, **where):
-            remark = package_remark(name, **where)
+        elif not assets.has_model(name, **where):
+            remark = assets.package_remark(name, **where)
             message = f"there is no model {name!r}, nor a stand-in: a labelled box"
             yield robot.warning(shape, f"{message}; {remark}" if remark else message)
-        elif why := model_place_remark(name, **where) or doubtful_size(name, shape.scale, **where):
+        elif why := assets.model_place_remark(name, **where) or doubtful_size(
+            name, shape.scale, **where
+        ):
             yield robot.warning(shape, why)
-        for remark in model_remarks(name, **where):
+        for remark in assets.model_remarks(name, **where):
             yield robot.warning(shape, remark)
 
 

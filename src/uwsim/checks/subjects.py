@@ -8,7 +8,7 @@ from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING
 
 from ..errors import Diagnostic, UwsimError
 from ..model.collision.scene_shapes import simulated_solids
@@ -21,7 +21,7 @@ from ..scene.urdf.robot import RobotSpec
 from ..schema import Diagnostics, Document, Spec, diagnostic_at
 from ..topics.thruster_commands import AutopilotTopicSpec
 from ..world import TIMESTEP, Stage
-from .robot_search import RobotSearch
+from .robot_search import RobotSearch, Where
 
 if TYPE_CHECKING:
     from ..benchmark.plugin_tables import Tables
@@ -32,13 +32,6 @@ MAX_VEHICLES = 50
 """Number of vehicles of a scene whose numbers are checked."""
 MAX_LOOSE = 200
 """Number of free objects that are checked."""
-
-
-class Where(TypedDict):
-    """From where a file is looked for."""
-
-    named_by: Path | None
-    data_path: tuple[Path, ...]
 
 
 class Subject:
@@ -109,7 +102,7 @@ class CheckedScene(Subject):
     @cached_property
     def robot_search(self) -> RobotSearch:
         """The files of its robots, found and read."""
-        return RobotSearch(self.spec, self.data_path, self.diagnostics)
+        return RobotSearch(self.spec, self.where, self.diagnostics)
 
     @property
     def robots(self) -> Mapping[int, RobotSpec]:
@@ -118,7 +111,8 @@ class CheckedScene(Subject):
 
     def has_stand_in(self, index: int) -> bool:
         """Whether the robot of a vehicle stands for one that is not found."""
-        return not self._found and index in self.robot_search.stand_ins
+        name = self.spec.vehicles[index].file
+        return not self._found and name in self.robot_search.stand_ins
 
     @cached_property
     def names(self) -> Search:
@@ -156,6 +150,11 @@ class CheckedScene(Subject):
             with suppress(UwsimError):  # reported where floors are checked
                 return set_on_floor(self.spec, self.robots, self.data_path)
         return self.spec
+
+    @property
+    def checked_vehicles(self) -> list[int]:
+        """Numbers of the first `MAX_VEHICLES` vehicles that have a robot."""
+        return sorted(self.robots)[:MAX_VEHICLES]
 
     @cached_property
     def loose_objects(self) -> dict[int, PhysicsSpec]:

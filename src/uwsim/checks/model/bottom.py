@@ -23,7 +23,7 @@ from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...sensors.dvl_sensor import DvlSensorSpec
 from ...sensors.janus import ENOUGH, Janus
-from ..subjects import MAX_VEHICLES, CheckedScene
+from ..subjects import CheckedScene
 
 FARTHEST = 20000.0
 """How far the bottom is looked for along each beam [m]."""
@@ -34,7 +34,7 @@ def velocity_logs(scene: CheckedScene) -> Iterator[Diagnostic]:
     vehicles, robots = scene.spec.vehicles, scene.robots
     logs = [
         (index, spec)
-        for index in sorted(robots)[:MAX_VEHICLES]
+        for index in scene.checked_vehicles
         for spec in vehicles[index].parts_of(DvlSensorSpec)
         if "bottom" not in vehicles[index].accepts
         and robots[index].link(spec.relative_to) is not None

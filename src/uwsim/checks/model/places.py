@@ -5,17 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from ...assets import (
-    find,
-    has_model,
-    model_place_remark,
-    model_remarks,
-    package_remark,
-    place_remark,
-)
+from ... import assets
 from ...errors import Diagnostic, UwsimError
 from ...schema import Spec, diagnostic_at
-from ..subjects import CheckedScene, Where
+from ..robot_search import Where
+from ..subjects import CheckedScene
 
 
 def places_of_files(scene: CheckedScene) -> list[Diagnostic]:
@@ -23,18 +17,18 @@ def places_of_files(scene: CheckedScene) -> list[Diagnostic]:
     remarks: dict[str, Spec] = {}
     for vehicle in scene.spec.vehicles:
         try:
-            path = find(vehicle.file, **scene.where)
+            path = assets.find(vehicle.file, **scene.where)
         except UwsimError:
             continue
-        remark = place_remark(vehicle.file, path, **scene.where)
+        remark = assets.place_remark(vehicle.file, path, **scene.where)
         remarks.setdefault(remark, vehicle)
     for spec, name, file in _models(scene):
         where = Where(named_by=file, data_path=scene.data_path)
-        remark = model_place_remark(name, **where)
-        if not remark and not has_model(name, **where):
-            lost = package_remark(name, **where) or "there is no model, nor a stand-in"
+        remark = assets.model_place_remark(name, **where)
+        if not remark and not assets.has_model(name, **where):
+            lost = assets.package_remark(name, **where) or "there is no model, nor a stand-in"
             remark = f"{lost}: a labelled box in place of {name!r}"
-        for said in (remark, *model_remarks(name, **where)):
+        for said in (remark, *assets.model_remarks(name, **where)):
             remarks.setdefault(said, spec)
     return [
         diagnostic_at(spec, remark, "file", severity="warning")

@@ -7,7 +7,7 @@ about. Not looked at: vehicles inside one another.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
 
@@ -21,7 +21,7 @@ from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...scene.vehicle import VehicleSpec
 from ...simulation.collision.start_depths import StartDepth, StartDepths
-from ..subjects import MAX_LOOSE, MAX_VEHICLES, CheckedScene
+from ..subjects import MAX_LOOSE, CheckedScene
 
 CLEARANCE = 1e-3
 """Of the position that a message names, above the ground [m]."""
@@ -29,25 +29,25 @@ CLEARANCE = 1e-3
 
 def start_poses(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of vehicles and free objects that begin in or under the ground, or above the water."""
-    solids = scene.spec.solid_objects.items()
-    loose = [index for index, solid in solids if solid.is_loose]
+    loose = [index for index, solid in scene.spec.solid_objects.items() if solid.is_loose]
     with suppress(UwsimError):  # reported where models are checked
         starts = Starts(scene.spec, scene.robots, scene.data_path)
-        for index in sorted(scene.robots)[:MAX_VEHICLES]:
-            vehicle = scene.spec.vehicles[index]
-            if "start" not in vehicle.accepts and (text := starts.of_vehicle(index)):
-                yield _warning(scene, "vehicle", vehicle, text)
-        for index in loose[:MAX_LOOSE]:
-            thing = scene.spec.objects[index]
-            if "start" not in thing.accepts and (text := starts.of_object(index)):
-                yield _warning(scene, "object", thing, text)
+        for i in scene.checked_vehicles:
+            yield from _start(scene, "vehicle", scene.spec.vehicles[i], starts.of_vehicle, i)
+        for i in loose[:MAX_LOOSE]:
+            yield from _start(scene, "object", scene.spec.objects[i], starts.of_object, i)
 
 
-def _warning(
-    scene: CheckedScene, kind: str, spec: VehicleSpec | ObjectSpec, text: str
-) -> Diagnostic:
-    message = f"the {kind} {spec.name!r}: {text}. {unless_meant('start')}"
-    return scene.warning(spec, message, "position")
+def _start(
+    scene: CheckedScene,
+    kind: str,
+    spec: VehicleSpec | ObjectSpec,
+    text_of: Callable[[int], str],
+    index: int,
+) -> Iterator[Diagnostic]:
+    if "start" not in spec.accepts and (text := text_of(index)):
+        message = f"the {kind} {spec.name!r}: {text}. {unless_meant('start')}"
+        yield scene.warning(spec, message, "position")
 
 
 class Starts:

@@ -23,12 +23,11 @@ from ...model.inertias import MIN_INERTIA
 from ...physics.actuation.allocation import curve, thrusters_on_base
 from ...scene.accepted_warnings import VehicleWarning, unless_meant
 from ...scene.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
-from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import LinkSpec, RobotSpec
 from ...scene.vehicle import VehicleSpec
 from ...world import TIMESTEP
-from ..subjects import MAX_VEHICLES, CheckedScene
+from ..subjects import CheckedScene
 
 UNEVEN = 0.1
 """Difference between mass and displaced water, as a share of the greater, that is reported."""
@@ -99,7 +98,7 @@ def vehicle_numbers(
     of_simulated: Mapping[VehicleWarning, VehicleCheck],
 ) -> Iterator[Diagnostic]:
     """Apply checks, by the name of their warning, to one vehicle after another."""
-    for index in sorted(scene.robots)[:MAX_VEHICLES]:
+    for index in scene.checked_vehicles:
         vehicle, robot = scene.spec.vehicles[index], scene.robots[index]
         hull = None
         with suppress(UwsimError):  # reported where models are checked
@@ -108,30 +107,20 @@ def vehicle_numbers(
         if hull is not None:
             texts += [(name, "file", check(hull, robot)) for name, check in of_hull.items()]
         if index in scene.dynamics:
-            one = candidate_of(scene.spec, vehicle, robot, scene.dynamics[index], hull)
+            dynamics, pose = scene.dynamics[index], vehicle.localized_from_base
+            one = Candidate(
+                vehicle=vehicle,
+                robot=robot,
+                dynamics=dynamics,
+                balance=balance_of(robot, dynamics, vehicle.joint_values),
+                up=(scene.spec.world_from_localized @ pose).rotation[2],
+                hull=hull,
+            )
             texts += [(name, DYNAMICS, check(one)) for name, check in of_simulated.items()]
         for warning, element, text in texts:
             if text and warning not in vehicle.accepts:
                 message = f"the vehicle {vehicle.name!r}: {text}. {unless_meant(warning)}"
                 yield scene.warning(vehicle, message, element)
-
-
-def candidate_of(
-    scene: SceneSpec,
-    vehicle: VehicleSpec,
-    robot: RobotSpec,
-    dynamics: VehicleHydrodynamics,
-    hull: Hull | None,
-) -> Candidate:
-    """Gather what is known about a simulated vehicle."""
-    return Candidate(
-        vehicle=vehicle,
-        robot=robot,
-        dynamics=dynamics,
-        balance=balance_of(robot, dynamics, vehicle.joint_values),
-        up=(scene.world_from_localized @ vehicle.localized_from_base).rotation[2],
-        hull=hull,
-    )
 
 
 def buoyancy_said(one: Candidate) -> str:

@@ -12,12 +12,13 @@ from ...devices.comms.comms_channels import (
     acoustic_channel,
     custom_channel,
 )
-from ...devices.comms.comms_device import MacProtocolSpec
 from ...devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from ...errors import Diagnostic
 from ...model.parts import CommsDeviceSpec, comms_devices
 from ...network import mac_kind
 from ..subjects import CheckedScene
+
+PROTOCOLS = "ALOHA, slottedALOHA, CSMA"
 
 
 def communication(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -47,9 +48,16 @@ def communication(scene: CheckedScene) -> Iterator[Diagnostic]:
             said = f"{device.name!r} has the address {device.mac} of {addresses[key]!r}"
             yield scene.warning(device, f"{said}: both receive what is sent to it")
         addresses.setdefault(key, device.name)
-        yield from _unknown_protocol(scene, device.mac_protocol)
-        if isinstance(device, CustomCommsDeviceSpec):
-            yield from _unreadable_formula(scene, device)
+        protocol = device.mac_protocol
+        if protocol is not None and mac_kind(protocol.name) is None:
+            said = f"<macProtocol> is {protocol.name[:60]!r}; read as ALOHA; known: {PROTOCOLS}"
+            yield scene.warning(protocol, said)
+        model = device.rate_error_model if isinstance(device, CustomCommsDeviceSpec) else None
+        if model is not None:
+            try:
+                model.parse()
+            except ScoreError as error:
+                yield scene.error(model, f"<errorRateExpr>: {error.message}")
 
 
 def _channels_of(device: CommsDeviceSpec) -> tuple[str, ...]:
@@ -57,22 +65,3 @@ def _channels_of(device: CommsDeviceSpec) -> tuple[str, ...]:
         return (acoustic_channel(device.channel_id),)
     sends, listens = custom_channel(device.tx_channel_id), custom_channel(device.rx_channel_id)
     return (sends,) if sends == listens else (sends, listens)
-
-
-def _unknown_protocol(
-    scene: CheckedScene, protocol: MacProtocolSpec | None
-) -> Iterator[Diagnostic]:
-    if protocol is not None and mac_kind(protocol.name) is None:
-        known = "ALOHA, slottedALOHA, CSMA"
-        said = f"<macProtocol> is {protocol.name[:60]!r}; read as ALOHA; known: {known}"
-        yield scene.warning(protocol, said)
-
-
-def _unreadable_formula(scene: CheckedScene, device: CustomCommsDeviceSpec) -> Iterator[Diagnostic]:
-    model = device.rate_error_model
-    if model is None:
-        return
-    try:
-        model.parse()
-    except ScoreError as error:
-        yield scene.error(model, f"<errorRateExpr>: {error.message}")

@@ -5,15 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 
-from ...assets import (
-    find,
-    has_model,
-    model_place_remark,
-    model_remarks,
-    place_remark,
-    searched_for,
-    why_unreadable,
-)
+from ... import assets
 from ...assets.packages import without_file_scheme
 from ...devices.structured_light_projector import StructuredLightProjectorSpec
 from ...errors import AssetError, Diagnostic
@@ -33,18 +25,18 @@ def model_files(scene: CheckedScene) -> Iterator[Diagnostic]:
         if thing.physics is not None and thing.physics.collision_shape:
             first.setdefault(thing.physics.collision_shape, thing)
     for name, spec in itertools.islice(first.items(), MAX_FILES):
-        if why := why_unreadable(name, **scene.where):
+        if why := assets.why_unreadable(name, **scene.where):
             yield scene.error(spec, why)
-        elif not has_model(name, **scene.where):
+        elif not assets.has_model(name, **scene.where):
             yield _lost(
                 scene,
                 spec,
                 f"model {without_file_scheme(name)!r} is nowhere and has no stand-in",
                 name,
             )
-        elif remark := model_place_remark(name, **scene.where):
+        elif remark := assets.model_place_remark(name, **scene.where):
             yield scene.warning(spec, remark)
-        for said in model_remarks(name, **scene.where):
+        for said in assets.model_remarks(name, **scene.where):
             yield scene.warning(spec, said)
 
 
@@ -62,7 +54,7 @@ def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:
     for projector in projectors[-1:]:
         image = projector.image_name
         try:
-            path = find(image, **scene.where)
+            path = assets.find(image, **scene.where)
         except AssetError as error:
             yield scene.error(projector, str(error))
             continue
@@ -71,7 +63,7 @@ def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:
             yield _lost(
                 scene, projector, f"image {without_file_scheme(image)!r} is nowhere and {so}", image
             )
-        elif remark := place_remark(image, path, **scene.where):
+        elif remark := assets.place_remark(image, path, **scene.where):
             yield scene.warning(projector, remark)
 
 
@@ -82,4 +74,4 @@ def _lost(scene: CheckedScene, place: object, message: str, name: str) -> Diagno
     original's DOCTYPE is not at error for naming what lay in it.
     """
     report = scene.warning if scene.spec.is_original else scene.error
-    return report(place, f"{message}; {searched_for(name, **scene.where)}")
+    return report(place, f"{message}; {assets.searched_for(name, **scene.where)}")

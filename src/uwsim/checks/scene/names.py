@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 
 from ...devices.force_sensor import ForceSensorSpec
@@ -16,14 +16,13 @@ from ...errors import Diagnostic
 from ...scene.angles import MORE_THAN_A_TURN
 from ...scene.object import ObjectSpec
 from ...scene.spec import SceneSpec
-from ...scene.urdf.robot import RobotSpec
-from ...scene.vehicle import VehicleSpec
 from ...schema import line_of, shown_tag
-from ...topics import InterfaceSpec, element_of
+from ...topics import element_of
 from ...topics.sensor_topic import SensorToROSSpec
 from ...topics.simulated_device_ros import unwrapped
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from ..subjects import CheckedScene
+from .shared_names import source_of
 
 MAX_NAMED = 8
 """Objects that one warning names."""
@@ -32,54 +31,48 @@ MAX_NAMED = 8
 def unknown_links(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report sensors and devices on links that their robot does not have."""
     for index, robot in scene.robots.items():
-        yield from _unknown_links(scene, index, robot)
-
-
-def _unknown_links(scene: CheckedScene, index: int, robot: RobotSpec) -> Iterator[Diagnostic]:
-    vehicle = scene.spec.vehicles[index]
-    links = {link.name: None for link in robot.links}
-    for element, part in vehicle.all_parts():
-        link = getattr(part, "relative_to", None) or getattr(part, "target", None)
-        if link is None:
-            continue
-        if link not in links:
-            is_error = isinstance(part, ForceSensorSpec | LampSpec)
-            severity = "error" if is_error else "warning"
-            near = scene.diagnostics.near(link, links, severity)
-            message = f"{shown_tag(element)}: {link!r} is no link of {vehicle.file}.{near}"
-            if is_error:
-                yield scene.error(part, message)
-            else:
-                yield scene.warning(part, f"{message} It is left out, as in the original")
-        elif isinstance(part, ForceSensorSpec) and scene.spec.sim_params.enable_physics:
-            mass = next(each.mass for each in robot.links if each.name == link)
-            if mass <= 0 and not scene.has_stand_in(index):
-                yield scene.warning(part, f"{shown_tag(element)}: its link {link!r} has no mass")
+        vehicle = scene.spec.vehicles[index]
+        links = {link.name: None for link in robot.links}
+        for element, part in vehicle.all_parts():
+            link = getattr(part, "relative_to", None) or getattr(part, "target", None)
+            if link is None:
+                continue
+            if link not in links:
+                is_error = isinstance(part, ForceSensorSpec | LampSpec)
+                severity = "error" if is_error else "warning"
+                near = scene.diagnostics.near(link, links, severity)
+                message = f"{shown_tag(element)}: {link!r} is no link of {vehicle.file}.{near}"
+                if is_error:
+                    yield scene.error(part, message)
+                else:
+                    yield scene.warning(part, f"{message} It is left out, as in the original")
+            elif isinstance(part, ForceSensorSpec) and scene.spec.sim_params.enable_physics:
+                mass = next(each.mass for each in robot.links if each.name == link)
+                if mass <= 0 and not scene.has_stand_in(index):
+                    yield scene.warning(
+                        part, f"{shown_tag(element)}: its link {link!r} has no mass"
+                    )
 
 
 def joint_values(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of joint values that are too many, or beyond the limits of their joints."""
     for index, robot in scene.robots.items():
-        yield from _joint_values(scene, scene.spec.vehicles[index], robot)
-
-
-def _joint_values(
-    scene: CheckedScene, vehicle: VehicleSpec, robot: RobotSpec
-) -> Iterator[Diagnostic]:
-    place = line_of(vehicle, "jointValues")
-    if len(vehicle.joint_values) > len(robot.movable):
-        yield scene.warning(
-            place,
-            f"<jointValues> has {len(vehicle.joint_values)} values for {len(robot.movable)} "
-            f"joints ({', '.join(joint.name for joint in robot.movable)}); the rest is not used",
-        )
-    for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
-        held = joint.clamped(value)
-        if held != value:
-            message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
-            if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
-                message += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
-            yield scene.warning(place, message)
+        vehicle = scene.spec.vehicles[index]
+        place = line_of(vehicle, "jointValues")
+        if len(vehicle.joint_values) > len(robot.movable):
+            joints = ", ".join(joint.name for joint in robot.movable)
+            yield scene.warning(
+                place,
+                f"<jointValues> has {len(vehicle.joint_values)} values for {len(robot.movable)} "
+                f"joints ({joints}); the rest is not used",
+            )
+        for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
+            held = joint.clamped(value)
+            if held != value:
+                message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
+                if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
+                    message += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
+                yield scene.warning(place, message)
 
 
 def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
@@ -99,43 +92,30 @@ def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report interfaces whose vehicle, camera or sensor does not exist."""
     known = _names(scene.spec)
     for interface in unwrapped(scene.spec.ros_interfaces):
-        yield from _unknown_source(scene, interface, known)
-
-
-def _unknown_source(
-    scene: CheckedScene, interface: InterfaceSpec, known: Mapping[str, Mapping[str, None]]
-) -> Iterator[Diagnostic]:
-    if isinstance(interface, SensorToROSSpec):
-        return  # not left out as in the original: `NamedSensors.error` reports it
-    element = element_of(interface)
-    wanted = next(
-        (
-            getattr(interface, name)
-            for name in ("vehicle_name", "camera_name", "name")
-            if hasattr(interface, name)
-        ),
-        None,
-    )
-    if wanted is None:
-        return
-    kinds = interface.sources
-    if not any(wanted in known.get(kind, {}) for kind in kinds):
-        names = chain(*(known.get(kind, {}) for kind in kinds))
-        near = scene.diagnostics.near(wanted, names, "warning")
-        yield scene.warning(
-            interface,
-            f"{shown_tag(element)}: no {_or(kinds)} is called {wanted!r}.{near} "
-            "The interface is left out, as in the original",
-        )
-    elif (
-        isinstance(interface, VirtualCameraToROSImageSpec)
-        and interface.depth
-        and wanted not in known.get("virtualRangeImage", {})
-    ):
-        yield scene.error(
-            interface,
-            f"{shown_tag(element)}: <depth> 1 needs a virtualRangeImage; {wanted!r} is none",
-        )
+        if isinstance(interface, SensorToROSSpec):
+            continue  # not left out as in the original: `NamedSensors.error` reports it
+        element = element_of(interface)
+        wanted = source_of(interface)
+        if wanted is None:
+            continue
+        kinds = interface.sources
+        if not any(wanted in known.get(kind, {}) for kind in kinds):
+            names = chain(*(known.get(kind, {}) for kind in kinds))
+            near = scene.diagnostics.near(wanted, names, "warning")
+            yield scene.warning(
+                interface,
+                f"{shown_tag(element)}: no {' or '.join(kinds)} is called {wanted!r}.{near} "
+                "The interface is left out, as in the original",
+            )
+        elif (
+            isinstance(interface, VirtualCameraToROSImageSpec)
+            and interface.depth
+            and wanted not in known.get("virtualRangeImage", {})
+        ):
+            yield scene.error(
+                interface,
+                f"{shown_tag(element)}: <depth> 1 needs a virtualRangeImage; {wanted!r} is none",
+            )
 
 
 def shared_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -228,7 +208,3 @@ def passable_vehicles(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 def _repeated(names: Iterable[str]) -> list[str]:
     return [name for name, count in Counter(names).items() if count > 1]
-
-
-def _or(kinds: Iterable[str]) -> str:
-    return " or ".join(kinds)

@@ -60,7 +60,7 @@ def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of topics with two publishers, and of those that ROS cannot name."""
     writers: dict[str, tuple[str, str]] = {}
     for interface in unwrapped(scene.spec.ros_interfaces):
-        element, own = element_of(interface), _source(interface)
+        element, own = element_of(interface), source_of(interface) or ""
         for field in interface.carries():
             topic = str(getattr(interface, field))
             key = topic.strip("/")
@@ -84,7 +84,7 @@ def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
             writers.setdefault(key, (element, own))
 
 
-def _source(interface: InterfaceSpec) -> str:
-    """The vehicle, camera or sensor that an interface publishes."""
+def source_of(interface: InterfaceSpec) -> str | None:
+    """Return the vehicle, camera or sensor that an interface publishes; None if it names none."""
     named = (getattr(interface, each, None) for each in ("vehicle_name", "camera_name", "name"))
-    return str(next((each for each in named if each is not None), ""))
+    return next((str(each) for each in named if each is not None), None)
