@@ -83,7 +83,12 @@ def apply(page: str, folder: Path) -> tuple[list[Path], str]:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("page", "n_files", "n_places"),
-    [("adding-a-sensor.md", 4, 5), ("adding-a-device.md", 2, 3), ("adding-a-water-law.md", 3, 7)],
+    [
+        ("adding-a-sensor.md", 4, 5),
+        ("adding-a-device.md", 2, 3),
+        ("adding-a-water-law.md", 3, 7),
+        ("adding-a-check.md", 2, 2),
+    ],
 )
 def test_a_page_says_all_that_must_be_done(
     page: str, n_files: int, n_places: int, tmp_path: Path
