@@ -88,6 +88,7 @@ def apply(page: str, folder: Path) -> tuple[list[Path], str]:
         ("adding-a-device.md", 2, 3),
         ("adding-a-force.md", 2, 3),
         ("adding-a-water-law.md", 3, 7),
+        ("adding-a-check.md", 2, 2),
     ],
 )
 def test_a_page_says_all_that_must_be_done(

@@ -50,14 +50,17 @@ MAY_IMPORT: dict[str, set[str]] = {
     },
     "benchmark": PARTS | {"benchmark"},
     "results": GROUND | {"statistics", "results"},
-    "runs": TASKS | {"middleware", "model", "physics", "runs"},
+    "checks": TASKS | {"model", "physics", "checks"},
+    "runs": TASKS | {"checks", "middleware", "model", "physics", "runs"},
     "analysis": GROUND | {"statistics", "results", "analysis"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
     "__main__": {"cli", "base"},
     "cli": (
-        TASKS | ENGINES | {"runs", "analysis", "envelope", "verify", "middleware", "viewer", "cli"}
+        TASKS
+        | ENGINES
+        | {"checks", "runs", "analysis", "envelope", "verify", "middleware", "viewer", "cli"}
     ),
 }
 MAY_IMPORT["api"] = MAY_IMPORT["cli"]

@@ -69,7 +69,7 @@ def page() -> str:
 
 def _plausibility_warnings() -> str:
     """The plausibility warnings of `uwsim check`."""
-    from uwsim.scene.checks.plausibility import PLAUSIBILITY_WARNINGS
+    from uwsim.scene.accepted_warnings import PLAUSIBILITY_WARNINGS
 
     lines = [
         "## Plausibility warnings", "",

@@ -11,8 +11,8 @@ import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from uwsim.checks.benchmark_tables import bundled_tables
 from uwsim.cli.list import clark, devices, limit_in, sensors
-from uwsim.runs.tables import bundled_tables
 from uwsim.schema import fields_of
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS

@@ -268,12 +268,12 @@ def check(
         arguments: values of their xacro arguments, by name.
     """
     from .assets.bundled import bundled_or
-    from .runs.check import diagnostics_of
+    from .checks import check_file
 
     folders = tuple(Path(folder) for folder in data_path)
     given = {name: str(value) for name, value in (arguments or {}).items()}
     return tuple(
         diagnostic
         for path in paths
-        for diagnostic in diagnostics_of(bundled_or(Path(path)), data_path=folders, arguments=given)
+        for diagnostic in check_file(bundled_or(Path(path)), data_path=folders, arguments=given)
     )

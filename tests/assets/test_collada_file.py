@@ -12,8 +12,8 @@ from PIL import Image
 
 from tests.support.opened import open_scene
 from uwsim.assets import load_model, why_unreadable
+from uwsim.checks import check_file, model_warnings
 from uwsim.errors import AssetError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 
 SOURCE = """<source id="{0}-p"><float_array id="{0}-a" count="9">0 0 0 2 0 0 0 3 0</float_array>
@@ -197,13 +197,13 @@ def test_check_and_run_warn_of_a_broken_material(tmp_path: Path) -> None:
         "<z>-5</z></position></vehicle></UWSimScene>"
     )
     for file in (robot, scene):
-        found = [each for each in diagnostics_of(file) if "material 'bad'" in each.message]
+        found = [each for each in check_file(file) if "material 'bad'" in each.message]
         assert [each.severity for each in found] == ["warning"]
     with open_scene(read_scene(scene)) as simulation:
-        warnings = [str(each) for each in simulation.world.warnings]
+        warnings = [str(each) for each in model_warnings(simulation.model)]
     assert len([each for each in warnings if "material 'bad'" in each]) == 1
     scene.write_text("<UWSimScene><object><name>o</name><file>x.dae</file></object></UWSimScene>")
-    assert [each for each in diagnostics_of(scene) if "material 'bad'" in each.message]
+    assert [each for each in check_file(scene) if "material 'bad'" in each.message]
 
 
 def test_a_sound_file_has_no_remarks(tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import trimesh
 
-from uwsim.runs.check import diagnostics_of
+from uwsim.checks import check_file
 
 
 def said(folder: Path, mesh: str) -> list[str]:
@@ -16,7 +16,7 @@ def said(folder: Path, mesh: str) -> list[str]:
         '<robot name="rov"> <link name="base_link">\n<visual> <geometry>'
         f"<mesh {mesh}/> </geometry> </visual>\n</link> </robot>"
     )
-    return [f"{each.severity} {each.line}: {each.message}" for each in diagnostics_of(file)]
+    return [f"{each.severity} {each.line}: {each.message}" for each in check_file(file)]
 
 
 def test_a_hull_in_millimetres_is_warned_of_until_it_is_scaled(tmp_path: Path) -> None:

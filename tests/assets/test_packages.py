@@ -11,8 +11,8 @@ from tests.support.opened import open_scene
 from uwsim.assets import find, load_model, model_place_remark, package_remark, place_remark
 from uwsim.assets.bundled import bundled
 from uwsim.assets.packages import package_of
+from uwsim.checks import check_file, model_warnings
 from uwsim.errors import AssetError, AssetNotFound
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 
 SIZES = {"hull_pkg": 2.0, "tool-desc": 0.2, "arm": 0.7}
@@ -187,7 +187,7 @@ def test_messages_show_the_name_of_a_package_alone(slashes: str, tmp_path: Path)
     scene = tmp_path / "arm" / "scene.xml"
     file = f"file:{slashes}package://arm/gone.obj"
     scene.write_text(f"<UWSimScene><object><name>o</name><file>{file}</file></object></UWSimScene>")
-    messages = [each.message for path in (robot, scene) for each in diagnostics_of(path)]
+    messages = [each.message for path in (robot, scene) for each in check_file(path)]
     assert [each for each in messages if "'package://lost/tool.obj'" in each]
     assert [each for each in messages if "'package://arm/gone.obj'" in each]
     assert not [each for each in messages if "file:" in each or "package://arm/meshes" in each]
@@ -334,10 +334,10 @@ def test_a_scene_and_a_robot_use_the_meshes_of_two_packages(tmp_path: Path) -> N
     scene.parent.mkdir()
     scene.write_text(SCENE.format("package://hull_pkg/urdf/r.urdf"))
     folders = (tmp_path / "ws",)
-    assert diagnostics_of(scene, data_path=folders) == []
+    assert check_file(scene, data_path=folders) == []
     with open_scene(read_scene(scene, data_path=folders), data_path=folders) as simulation:
         edges = [part.model.box.upper[0] for part in simulation.world.scenery.parts]
-        assert simulation.world.warnings == ()
+        assert model_warnings(simulation.model) == []
     assert edges == pytest.approx([2.0, 0.2])
 
 
@@ -349,13 +349,11 @@ def test_check_and_run_report_a_package_that_is_not_found(has_mesh: bool, tmp_pa
     scene = tmp_path / "hull_pkg" / "scene.xml"
     scene.write_text(SCENE.format("r.urdf"))
     for file in (scene, robot):
-        messages = [
-            each.message for each in diagnostics_of(file) if "tool_of_nobody" in each.message
-        ]
+        messages = [each.message for each in check_file(file) if "tool_of_nobody" in each.message]
         assert len(messages) == 1
         assert "package 'tool_of_nobody' is not found" in messages[0]
     with open_scene(read_scene(scene)) as simulation:
-        warnings = [str(each) for each in simulation.world.warnings]
+        warnings = [str(each) for each in model_warnings(simulation.model)]
     assert len([each for each in warnings if "package 'tool_of_nobody' is not found" in each]) == 1
 
 
@@ -394,9 +392,9 @@ def test_check_and_run_report_a_mesh_that_is_nowhere(name: str, place: str, tmp_
     )
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format("r.urdf"))
-    found = [str(each) for each in diagnostics_of(scene)]
+    found = [str(each) for each in check_file(scene)]
     with open_scene(read_scene(scene)) as simulation:
-        told = [str(each) for each in simulation.world.warnings]
+        told = [str(each) for each in model_warnings(simulation.model)]
     for messages in (found, told):
         assert len([each for each in messages if "none.stl" in each and "r.urdf:1" in each]) == 1
         assert all("a labelled box" in each for each in messages if "none.stl" in each)

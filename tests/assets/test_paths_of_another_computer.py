@@ -8,8 +8,8 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim.assets import find, load_model, place_remark
+from uwsim.checks import check_file, model_warnings
 from uwsim.errors import AssetError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -87,7 +87,7 @@ def test_check_and_run_warn_and_use_the_file(tmp_path: Path) -> None:
         "<UWSimScene>\n<vehicle><name>v</name><file>/root/.ros/boat.urdf</file></vehicle>\n"
         "<object><name>rock</name><file> /home/someone/ws/rock.obj </file></object></UWSimScene>"
     )
-    found = diagnostics_of(scene)
+    found = check_file(scene)
     assert {each.severity for each in found} == {"warning"}
     told = [each.message for each in found if "is a path of another computer" in each.message]
     assert [message.split("'")[1].rpartition("/")[2] for message in told] == [
@@ -96,7 +96,7 @@ def test_check_and_run_warn_and_use_the_file(tmp_path: Path) -> None:
         "hull.obj",
     ]
     with open_scene(read_scene(scene)) as simulation:
-        warnings = [str(each) for each in simulation.world.warnings]
+        warnings = [str(each) for each in model_warnings(simulation.model)]
         sources = {part.model.source for part in simulation.world.scenery.parts}
     assert sum("is a path of another computer" in each for each in warnings) == 3
     assert sources == {"file"}

@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from uwsim.benchmark.plugin import Plugin, attribute_errors_to, read_plugin
+from uwsim.checks.benchmark_tables import bundled_tables, read_plugins
 from uwsim.cli import main
 from uwsim.errors import BadSetting, PluginError, RunFailed
 from uwsim.results.result import Result
@@ -24,7 +25,6 @@ from uwsim.runs.planning.plan import Plan
 from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
-from uwsim.runs.tables import bundled_tables, read_plugins
 
 PARTS = '''
 from dataclasses import dataclass

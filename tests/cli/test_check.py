@@ -68,14 +68,14 @@ import resource
 import sys
 import time
 from pathlib import Path
-from uwsim.runs.check import diagnostics_of
+from uwsim.checks import check_file
 small, hostile = map(Path, sys.argv[1:])
-assert diagnostics_of(small)  # now all is mapped that checking takes, however much that is here
+assert check_file(small)  # now all is mapped that checking takes, however much that is here
 mapped = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize()
 resource.setrlimit(resource.RLIMIT_AS, (mapped + 200 * 2**20,) * 2)
 until = int(time.process_time()) + 10  # 2 s are promised; no timed unit test
 resource.setrlimit(resource.RLIMIT_CPU, (until, until))
-assert diagnostics_of(hostile)
+assert check_file(hostile)
 # the peak of this program: ru_maxrss would be that of the process that started it, if larger
 status = dict(line.split(":", 1) for line in Path("/proc/self/status").read_text().splitlines())
 assert int(status["VmHWM"].split()[0]) < 500 * 2**10

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from uwsim.base.rng import stream
+from uwsim.checks import check_file
 from uwsim.currents import (
     CURRENTS,
     Constant,
@@ -22,7 +23,7 @@ from uwsim.currents import (
     bind_currents,
 )
 from uwsim.errors import SceneError
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 from uwsim.schema import fields_of
 from uwsim.world import Flow
 
@@ -52,7 +53,7 @@ def test_a_scene_may_hold_several_currents_in_any_order(tmp_path: Path) -> None:
         UwsimSinusoidSpec(speed=0.2),
         ConstantSpec(velocity=(1.0, 0.0, 0.0)),
     )
-    assert "comes after" not in str(check_scene(path, strict=True))
+    assert "comes after" not in str(check_file(path, strict=True))
 
 
 def test_a_misspelt_current_is_an_error_that_names_the_right_one(tmp_path: Path) -> None:
@@ -158,6 +159,6 @@ def test_the_example_of_every_current_is_one(name: str, tmp_path: Path) -> None:
 )
 def test_water_that_cannot_move_so_is_refused(inside: str, said: str, tmp_path: Path) -> None:
     (diagnostic,) = [
-        each for each in check_scene(scene(tmp_path, inside)) if each.severity == "error"
+        each for each in check_file(scene(tmp_path, inside)) if each.severity == "error"
     ]
     assert said in diagnostic.message

@@ -10,6 +10,7 @@ import pytest
 
 from tests.simulation.girona500 import make
 from uwsim.benchmark.measures import EnergySpec
+from uwsim.checks import model_warnings
 from uwsim.devices.battery import BatterySpec
 from uwsim.devices.motor_currents import MotorCurrentsSpec
 from uwsim.messages import BatteryState, Float64MultiArray, JointState, MultiArrayLayout
@@ -227,6 +228,6 @@ def test_a_battery_that_cannot_feed_all_thrusters_is_warned_of(
     resistance: float, warns: bool
 ) -> None:
     with vehicle(replace(BATTERY, resistance=resistance)) as simulation:
-        texts = [warning.message for warning in simulation.world.warnings]
+        texts = [warning.message for warning in model_warnings(simulation.model)]
     found = [text for text in texts if "'battery' feeds 156.2 W at most" in text]
     assert bool(found) is warns

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.checks import check_file
 from uwsim.errors import SceneError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.hydrodynamics.spec import (
     BodyHydrodynamics,
     ThrusterSpec,
@@ -89,7 +89,7 @@ def test_the_page_names_every_element() -> None:
 def test_a_vehicle_without_any_mass_is_an_error_of_its_scene(folder: Path) -> None:
     side_file = folder / "my_rov.xml"
     side_file.write_text(side_file.read_text().replace("<mass>20</mass>", ""))
-    said = [str(diagnostic) for diagnostic in diagnostics_of(folder / "my_scene.xml")]
+    said = [str(diagnostic) for diagnostic in check_file(folder / "my_scene.xml")]
     assert len(said) == 1
     assert "my_scene.xml:10: the vehicle 'my_rov' has no mass" in said[0]
 
@@ -101,7 +101,7 @@ def test_a_vehicle_without_any_mass_is_an_error_of_its_scene(folder: Path) -> No
 def test_a_vehicle_far_from_floating_is_reported(volume: str, severity: str, folder: Path) -> None:
     side_file = folder / "my_rov.xml"
     side_file.write_text(side_file.read_text().replace("0.0201", volume))
-    (diagnostic,) = diagnostics_of(folder / "my_scene.xml")
+    (diagnostic,) = check_file(folder / "my_scene.xml")
     assert (diagnostic.line, diagnostic.severity) == (10, severity)
     assert f"has 20 kg and displaces {float(volume) * 1000:g} kg of water" in diagnostic.message
     if severity == "warning":

@@ -9,8 +9,8 @@ import pytest
 
 from scripts.reference.sensor_tables import filled
 from uwsim import messages
+from uwsim.checks import check_file
 from uwsim.devices import DEVICES
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.unsupported import UNSUPPORTED, limit_of
 from uwsim.schema.names import local
 from uwsim.sensors import SENSORS
@@ -63,5 +63,5 @@ def test_the_camera_of_the_page_is_one_that_a_scene_can_have(tmp_path: Path) -> 
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format(5 * "<joint>0</joint>", camera, topic))
     assert [
-        str(diagnostic) for diagnostic in diagnostics_of(scene) if diagnostic.severity == "error"
+        str(diagnostic) for diagnostic in check_file(scene) if diagnostic.severity == "error"
     ] == []

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from uwsim.checks import check_file
 from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
 from uwsim.errors import Diagnostic
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.topics.sensor_topic import EchoROSSpec
@@ -20,7 +20,7 @@ VEHICLE = "<vehicle><name>g</name><file>data/scenes/g500ARM5.urdf</file>{}</vehi
 def scene_of(folder: Path, body: str) -> tuple[SceneSpec, list[Diagnostic]]:
     file = folder / "scene.xml"
     file.write_text(f"<UWSimScene>\n{body}\n</UWSimScene>")
-    return read_scene(file), diagnostics_of(file)
+    return read_scene(file), check_file(file)
 
 
 @pytest.mark.parametrize(
@@ -85,7 +85,7 @@ def test_a_wrapper_with_a_name_and_no_device_is_an_error(tmp_path: Path) -> None
     file = tmp_path / "scene.xml"
     wrapper = "<simulatedDevice><name>e</name></simulatedDevice>"
     file.write_text(f"<UWSimScene>\n{VEHICLE.format(wrapper)}</UWSimScene>")
-    (error,) = [each for each in diagnostics_of(file) if each.severity == "error"]
+    (error,) = [each for each in check_file(file) if each.severity == "error"]
     assert (error.line, error.message) == (
         2,
         "<name> in <simulatedDevice>, which has no device in it",

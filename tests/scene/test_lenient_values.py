@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from uwsim.checks import check_file
 from uwsim.errors import Diagnostic, SceneError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.urdf.reader import read_urdf
@@ -21,7 +21,7 @@ OBJECT = (
 def checked(folder: Path, body: str, *, strict: bool = False) -> list[Diagnostic]:
     file = folder / "scene.xml"
     file.write_text(f"<UWSimScene>\n{body}\n</UWSimScene>")
-    return diagnostics_of(file, strict=strict)
+    return check_file(file, strict=strict)
 
 
 @pytest.mark.parametrize(
@@ -120,7 +120,7 @@ def test_so_is_that_of_a_robots_link(
 ) -> None:
     file = tmp_path / "r.urdf"
     file.write_text(f'<robot name="r">\n<link name="a">{link}</link></robot>')
-    (found,) = [each for each in diagnostics_of(file) if "clamped" in each.message]
+    (found,) = [each for each in check_file(file) if "clamped" in each.message]
     assert (found.severity, found.line) == ("warning", 2)
     (read,) = read_urdf(file).links
     value = read.mass if number == "mass" else read.visuals[0].size

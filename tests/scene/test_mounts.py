@@ -11,10 +11,10 @@ import pytest
 
 from uwsim import schema
 from uwsim.base.geometry import Pose, rotation_from_rpy
+from uwsim.checks import check_file
 from uwsim.devices.object_picker import ObjectPickerSpec
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.mounts import MountFrames, in_words
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 from uwsim.scene.settings import apply_setting
 from uwsim.scene.urdf.robot import JointSpec, LinkSpec, RobotSpec, VisualSpec
 from uwsim.scene.vehicle import VehicleSpec
@@ -158,9 +158,7 @@ SCENE = """<UWSimScene xmlns:u="urn:uwsim:1"><vehicle><name>g</name>
 def said(folder: Path, inside: str) -> list[str]:
     file = folder / "scene.xml"
     file.write_text(SCENE.format(inside))
-    return [
-        diagnostic.message for diagnostic in diagnostics_of(file) if "eye" in diagnostic.message
-    ]
+    return [diagnostic.message for diagnostic in check_file(file) if "eye" in diagnostic.message]
 
 
 @pytest.mark.parametrize(
@@ -187,7 +185,7 @@ def test_a_direction_that_is_none_is_an_error_with_the_nearest_and_the_other_way
 ) -> None:
     file = tmp_path / "scene.xml"
     file.write_text(SCENE.format("<u:lookAt>donw</u:lookAt>"))
-    (diagnostic,) = [each for each in check_scene(file) if each.severity == "error"]
+    (diagnostic,) = [each for each in check_file(file) if each.severity == "error"]
     assert "expected one of 'forward'" in diagnostic.message
     assert "or <x> <y> <z>" in diagnostic.message
     assert "Did you mean 'down'?" in diagnostic.message
@@ -215,7 +213,7 @@ def test_a_scene_of_before_july_2014_is_reported_with_the_switch_that_turns_its_
 ) -> None:
     file = tmp_path / "scene.xml"
     file.write_text(OF_2013.format(pitch))
-    messages = [diagnostic.message for diagnostic in diagnostics_of(file)]
+    messages = [diagnostic.message for diagnostic in check_file(file)]
     assert any("--compat visual-frames" in message for message in messages) is is_old
 
 
@@ -292,5 +290,5 @@ def test_check_says_where_sensors_and_lamps_point(tmp_path: Path, part: str) -> 
         "</offsetr> </simParams> <vehicle> <name>g</name> <file>data/scenes/g500ARM5.urdf</file> "
         f"{text} </vehicle></UWSimScene>"
     )
-    found = [each.message for each in diagnostics_of(file) if each.message.startswith("'it' ")]
+    found = [each.message for each in check_file(file) if each.message.startswith("'it' ")]
     assert found == [f"'it' {PARTS[part]}"]

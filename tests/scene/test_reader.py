@@ -15,16 +15,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
 
+from tests.support.check_text import check_text
 from uwsim.base.geometry import Pose
+from uwsim.checks import check_file
 from uwsim.currents import UwsimSinusoidSpec
 from uwsim.devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from uwsim.devices.echo import EchoSpec, SimulatedDevicesSpec
 from uwsim.devices.structured_light_projector import StructuredLightProjectorSpec
 from uwsim.errors import SceneError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene import SceneSpec, read_scene
 from uwsim.scene.object import ObjectSpec
-from uwsim.scene.reader import check_scene
 from uwsim.scene.sim_params import ShowTrajectorySpec
 from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.scene.urdf.reader import read_urdf
@@ -62,7 +62,7 @@ def scene_of(inside: str, folder: Path) -> tuple[SceneSpec, list[str]]:
     file = written(f"<UWSimScene>{inside}</UWSimScene>", folder)
     said = [
         diagnostic.message
-        for diagnostic in check_scene(file)
+        for diagnostic in check_text(file)
         if not diagnostic.message.startswith("read, not simulated yet")
     ]
     return read_scene(file), said
@@ -70,9 +70,7 @@ def scene_of(inside: str, folder: Path) -> tuple[SceneSpec, list[str]]:
 
 def diagnostics(inside: str, folder: Path) -> list[str]:
     file = written(f"<UWSimScene>{inside}</UWSimScene>", folder)
-    return [
-        diagnostic.message for diagnostic in check_scene(file) if diagnostic.severity == "error"
-    ]
+    return [diagnostic.message for diagnostic in check_text(file) if diagnostic.severity == "error"]
 
 
 VEHICLE = "<vehicle><name>g</name><file>data/scenes/g500ARM5.urdf</file>{}</vehicle>"
@@ -142,7 +140,7 @@ def test_dropping_the_extensions_gives_a_scene_in_the_originals_order(
 ) -> None:
     text = without_extensions(read_scene(path))
     assert "urn:uwsim" not in text
-    said = check_scene(written(text, tmp_path), strict=True)
+    said = check_file(written(text, tmp_path), strict=True)
     wrong = {diagnostic.message for diagnostic in said if diagnostic.severity == "error"}
     assert wrong <= {
         "<ProfilingSonar> is not in the original grammar",
@@ -171,20 +169,18 @@ def test_dropping_the_extensions_gives_a_valid_original(path: Path) -> None:
     "path", [*originals("*.xml"), *originals("*.urdf")], ids=lambda path: path.name
 )
 def test_every_original_file_is_without_errors(path: Path) -> None:
-    assert [
-        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
-    ] == []
+    assert [diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"] == []
 
 
 @needs_originals
 @pytest.mark.parametrize("path", originals("*[sS]cene.xml"), ids=lambda path: path.name)
 def test_every_original_scene_is_in_the_originals_order(path: Path) -> None:
-    assert [f for f in diagnostics_of(path, strict=True) if f.severity == "error"] == []
+    assert [f for f in check_file(path, strict=True) if f.severity == "error"] == []
 
 
 @pytest.mark.parametrize("path", BUNDLED, ids=lambda path: path.stem)
 def test_every_bundled_scene_is_without_errors_and_in_order(path: Path) -> None:
-    assert [f for f in diagnostics_of(path, strict=True) if f.severity == "error"] == []
+    assert [f for f in check_file(path, strict=True) if f.severity == "error"] == []
 
 
 def camera_in_l(scene: SceneSpec) -> tuple[np.ndarray, np.ndarray]:
@@ -507,7 +503,7 @@ def checked(inside: str, folder: Path, doctype: str = "") -> list[tuple[str, str
     file = written(f"{doctype}<UWSimScene>{inside}</UWSimScene>", folder)
     return [
         (diagnostic.severity, diagnostic.message)
-        for diagnostic in diagnostics_of(file)
+        for diagnostic in check_file(file)
         if not diagnostic.message.startswith("read, not simulated yet")
     ]
 
@@ -569,7 +565,7 @@ def test_what_is_not_simulated_yet_is_one_line_a_kind(tmp_path: Path) -> None:
         + "</UWSimScene>",
         tmp_path,
     )
-    assert [str(diagnostic) for diagnostic in check_scene(file)] == [
+    assert [str(diagnostic) for diagnostic in check_text(file)] == [
         f"{file}:3: warning: read, not simulated yet: showpath (lines 3, 4)"
     ]
 
@@ -581,7 +577,7 @@ def test_contacts_and_solid_objects_are_simulated_where_no_vehicle_is(tmp_path: 
     thing = "<object><name>o</name><file>a.obj</file><physics><mass>1</mass></physics></object>"
     scene = VEHICLE.format("") + thing + f"<rosInterfaces>{contact}</rosInterfaces>"
     file = written(f"<UWSimScene>{scene}</UWSimScene>", tmp_path)
-    assert check_scene(file) == []
+    assert check_text(file) == []
 
 
 def test_objects_that_a_search_never_finds_and_topics_of_two_are_named(tmp_path: Path) -> None:
@@ -592,7 +588,7 @@ def test_objects_that_a_search_never_finds_and_topics_of_two_are_named(tmp_path:
         + f"<rosInterfaces>{odom}\n{odom}</rosInterfaces></UWSimScene>",
         tmp_path,
     )  # fmt: skip
-    assert [str(diagnostic) for diagnostic in check_scene(file)] == [
+    assert [str(diagnostic) for diagnostic in check_text(file)] == [
         f"{file}:4: warning: the object 'a' is called as an object before it; "
         "searches find the first",
         f"{file}:6: warning: the object 'g' is called as a vehicle before it; "
@@ -620,7 +616,7 @@ def test_no_mutation_of_a_scene_raises_anything_but_a_scene_error(data: st.DataO
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "scene.xml"
         file.write_bytes(text)
-        said = check_scene(file)
+        said = check_file(file)
         assert all(diagnostic.message for diagnostic in said)
         with contextlib.suppress(SceneError):
             assert isinstance(read_scene(file), SceneSpec)

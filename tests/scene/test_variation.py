@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.checks import check_file
 from uwsim.devices.sway import SwaySpec
 from uwsim.errors import SceneError
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 from uwsim.scene.settings import apply_setting
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.variation import draw, varied
@@ -190,9 +191,7 @@ def test_what_cannot_vary_is_an_error_with_its_line(
     tmp_path: Path, variation: str, message: str
 ) -> None:
     path = write(tmp_path, uniform("object[blackbox].position.z", "4", "5"), variation)
-    [diagnostic] = [
-        diagnostic for diagnostic in check_scene(path) if diagnostic.severity == "error"
-    ]
+    [diagnostic] = [diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"]
     assert message in diagnostic.message
     assert path.read_text().split("\n")[(diagnostic.line or 0) - 1].strip() == variation.strip()
     with pytest.raises(SceneError):
@@ -201,7 +200,7 @@ def test_what_cannot_vary_is_an_error_with_its_line(
 
 def test_one_value_cannot_vary_twice(tmp_path: Path) -> None:
     path = "object[blackbox].position.x"
-    found = check_scene(write(tmp_path, UNIFORM, uniform(path, "1", "3")))
+    found = check_file(write(tmp_path, UNIFORM, uniform(path, "1", "3")))
     said = [diagnostic.message for diagnostic in found if diagnostic.severity == "error"]
     assert said == [f"<u:path> {path}: {path} varies already"]
 

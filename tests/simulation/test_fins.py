@@ -11,9 +11,9 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled
+from uwsim.checks import check_file
 from uwsim.errors import BadMessage
 from uwsim.messages import Float64MultiArray, MultiArrayLayout
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.hydrodynamics.vehicle_sets import vehicle_sets
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -101,5 +101,5 @@ def test_the_thrust_that_is_reported_is_that_at_speed(tmp_path: Path) -> None:
 def test_check_warns_about_a_fin_far_off_the_hull(tmp_path: Path) -> None:
     where = "<position> <x>-0.638</x> <y>0</y> <z>-0.11</z> </position>"
     scene = changed(tmp_path, (where, where.replace("-0.638", "-6.38")))
-    said = [one.message for one in diagnostics_of(scene)]
+    said = [one.message for one in check_file(scene)]
     assert any("far off its hull" in one and "fin 'upper_rudder' 5" in one for one in said)

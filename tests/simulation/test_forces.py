@@ -11,6 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
+from uwsim.runs.check import diagnostics_of
 
 from tests.simulation.girona500 import SCENE
 from tests.support.opened import open_scene
@@ -19,7 +20,6 @@ from uwsim.base.record import RandomState
 from uwsim.errors import SceneError, SimulationFailed, UnknownName, UwsimError
 from uwsim.forces import DockingMagnetSpec, Force, ForceSpec
 from uwsim.forces.docking_magnet import MagnetSpec
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.settings import apply_setting

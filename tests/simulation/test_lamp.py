@@ -11,10 +11,10 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
+from uwsim.checks import check_file
 from uwsim.devices.lamp import LampSpec
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.rendering.lights.lamp import MAX_HALF_ANGLE
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
@@ -100,15 +100,13 @@ def test_the_check_finds_both_and_a_cone_too_wide(tmp_path: Path) -> None:
     text = SCENE.read_text("utf-8").replace("<UWSimScene>", '<UWSimScene xmlns:u="urn:uwsim:1">')
     file = tmp_path / "scene.xml"
     file.write_text(text.replace("</vehicle>", f"{lamps}</vehicle>"), "utf-8")
-    said = [
-        diagnostic.message for diagnostic in diagnostics_of(file) if diagnostic.severity == "error"
-    ]
+    said = [diagnostic.message for diagnostic in check_file(file) if diagnostic.severity == "error"]
     assert any("'part9' is no link" in message for message in said)
     assert any("more than 4 lamps" in message for message in said)
     assert len(said) == 2
     wide = lamp.format("l", "part0", "<u:fov>170</u:fov>")
     file.write_text(text.replace("</vehicle>", f"{wide}</vehicle>"), "utf-8")
-    (said_of_fov,) = [f.message for f in diagnostics_of(file) if f.severity == "error"]
+    (said_of_fov,) = [f.message for f in check_file(file) if f.severity == "error"]
     assert "fov" in said_of_fov
 
 

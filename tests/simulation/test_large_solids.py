@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.checks import check_file
 from uwsim.model.collision import fixed_mesh as fixed_mesh_module
 from uwsim.model.collision import polygon_cache
 from uwsim.physics import engine_model as compile_module
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.on_floor import OnFloorSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
@@ -96,7 +96,7 @@ def test_a_track_has_the_same_bytes_without_a_cache(
 def test_check_names_the_errors_and_a_remedy_and_accepts_an_error_of_the_file(
     file: Path, scene: SceneSpec, tmp_path: Path
 ) -> None:
-    said = [one.message for one in diagnostics_of(file) if "contacts with" in one.message]
+    said = [one.message for one in check_file(file) if "contacts with" in one.message]
     (message,) = said
     assert "'rock0' (0.0" in message
     assert "terrain" not in message  # it is exact
@@ -107,9 +107,7 @@ def test_check_names_the_errors_and_a_remedy_and_accepts_an_error_of_the_file(
     for value in ("0.05", "0.01"):
         changed = file.with_name(f"error{value}.xml")
         changed.write_text(text.replace("</object>", error.format(value)))
-        found[value] = [
-            m for one in diagnostics_of(changed) if "contacts with" in (m := one.message)
-        ]
+        found[value] = [m for one in check_file(changed) if "contacts with" in (m := one.message)]
     assert found["0.05"] == []
     (message,) = found["0.01"]
     assert " plates, most of '" in message

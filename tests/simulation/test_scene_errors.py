@@ -6,8 +6,8 @@ import pytest
 
 from tests.simulation.girona500 import SCENE
 from tests.support.opened import open_scene
+from uwsim.checks import check_file
 from uwsim.errors import SceneError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 
 TEXT = SCENE.read_text()
@@ -70,9 +70,7 @@ def test_a_name_that_leads_nowhere_is_reported_with_its_line(way: str, tmp_path:
     line = changed[: changed.index(new) + new.index("\n") + 1].count("\n") + 1
     path = tmp_path / "scene.xml"
     path.write_text(changed)
-    diagnostics = [
-        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
-    ]
+    diagnostics = [diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"]
     assert [(diagnostic.file, diagnostic.line) for diagnostic in diagnostics] == [(str(path), line)]
     assert said in diagnostics[0].message
     with pytest.raises(SceneError) as caught:
@@ -88,7 +86,7 @@ def test_a_wrong_hydrodynamics_file_is_reported_with_its_own_lines(tmp_path: Pat
     path = tmp_path / "scene.xml"
     path.write_text(TEXT.replace("g500_physical", "mine"))
     diagnostics = [
-        str(diagnostic) for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+        str(diagnostic) for diagnostic in check_file(path) if diagnostic.severity == "error"
     ]
     assert [diagnostic.rpartition("mine.xml")[2][:3] for diagnostic in diagnostics] == [
         ":2:",
@@ -106,9 +104,7 @@ def test_a_set_that_is_not_named_as_its_file_is_a_warning(tmp_path: Path) -> Non
     path = tmp_path / "scene.xml"
     path.write_text(TEXT.replace("g500_physical", "mine"))
     (said,) = [
-        diagnostic
-        for diagnostic in diagnostics_of(path)
-        if "the set is called" in diagnostic.message
+        diagnostic for diagnostic in check_file(path) if "the set is called" in diagnostic.message
     ]
     assert (said.file, said.line, said.severity) == (str(tmp_path / "mine.xml"), 1, "warning")
     assert said.message.endswith("'other'; scenes find it by the name of its file, 'mine'")
@@ -118,7 +114,7 @@ def test_dynamics_that_name_no_set_are_an_error(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(TEXT.replace("g500_physical", " "))
     (diagnostic,) = [
-        str(diagnostic) for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+        str(diagnostic) for diagnostic in check_file(path) if diagnostic.severity == "error"
     ]
     assert "<u:dynamics> is empty; expected text" in diagnostic
 
@@ -149,8 +145,7 @@ def test_all_are_reported_at_once(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(changed)
     assert (
-        len([diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"])
-        == 3
+        len([diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"]) == 3
     )
 
 
@@ -168,13 +163,13 @@ def test_a_field_is_read_by_a_check_but_the_users_function_only_looked_for(
     text = TEXT.replace("<oceanState>", both)
     path.write_text(text)
     (diagnostic,) = [
-        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+        diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"
     ]
     assert "expected u and v" in diagnostic.message
     assert "u:field" in text.splitlines()[(diagnostic.line or 0) - 1]
     path.write_text(text.replace(name, "nowhere"))
     diagnostic, _ = [
-        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+        diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"
     ]
     assert "there is no module 'nowhere' on Python's path" in diagnostic.message
     assert "u:pythonFunction" in text.splitlines()[(diagnostic.line or 0) - 1]
@@ -184,7 +179,7 @@ def test_a_field_is_read_by_a_check_but_the_users_function_only_looked_for(
 def test_the_bundled_scenes_have_no_such_error() -> None:
     for path in sorted(SCENE.parent.glob("*scene.xml")):
         assert [
-            diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+            diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"
         ] == []
 
 
@@ -204,5 +199,5 @@ def test_a_mesh_of_too_many_faces_is_reported_before_a_run_refuses_it(
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.read_text().replace("</UWSimScene>", rock))
     line = scene.read_text().partition("<physics> <mass>0</mass>")[0].count("\n") + 1
-    [said] = [diagnostic for diagnostic in diagnostics_of(scene) if diagnostic.line == line]
+    [said] = [diagnostic for diagnostic in check_file(scene) if diagnostic.line == line]
     assert "'tent.obj' as a fixed trimesh would be 4 plates; at most 3" in said.message

@@ -10,8 +10,9 @@ import pytest
 from tests.support.opened import open_scene
 from uwsim import Simulation
 from uwsim.assets.bundled import bundled
+from uwsim.checks import check_file
 from uwsim.messages import TwistStamped
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import ShowTrajectorySpec
 from uwsim.topics.ros_twist_to_pat import ROSTwistToPATSpec
 
@@ -62,5 +63,5 @@ def test_points_older_than_the_time_window_go_and_unknown_targets_are_left_out()
 
 
 def test_check_does_not_call_them_unsimulated() -> None:
-    found = [each.message for each in check_scene(bundled("scenes")["cirs"])]
+    found = [each.message for each in check_file(bundled("scenes")["cirs"])]
     assert not [message for message in found if "trajector" in message]

@@ -10,6 +10,7 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim.base.geometry import quaternion_from_rotation, rotation_from_rpy
+from uwsim.checks import check_file, model_warnings
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.model.balance import balance_of
 from uwsim.physics.actuation.allocation import (
@@ -22,7 +23,6 @@ from uwsim.physics.actuation.allocation import (
     allocate,
     thrusters_on_base,
 )
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.hydrodynamics.spec import ThrusterSpec
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
@@ -241,10 +241,10 @@ def said_of(folder: Path, *thrusters: str) -> list[str]:
     simulation = torpedo(folder, *thrusters)
     checked = [
         diagnostic
-        for diagnostic in diagnostics_of(folder / "scene.xml")
+        for diagnostic in check_file(folder / "scene.xml")
         if "drive" in diagnostic.message
     ]
-    assert tuple(checked) == simulation.world.warnings
+    assert checked == model_warnings(simulation.model)
     assert all((diagnostic.severity, diagnostic.line) == ("warning", 5) for diagnostic in checked)
     return [diagnostic.message for diagnostic in checked]
 
@@ -264,11 +264,12 @@ def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_pa
     (tmp_path / "scene.xml").write_text(
         scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>thrust</u:accept>")
     )
-    assert [f for f in diagnostics_of(tmp_path / "scene.xml") if "drive" in f.message] == []
-    assert open_scene(read_scene(tmp_path / "scene.xml")).world.warnings == ()
+    assert [f for f in check_file(tmp_path / "scene.xml") if "drive" in f.message] == []
+    assert model_warnings(open_scene(read_scene(tmp_path / "scene.xml")).model) == []
 
 
 def test_nothing_is_reported_of_the_bundled_scene() -> None:
     assert (
-        open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.warnings == ()
+        model_warnings(open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).model)
+        == []
     )

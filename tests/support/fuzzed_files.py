@@ -17,9 +17,9 @@ from scipy.io import netcdf_file
 
 from uwsim.assets.loaders import read_model
 from uwsim.base.expression import ScoreError, parse
+from uwsim.checks import check_file
 from uwsim.currents import read_grid
 from uwsim.errors import UwsimError
-from uwsim.runs.check import diagnostics_of
 
 TESTS = Path(__file__).parents[1]
 DATA = TESTS.parent / "src" / "uwsim" / "data"
@@ -56,7 +56,7 @@ def xml(kind: str, folder: Path, chance: random.Random) -> None:
         path.write_bytes(bent(text.encode(), chance))
     else:
         path.write_text(rewritten(text, chance))
-    for error in diagnostics_of(path):
+    for error in check_file(path):
         is_score = "<function>" in error.message  # shown with a mark below the place
         assert is_score or "\n" not in str(error), f"two lines: {str(error)[:200]!r}"
         assert len(str(error)) < MAX_LETTERS, f"{len(str(error))} letters"

@@ -11,8 +11,9 @@ from lxml import etree
 from scripts.reference.relax_ng import scene_grammar
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
+from uwsim.checks import check_file
 from uwsim.messages import LaserScan, PointCloud2, Twist, Vector3, points
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 
 UP, DOWN = "<r>0</r>", "<r>M_PI</r>"  # of the base's z axis, as roll
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -101,7 +102,7 @@ def test_children_of_an_interface_of_ours_may_have_the_prefix_or_not(
     extra = thrusters.format(u=u) + "</u:ROSThrustersToPAT></rosInterfaces>"
     text = path.read_text().replace("</rosInterfaces>", extra)
     path.write_text(text.replace("</vehicle>", f"{DYNAMICS}</vehicle>"))
-    assert [each.message for each in check_scene(path) if "ROSThrusters" in each.message] == []
+    assert [each.message for each in check_file(path) if "ROSThrusters" in each.message] == []
     assert read_scene(path).ros_interfaces[-1].topic == "/t"  # type: ignore[attr-defined]
     grammar = etree.RelaxNG(etree.fromstring(scene_grammar().encode()))
     grammar.assertValid(etree.fromstring(path.read_text().encode()))

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.checks import check_file
 from uwsim.middleware.recording import TopicRate, TopicRates
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 from uwsim.schema.names import local
 from uwsim.topics import INTERFACES
 
@@ -161,7 +162,7 @@ def test_type_direction_and_rate(element: str, rates: dict[str, TopicRate]) -> N
 
 
 def test_check_reports_none_of_those_that_are_simulated(scene: Path) -> None:
-    warnings = [each.message for each in check_scene(scene) if "not simulated" in each.message]
+    warnings = [each.message for each in check_file(scene) if "not simulated" in each.message]
     simulated = {local(name) for name, spec in INTERFACES.items() if spec.is_simulated()}
     assert {"ROSImageToHUD", "ROSPointCloudLoader"} <= simulated
     assert [name for name in simulated for text in warnings if f": {name} (" in text] == []

@@ -8,9 +8,10 @@ import pytest
 
 from tests.support.opened import open_scene
 from tests.topics.test_every_interface import SCENE
+from uwsim.checks import check_file
 from uwsim.errors import SceneError
 from uwsim.middleware.recording.topic_rates import TopicRate, TopicRates
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 
 
 def rates(
@@ -31,7 +32,7 @@ def rates(
 def test_every_interface_keeps_a_rate_that_is_no_whole_number(tmp_path: Path) -> None:
     for topic, each in rates(tmp_path, "12.5", seconds=0.5).items():
         assert (topic, each.n_messages, each.rate) == (topic, 7, pytest.approx(12.5))
-    assert not [each for each in check_scene(tmp_path / "scene.xml") if "12.5" in each.message]
+    assert not [each for each in check_file(tmp_path / "scene.xml") if "12.5" in each.message]
 
 
 def test_a_period_between_two_steps_is_kept_in_the_mean(tmp_path: Path) -> None:

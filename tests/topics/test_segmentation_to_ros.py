@@ -11,9 +11,10 @@ from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 
 from tests.support.opened import open_scene
+from uwsim.checks import check_file
 from uwsim.messages import Image
 from uwsim.middleware.recording.recorder import ImageStorage, Recorder
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 
 CUBE = (
     "".join(f"v {x} {y} {z}\n" for x in (-0.2, 0.2) for y in (-0.2, 0.2) for z in (-0.2, 0.2))
@@ -60,7 +61,7 @@ def test_each_pixel_has_the_number_of_its_body_and_the_legend_names_all(
 ) -> None:
     """Also in fog through which nothing is seen, and of what is out of view."""
     path = scene_file(tmp_path, kind)
-    assert [each for each in check_scene(path) if each.severity == "error"] == []
+    assert [each for each in check_file(path) if each.severity == "error"] == []
     with open_scene(read_scene(path), is_blind=is_blind) as simulation:
         simulation.latest("/seg")
         simulation.latest("/legend")

@@ -9,8 +9,8 @@ import pytest
 
 from tests.support.opened import open_scene
 from tests.topics.test_every_interface import COMMS, MODEM, PARTS
+from uwsim.checks import check_file
 from uwsim.errors import SceneError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.sensor import measured_by
 from uwsim.topics.sensor_topic import SensorToROSSpec
@@ -54,7 +54,7 @@ def scene_file(folder: Path, parts: str, *interfaces: str) -> Path:
 
 
 def errors(path: Path) -> list[str]:
-    found = [each for each in diagnostics_of(path) if each.severity == "error"]
+    found = [each for each in check_file(path) if each.severity == "error"]
     return [str(each).removeprefix(f"{path}:") for each in found]
 
 

@@ -7,8 +7,9 @@ from pathlib import Path
 import pytest
 from lxml import etree
 
+from uwsim.checks import check_file
 from uwsim.errors import SceneError
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.scene.xacro import parse_expanded
 from uwsim.scene.xacro.expression import evaluate
@@ -271,7 +272,7 @@ def test_what_is_included_may_be_in_a_folder_of_the_data_path(folder: Path) -> N
     (folder / "library.xacro").rename(elsewhere / "library.xacro")
     scene = read_scene(folder / "scene.xml", data_path=(elsewhere,))
     assert [each.topic for each in scene.ros_interfaces] == ["/one", "/two"]  # type: ignore[attr-defined]
-    found = [each.message for each in check_scene(folder / "scene.xml", data_path=(elsewhere,))]
+    found = [each.message for each in check_file(folder / "scene.xml", data_path=(elsewhere,))]
     assert [message for message in found if "nowhere" in message] == []
     with pytest.raises(SceneError, match=r"'library.xacro' is nowhere; searched: "):
         read_scene(folder / "scene.xml")
@@ -280,7 +281,7 @@ def test_what_is_included_may_be_in_a_folder_of_the_data_path(folder: Path) -> N
 def test_errors_are_at_lines_of_the_file_that_was_written(folder: Path) -> None:
     path = folder / "scene.xml"
     path.write_text(SCENE.replace("<r>0</r>", "<r>x</r>").replace('x="${2*3}"', 'x="far"'))
-    found = [(each.line, each.message) for each in check_scene(path) if each.severity == "error"]
+    found = [(each.line, each.message) for each in check_file(path) if each.severity == "error"]
     assert [line for line, _ in found] == [5, 6]
     (folder / "library.xacro").write_text(LIBRARY.replace("${x}", "${far}"))
     path.write_text(SCENE)

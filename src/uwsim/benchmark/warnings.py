@@ -1,21 +1,18 @@
 """Warnings about benchmark files that are valid but probably wrong.
 
 Levels that never begin or measure nothing; times shorter than half a step of the simulation, which
-would be read as none or as another time; arm positions that the arm cannot take.
+would be read as none or as another time.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
+from collections.abc import Iterator, Sequence
 
-from ..errors import Diagnostic
-from ..scene.urdf.robot import RobotSpec
-from ..schema import Diagnostics, Spec, line_of, parse
+from ..schema import Spec, line_of
 from .measures import EuclideanNormSpec, MeasureSpec
 from .spec import BenchmarkSpec, FunctionSpec
 from .triggers import NeverSpec, ServiceSpec
-from .updaters import ArmMoveUpdaterSpec, SceneUpdaterSpec, chain, interval
+from .updaters import SceneUpdaterSpec, chain, interval
 
 Said = tuple[Spec | int | None, str]
 """A spec or a line, and what is said about it."""
@@ -80,35 +77,3 @@ def _empty_level(updater: SceneUpdaterSpec, timestep: float, step: str) -> Itera
 
 def _is_nothing(seconds: float, timestep: float) -> bool:
     return round(seconds / timestep) < 1
-
-
-def arm_warnings(
-    benchmark: BenchmarkSpec, vehicles: Sequence[str], robots: Mapping[int, RobotSpec]
-) -> list[Diagnostic]:
-    """Warn about joints that do not exist, and about values beyond the joints' limits.
-
-    Args:
-        benchmark: what was read from the file without an error.
-        vehicles: names of the scene's vehicles.
-        robots: their robots, by number of the vehicle.
-    """
-    diagnostics = Diagnostics(benchmark.path)
-    nodes = parse(Path(benchmark.path)).root.iter("armMoveUpdater")
-    specs = [s for s in chain(benchmark.scene_updater) if isinstance(s, ArmMoveUpdaterSpec)]
-    for spec, node in zip(specs, nodes, strict=True):
-        if spec.target not in vehicles:
-            continue
-        joints = robots[vehicles.index(spec.target)].movable
-        for given, place in zip(spec.arm_position, node.iterfind("armPosition"), strict=True):
-            if len(given) > len(joints):
-                diagnostics.warning(
-                    place,
-                    f"<armPosition> has {len(given)} values for {len(joints)} joints "
-                    f"({', '.join(joint.name for joint in joints)}); the rest is not used",
-                )
-            for joint, value, at in zip(joints, given, place.iterfind("joint"), strict=False):
-                held = joint.clamped(value)
-                if held != value:
-                    message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
-                    diagnostics.warning(at, message)
-    return diagnostics.all()

@@ -12,10 +12,10 @@ import typer
 
 from ..assets.bundled import bundled_or
 from ..base.terminal import printable
+from ..checks import check_file
+from ..checks.benchmark_tables import read_plugins
 from ..errors import AllErrors, Diagnostic
-from ..runs.check import diagnostics_of
 from ..runs.planning.option_values import pairs_of
-from ..runs.tables import read_plugins
 from ..scene.settings import xacro_arguments
 from .exit_status import WRONG_INPUT
 from .options.completion import checked_names, scene_names
@@ -66,13 +66,18 @@ def check(
     "message"}]}], "n_errors"}.
     """
     folders = tuple(data_path or ())
-    own = read_plugins(plugin)
+    plugins = read_plugins(plugin)
     arguments = xacro_arguments(pairs_of(xacro_settings(xacro), AllErrors()))
     named = [bundled_or(file) for file in files]
     scene = None if scene is None else bundled_or(scene)
     found = {
-        str(file): diagnostics_of(
-            file, strict=strict, data_path=folders, scene=scene, own=own, arguments=arguments
+        str(file): check_file(
+            file,
+            strict=strict,
+            data_path=folders,
+            scene=scene,
+            plugins=plugins,
+            arguments=arguments,
         )
         for file in [*named, *([scene] if scene is not None and scene not in named else [])]
     }

@@ -13,8 +13,8 @@ from rich.text import Text
 
 from ..assets.bundled import scene_file
 from ..base.terminal import printable
+from ..checks import check_file
 from ..errors import AllErrors
-from ..runs.check import diagnostics_of
 from ..runs.planning.option_values import pairs_of
 from .options.options import (
     DataPathOption,
@@ -74,7 +74,7 @@ def info(
     )
     try:
         found = inventory(
-            spec, simulation, diagnostics_of(path, data_path=folders, arguments=arguments)
+            spec, simulation, check_file(path, data_path=folders, arguments=arguments)
         )
     finally:
         simulation.close()

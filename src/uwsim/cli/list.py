@@ -11,8 +11,8 @@ from rich.table import Table
 from rich.text import Text
 
 from ..assets.bundled import bundled
+from ..checks.benchmark_tables import read_plugins
 from ..errors import UnknownName
-from ..runs.tables import read_plugins
 from .options.completion import one_of
 from .options.descriptions import family, first_line, head_comment, without_title
 from .options.options import JsonOption, PluginOption

@@ -63,6 +63,7 @@ def play(
     they would have seen. What both have is played as /recorded/TOPIC. With --commands the recorded
     commands drive the vehicles.
     """
+    from ..checks import model_warnings
     from ..middleware.recording import BagReader
     from ..physics.compile_scene import compile_scene
     from ..scene.spec import SceneSpec
@@ -83,7 +84,7 @@ def play(
     warn_of_stand_ins(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders)
     with BagReader(recording) as reader, Simulation(model) as simulation:
-        print_warnings(simulation.world.warnings)
+        print_warnings(model_warnings(model))
         for topic, type_name in reader.left_out.items():
             warn(f"{topic} is not played: {type_name} has no message definition here")
         player = player_of(reader, simulation, commands)

@@ -118,6 +118,7 @@ def render(
     and --from the scene's only virtual camera is used; without one, the file's viewer; without
     either, an orbit view.
     """
+    from ..checks import model_warnings
     from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
@@ -142,7 +143,7 @@ def render(
     model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
     simulation = Simulation(model)
     try:
-        print_warnings(simulation.world.warnings)
+        print_warnings(model_warnings(model))
         rendered = wanted.render(simulation, spec)
         written = save_all(rendered, simulation.world.scenery.part_names, output)
     finally:

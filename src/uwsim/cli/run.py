@@ -67,6 +67,7 @@ def run(
     With a connection (--ros1, --ros2, --web) programs outside read and write topics and call
     services while the scene runs in real time, and the run is not repeatable.
     """
+    from ..checks import model_warnings
     from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
@@ -86,7 +87,7 @@ def run(
     warn_of_stand_ins(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
     with Simulation(model, udp_address=what.udp_address) as simulation:
-        print_warnings(simulation.world.warnings)
+        print_warnings(model_warnings(model))
         raise_from_now_on()
         scene_topics = None
         if connections.is_connected or output.record is not None:

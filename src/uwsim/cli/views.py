@@ -153,7 +153,7 @@ def _point(option: str, text: str) -> Array:
 
 def size_of(text: str) -> tuple[int, int]:
     """Return width and height [px] as they are typed: ``800x600``; raises BadSetting."""
-    from ..scene.checks.sizes import MAX_PIXELS
+    from ..scene.sizes import MAX_PIXELS
 
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())
     edges = (int(match[1]), int(match[2])) if match else (0, 0)

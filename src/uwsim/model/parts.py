@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,14 +16,16 @@ from ..assets.mesh import Model
 from ..assets.weathering import weathered
 from ..base.geometry import Pose
 from ..base.numerics.linear import product
+from ..devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
+from ..devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from ..devices.led_array import COLOURS, LedArraySpec
 from ..errors import AssetNotFound
-from ..scene.checks.comms import CommsDeviceSpec, comms_devices
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec, VisualSpec
 from ..scene.vehicle import VehicleSpec
 
+CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 THINNEST = 1e-4
 """Least edge of a box, cylinder or sphere; robot files have some without any thickness [m]."""
 
@@ -197,3 +199,9 @@ def object_models(scene: SceneSpec, data_path: tuple[Path, ...]) -> Callable[[st
             return unknown_model(name)
 
     return load
+
+
+def comms_devices(vehicle: VehicleSpec) -> Iterator[CommsDeviceSpec]:
+    """Every communication device of a vehicle."""
+    yield from vehicle.parts_of(CustomCommsDeviceSpec)
+    yield from vehicle.parts_of(AcousticCommsDeviceSpec)

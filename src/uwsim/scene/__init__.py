@@ -1,8 +1,8 @@
 """Specs of scenes and robots, and their readers."""
 
 from .object import ObjectSpec
-from .reader import check_scene, read_scene
+from .reader import read_scene
 from .spec import SceneSpec
 from .vehicle import VehicleSpec
 
-__all__ = ["ObjectSpec", "SceneSpec", "VehicleSpec", "check_scene", "read_scene"]
+__all__ = ["ObjectSpec", "SceneSpec", "VehicleSpec", "read_scene"]

@@ -9,7 +9,7 @@ from ..acoustics import MaterialName
 from ..base.geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
 from ..base.numerics.linear import product
 from ..schema import CLAMPED, MAX_DISTANCE, REQUIRED, Spec, element
-from .checks.plausibility import ObjectWarning
+from .accepted_warnings import ObjectWarning
 from .on_floor import OnFloorSpec
 
 ShapeType = Literal[

@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from lxml import etree
-
 from ..devices import DEVICES
-from ..schema import NAMESPACE, Diagnostics
 from ..sensors import SENSORS
 from ..topics import INTERFACES, InterfaceSpec
 
@@ -71,31 +68,3 @@ def limit_of(parent: str, name: str) -> str:
     if (parent, name) in FALL:
         return FALLS_ALONE
     return READ_ONLY if (parent, name) in UNSUPPORTED else ""
-
-
-def not_simulated(root: etree._Element, diagnostics: Diagnostics) -> None:
-    """Report every kind of element that is read and not simulated yet, with its lines."""
-    lines: dict[str, list[int]] = {}
-    is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
-    falls = not is_dynamic and (root.findtext("simParams/enablePhysics") or "").strip() == "1"
-    for node in root.iter("*"):
-        parent = node.getparent()
-        if parent is None:
-            continue
-        place = (str(parent.tag), str(node.tag))
-        kind = UNSUPPORTED.get(place)
-        if place in FALL and falls:
-            kind = None
-        elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMITS:
-            kind = "limits of objects"
-        if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
-            lines.setdefault(kind, []).append(_line(node))
-    for kind, where in sorted(lines.items(), key=lambda entry: entry[1][0]):
-        shown = sorted(set(where))
-        listed = ", ".join(map(str, shown[:8])) + (", ..." if len(shown) > 8 else "")
-        many = "line" if len(shown) == 1 else "lines"
-        diagnostics.warning(shown[0], f"{READ_ONLY}: {kind} ({many} {listed})")
-
-
-def _line(node: etree._Element) -> int:
-    return int(str(node.sourceline or 0))

@@ -26,7 +26,7 @@ from ..devices.tf import TfSpec
 from ..schema import CLAMPED, MAX_DISTANCE, Spec, element
 from ..schema.names import local
 from ..sensors import SENSORS
-from .checks.plausibility import VehicleWarning
+from .accepted_warnings import VehicleWarning
 from .on_floor import OnFloorSpec
 
 T = TypeVar("T")

@@ -49,6 +49,11 @@ class Diagnostics:
         """Add a warning at an element, a spec or a line number; the file stays valid."""
         self._append(place, message, "warning")
 
+    def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
+        """Add errors and warnings as they are made, so that `near` knows whether one is listed."""
+        for diagnostic in diagnostics:
+            self._add(diagnostic)
+
     def unknown(self, node: etree._Element, what: str, name: str, known: Iterable[str]) -> None:
         """Say that ``name`` is not one of ``known``, with the nearest right one."""
         self.error(node, f"{what}.{self.near(name, known)}")
@@ -82,12 +87,15 @@ class Diagnostics:
         return sum(diagnostic.severity == severity for diagnostic in self._found) < MAX_DIAGNOSTICS
 
     def _append(self, place: object, message: str, severity: str) -> None:
-        if self._uncounted[severity] or not self._has_room(severity):
-            self._uncounted[severity] += 1
-            return
         line = line_of(place) if isinstance(place, Spec) else getattr(place, "sourceline", place)
         line = line if isinstance(line, int) else None
-        self._found.append(_diagnostic(self.file, line, message, severity))
+        self._add(_diagnostic(self.file, line, message, severity))
+
+    def _add(self, diagnostic: Diagnostic) -> None:
+        if self._uncounted[diagnostic.severity] or not self._has_room(diagnostic.severity):
+            self._uncounted[diagnostic.severity] += 1
+        else:
+            self._found.append(diagnostic)
 
 
 def diagnostic_at(

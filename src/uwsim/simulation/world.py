@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +14,7 @@ from ..base.geometry import Intrinsics, Pose
 from ..base.rng import stream
 from ..bus import Bus
 from ..devices.device import DeviceSpec
-from ..errors import Diagnostic, UnknownName
+from ..errors import UnknownName
 from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
 from ..scene.urdf.robot import RobotSpec
@@ -24,7 +23,6 @@ from ..sensors.sensor import BindsSensor, Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import Actuators, Contact
 from .bodies import SceneBody, find_body, name_bodies
-from .checks.plausibility import model_warnings
 from .collision.below_ground import BelowGround
 from .collision.contacts import Contacts
 from .collision.start_depths import lift_from_ground
@@ -124,11 +122,6 @@ class SceneWorld:
                     if not isinstance(part, DeviceSpec) and isinstance(part, BindsSensor):
                         sensors[element, part.name] = part.bind(self, vehicle)
         return sensors
-
-    @cached_property
-    def warnings(self) -> tuple[Diagnostic, ...]:
-        """Warnings about the scene, with the lines of the file."""
-        return model_warnings(self.model)
 
     @property
     def bus(self) -> Bus:

@@ -13,7 +13,7 @@ from tests.support.short_benchmark import run
 from uwsim.benchmark.measures import ControlSpec, EnergySpec, MeasureSpec
 from uwsim.benchmark.measures.energy import BatterySpec
 from uwsim.benchmark.reader import check_benchmark, read_benchmark
-from uwsim.runs.check import diagnostics_of
+from uwsim.checks import check_file
 from uwsim.schema import NAMESPACE, fields_of
 
 CURRENTS = Path(uwsim.__file__).parent / "data" / "benchmarks" / "currents.xml"
@@ -38,7 +38,7 @@ def written(folder: Path, *measures: str) -> Path:
 
 
 def said(file: Path) -> list[str]:
-    return [f"{diagnostic.line}: {diagnostic.message}" for diagnostic in diagnostics_of(file)]
+    return [f"{diagnostic.line}: {diagnostic.message}" for diagnostic in check_file(file)]
 
 
 def test_energy_is_read_with_its_battery_in_either_unit(tmp_path: Path) -> None:

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from uwsim.checks import check_file
 from uwsim.errors import SceneError
-from uwsim.scene.reader import check_robot
 from uwsim.scene.urdf.kinematics import joint_positions, link_poses
 from uwsim.scene.urdf.reader import read_robot, read_urdf
 from uwsim.scene.urdf.robot import RobotSpec
@@ -298,7 +298,7 @@ def test_a_chain_with_a_slider_crank_is_not_followed_and_said_so(tmp_path: Path)
     )
     file = tmp_path / "r.urdf"
     file.write_text(f'<robot name="r">{LINKS}<link name="d"/>{joints}</robot>')
-    (told,) = [each for each in check_robot(file) if "mimics" in each.message]
+    (told,) = [each for each in check_file(file) if "mimics" in each.message]
     assert told.severity == "warning"
     assert "joint 'r' mimics 'slidercrank'" in told.message
     assert joint_positions(read_urdf(file), (0.4,))["r"] == 0.2

@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
+from uwsim.checks import check_file
 from uwsim.messages import ProjectedSonarImage, pixels_of
-from uwsim.scene.reader import check_scene, read_scene
+from uwsim.scene.reader import read_scene
 from uwsim.sensors.sonar.message import amplitudes
 
 PAGE = Path(__file__).parents[3] / "docs" / "sonar.md"
@@ -48,4 +49,4 @@ def test_the_scene_of_the_page_is_heard_the_same_twice_whatever_else_is_aboard(
 def test_the_scene_of_the_page_has_no_errors(tmp_path: Path) -> None:
     file = tmp_path / "wreck-sonar.xml"
     file.write_text(TEXT)
-    assert [each for each in check_scene(file) if each.severity == "error"] == []
+    assert [each for each in check_file(file) if each.severity == "error"] == []

@@ -12,8 +12,8 @@ from tests.simulation.girona500 import SCENE, run
 from tests.support.opened import open_scene
 from uwsim.assets import load_model
 from uwsim.base.geometry import Pose
+from uwsim.checks import check_file
 from uwsim.errors import SceneError
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.on_floor import OnFloorSpec
 from uwsim.scene.reader import read_scene
@@ -298,13 +298,11 @@ FILE = """<UWSimScene xmlns:u="urn:uwsim:1">
 def test_check_says_with_its_line_where_there_is_no_ground(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(FILE.format(x=3))
-    assert [
-        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
-    ] == []
+    assert [diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"] == []
     assert open_scene(read_scene(path)).world.body("pot").world_from_body.position[2] > -7.2
     path.write_text(FILE.format(x=300))
     (diagnostic,) = [
-        diagnostic for diagnostic in diagnostics_of(path) if diagnostic.severity == "error"
+        diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"
     ]
     assert (diagnostic.line, "at x 300, y 0" in diagnostic.message) == (6, True)
     with pytest.raises(SceneError) as caught:

@@ -15,13 +15,13 @@ from tests.simulation.collision.test_floor import EDGES, UP, grid, ground
 from tests.simulation.girona500 import SCENE
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
+from uwsim.checks import check_file
+from uwsim.checks.model.starts import Starts
 from uwsim.physics.kinematics.lift import SPEED
-from uwsim.runs.check import diagnostics_of
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import Simulation
-from uwsim.simulation.checks.start_plausibility import Starts
 from uwsim.simulation.collision.start_depths import StartDepths
 
 SCALE = 2.5
@@ -192,7 +192,7 @@ def test_an_object_of_the_original_s_physics_is_lifted_too_and_check_warns(
         f"<position><x>0</x><y>0</y><z>{-4.5 - depth}</z></position><physics><mass>1500</mass>"
         "<collisionShapeType>box</collisionShapeType></physics></object></UWSimScene>"
     )
-    warned = [each.message for each in diagnostics_of(path) if "begins" in each.message]
+    warned = [each.message for each in check_file(path) if "begins" in each.message]
     assert len(warned) == 1
     assert f"the object {name!r}: it begins " in warned[0]
     with open_scene(read_scene(path).nominal, timestep=timestep) as simulation:

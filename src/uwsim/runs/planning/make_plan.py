@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from ...assets.bundled import benchmark_file, scene_file
 from ...base.terminal import print_warnings
+from ...checks.benchmark_tables import read_plugins
 from ...errors import AllErrors, AssetNotFound, BadSetting
 from ...scene.settings import OF_XACRO, xacro_arguments
 from ...schema.source_line import line_of
@@ -17,7 +18,6 @@ from ..foreign_code import announce, refuse_code, refused
 from ..named_plugins import named_plugins
 from ..program import load_program
 from ..stand_ins import warn_of_stand_ins
-from ..tables import read_plugins
 from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
 from .stored_pilot import PREFIX, with_stored_pilot
@@ -210,10 +210,10 @@ def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
 
 def say_warnings(plan: Plan) -> None:
     """Print warnings about stand-ins for missing files and about unlikely values."""
-    from ...simulation.checks.plausibility import warnings_of
+    from ...checks import scene_warnings
 
     warn_of_stand_ins(plan.scene, plan.data_path)
-    print_warnings(warnings_of(plan.scene, plan.data_path, plan.timestep))
+    print_warnings(scene_warnings(plan.scene, plan.data_path, plan.timestep))
 
 
 def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:

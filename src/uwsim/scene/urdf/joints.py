@@ -8,7 +8,7 @@ import math
 from lxml import etree
 
 from ...schema import Diagnostics, source_line
-from ..checks.angles import MORE_THAN_A_TURN
+from ..angles import MORE_THAN_A_TURN
 from .robot import JointKind, JointSpec, LinkSpec, MimicSpec
 from .values import name_of, number_of, origin_of, triple_of
 

@@ -8,7 +8,7 @@ from lxml import etree
 
 from ...base.geometry import ZERO, Triple
 from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, number
-from ..checks.angles import degrees_for_radians
+from ..angles import degrees_for_radians
 from .robot import Colour
 
 

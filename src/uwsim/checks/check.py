@@ -1,0 +1,252 @@
+"""Checking files: reads them, and applies the rules of the table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain, groupby
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..assets.bundled import scene_file
+from ..errors import Diagnostic, FileError, PluginError, SceneError, UwsimError
+from ..schema import Diagnostics, parse, shown_tag
+from ..world import TIMESTEP
+from .benchmark_tables import read_plugins
+from .rule import Need
+
+if TYPE_CHECKING:
+    from ..benchmark.plugin import Plugin
+    from ..benchmark.plugin_tables import Tables
+    from ..model.scene_model import SceneModel
+    from ..scene.spec import SceneSpec
+    from .subjects import CheckedBenchmark, CheckedScene
+
+MAX_MACROS = 12
+"""Macros or properties of a library that are listed."""
+
+
+def check_file(
+    file: Path,
+    *,
+    strict: bool = False,
+    data_path: tuple[Path, ...] = (),
+    scene: Path | None = None,
+    plugins: tuple[tuple[Plugin, ...], Tables] | None = None,
+    arguments: Mapping[str, str] | None = None,
+) -> list[Diagnostic]:
+    """Return the errors and warnings about a file; its root element says its kind.
+
+    Names are looked up in the files that the file names; nothing is run.
+
+    Args:
+        file: the file.
+        strict: also compare it with the order of the original's grammar.
+        data_path: folders in which files are looked for.
+        scene: the scene of a benchmark; None for the one that it names.
+        plugins: what `read_plugins` returns; None for what is bundled.
+        arguments: values of xacro arguments, by name.
+    """
+    from ..scene.reader import ROOT
+    from ..scene.xacro import library_of
+
+    try:
+        node = parse(file).root
+    except FileError as error:
+        return list(error.diagnostics)
+    root = str(node.tag)
+    if library := library_of(node):
+        return _check_library(file, *library, data_path, arguments)
+    if root == "robot":
+        from .robots import check_robot
+        from .table import ROBOT_RULES
+
+        return check_robot(file, ROBOT_RULES, data_path=data_path, arguments=arguments)
+    if root == "benchmark":
+        own, tables = plugins or read_plugins(())
+        return _check_benchmark(file, strict, scene, data_path, own, tables, arguments)
+    if root == ROOT:
+        return _check_scene(file, strict, data_path, arguments)
+    if root == "hydrodynamics":
+        return _check_hydrodynamics(file)
+    message = (
+        f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
+        "<hydrodynamics>"
+    )
+    if root.startswith("{") and node.prefix is None:
+        message += "; xmlns=... puts all elements in a namespace: write xmlns:u=..."
+    return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=message)]
+
+
+def _check_scene(
+    path: Path, strict: bool, data_path: tuple[Path, ...], arguments: Mapping[str, str] | None
+) -> list[Diagnostic]:
+    """Return the errors and warnings of a scene file and of its robots, as `check_file` does."""
+    from ..scene.reader import read_document
+    from ..scene.xacro import parse_expanded
+    from .subjects import CheckedScene
+
+    diagnostics = Diagnostics(path, strict=strict)
+    try:
+        document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
+    except SceneError as error:
+        return list(error.diagnostics)
+    spec = read_document(document, diagnostics)
+    if spec is None:
+        return [*document.expansion.warnings, *diagnostics.all()]
+    return _apply(CheckedScene(spec, data_path, document=document, diagnostics=diagnostics))
+
+
+def scene_warnings(
+    scene: SceneSpec, data_path: tuple[Path, ...], timestep: float = TIMESTEP
+) -> list[Diagnostic]:
+    """Return the warnings about a scene that is not compiled, with the lines of its file."""
+    from ..model.dynamics import read_dynamics
+    from ..model.robots import read_robots
+    from .subjects import CheckedScene
+
+    robots = read_robots(scene, data_path)
+    dynamics = read_dynamics(scene, robots, data_path)
+    return _apply(CheckedScene(scene, data_path, timestep=timestep, found=(robots, dynamics)))
+
+
+def model_warnings(model: SceneModel) -> list[Diagnostic]:
+    """Return the same of a scene that is compiled."""
+    from .subjects import CheckedScene
+
+    found = (model.robots, model.dynamics)
+    return _apply(CheckedScene(model.varied, model.data_path, timestep=model.timestep, found=found))
+
+
+def _apply(scene: CheckedScene) -> list[Diagnostic]:
+    """Apply the rules in their order, each where what it needs could be made.
+
+    What is about the spec is sorted by line, together with what the reader has reported.
+    """
+    from .table import SCENE_RULES
+
+    rules = [rule for rule in SCENE_RULES if (rule.in_runs if scene.is_run else rule.in_check)]
+    found: list[Diagnostic] = []
+    wrong: set[Need] = set()
+    for need, group in groupby(rules, key=lambda rule: rule.needs):
+        if need >= Need.VALID and not scene.is_valid:
+            continue
+        if need is Need.MODEL and Need.VALID in wrong:
+            continue
+        reported = chain.from_iterable(rule.find(scene) for rule in group)
+        if need is Need.SPEC:
+            scene.extend(reported)
+        listed = scene.diagnostics.all() if need is Need.SPEC else list(reported)
+        if _has_error(listed):
+            wrong.add(need)
+        found += listed
+    return found
+
+
+def _has_error(diagnostics: Iterable[Diagnostic]) -> bool:
+    return any(diagnostic.severity == "error" for diagnostic in diagnostics)
+
+
+def _check_library(
+    file: Path,
+    kind: str,
+    names: Sequence[str],
+    data_path: tuple[Path, ...],
+    arguments: Mapping[str, str] | None,
+) -> list[Diagnostic]:
+    """State that a file is a library of macros or properties; with errors of its expansion."""
+    from ..scene.xacro import parse_expanded
+
+    try:
+        document = parse_expanded(file, data_path=data_path, arguments=arguments)
+    except FileError as error:
+        return list(error.diagnostics)
+    listed = ", ".join(names[:MAX_MACROS]) + (", ..." if len(names) > MAX_MACROS else "")
+    message = (
+        f"a library of xacro {kind}: {listed}. It has nothing to simulate by itself; check a file "
+        "that includes it and uses them"
+    )
+    whole = Diagnostic(file=str(file), line=None, message=message, severity="warning")
+    return [*document.expansion.warnings, whole]
+
+
+def _check_hydrodynamics(file: Path) -> list[Diagnostic]:
+    """Return everything wrong with a hydrodynamics file; its links are looked up with a scene."""
+    from ..scene.hydrodynamics.vehicle_file import read_vehicle_into
+
+    diagnostics = Diagnostics(file)
+    read_vehicle_into(file, None, diagnostics)
+    return diagnostics.all()
+
+
+def _check_benchmark(
+    file: Path,
+    strict: bool,
+    scene: Path | None,
+    data_path: tuple[Path, ...],
+    plugins: tuple[Plugin, ...],
+    tables: Tables,
+    arguments: Mapping[str, str] | None,
+) -> list[Diagnostic]:
+    """Return everything wrong or worth knowing about a benchmark and about plugins in it."""
+    from ..benchmark.plugin import attribute_errors_to
+    from ..benchmark.reader import check_benchmark
+    from .subjects import CheckedBenchmark
+
+    try:
+        with attribute_errors_to(plugins):
+            found, spec = check_benchmark(
+                file,
+                strict=strict,
+                measures=tables.measures,
+                triggers=tables.triggers,
+                updaters=tables.updaters,
+            )
+            if spec is not None:
+                benchmark = CheckedBenchmark(
+                    spec, Diagnostics(file), tables, is_whole=not _has_error(found)
+                )
+                found += _apply_in_scene(benchmark, scene, data_path, arguments)
+    except PluginError as error:
+        return list(error.diagnostics)
+    return sorted(found, key=lambda each: (each.line is None, each.line or 0))
+
+
+def _apply_in_scene(
+    benchmark: CheckedBenchmark,
+    scene: Path | None,
+    data_path: tuple[Path, ...],
+    arguments: Mapping[str, str] | None,
+) -> list[Diagnostic]:
+    """Apply the rules about a benchmark, and those about its names in its scene."""
+    from ..physics.compile_scene import compile_scene
+    from ..scene.reader import read_scene
+    from ..simulation import Simulation
+    from .table import BENCHMARK_RULES
+
+    def apply(need: Need) -> list[Diagnostic]:
+        return [
+            each for rule in BENCHMARK_RULES if rule.needs is need for each in rule.find(benchmark)
+        ]
+
+    found, spec = apply(Need.SPEC), benchmark.spec
+    wanted, file = scene or spec.scene, Path(spec.path)
+    if wanted is None:
+        return found
+    try:
+        named_by = file if scene is None else None
+        path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
+        read = read_scene(path, data_path=data_path, arguments=arguments)
+        model = compile_scene(read, data_path=data_path)
+        simulation = Simulation(model, is_blind=True, runs_code=False)
+    except FileError:
+        if scene is None:
+            message = f"the scene {str(wanted)!r} has errors: uwsim check {wanted}"
+            found.append(benchmark.error(spec, message))
+        return found
+    except UwsimError as error:
+        return [*found, benchmark.error(spec if scene is None else None, str(error))]
+    try:
+        benchmark.model, benchmark.stage = model, simulation.world
+        return [*found, *apply(Need.MODEL)]
+    finally:
+        simulation.close()

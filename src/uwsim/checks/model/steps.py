@@ -1,0 +1,68 @@
+"""Warnings about loose objects that are too thin for the step of a simulation.
+
+A thin thing that rolls as fast as it sinks turns by a large angle in a step, and its contacts are
+then sampled too coarsely: it may end the run, or come to rest where it should not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+
+from ...errors import Diagnostic, UwsimError
+from ...model.body_names import object_body
+from ...model.collision.scene_shapes import collision_shapes
+from ...model.collision.shapes import CollisionShape, bounds
+from ...physics.free_objects import loose_hydrodynamics
+from ...scene.object import PhysicsSpec
+from ...world import GRAVITY
+from ..subjects import CheckedScene
+
+MAX_TURN = math.pi
+"""In a step: beyond half a turn it is not even known which way a thing turns [rad]."""
+
+
+def thin_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Warn of every object that is too thin for a step."""
+    if not scene.dynamics:
+        return
+    density = next(iter(scene.dynamics.values())).density
+    for index, physics in scene.loose_objects.items():
+        with suppress(UwsimError):  # reported where models are checked
+            shapes = collision_shapes(scene.spec, {}, (), {index: physics}, scene.data_path)
+            text = thin_said(physics, shapes[object_body(index)], density, scene.timestep)
+            if text:
+                thing = scene.spec.objects[index]
+                yield scene.warning(thing, f"the object {thing.name!r}: {text}", "physics")
+
+
+def thin_said(
+    physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float, timestep: float
+) -> str:
+    """Warn of an object that may turn by more than `MAX_TURN` in a step.
+
+    It rolls about its longest axis, whose radius is half the middle edge of the box around it, as
+    fast as it sinks on its broadest side.
+    """
+    water = loose_hydrodynamics("", physics, shapes, density)
+    sinking = GRAVITY * (physics.mass - density * water.volume)
+    drag = max(water.quadratic_damping[:3])
+    if sinking <= 0.0 or drag <= 0.0:
+        return ""
+    speed = math.sqrt(sinking / drag)
+    radius = sorted(bounds(shapes).size)[1]
+    if speed * timestep <= MAX_TURN * radius:
+        return ""
+    return (
+        f"it is {2000.0 * radius:.3g} mm thick and sinks at {speed:.2g} m/s; where it rolls as "
+        f"fast it turns by {speed * timestep / radius:.2g} rad in a step of {timestep:g} s, and "
+        f"contacts may throw it or end the run; expected steps of "
+        f"{_rounded_down(MAX_TURN * radius / speed):g} s at most"
+    )
+
+
+def _rounded_down(time: float) -> float:
+    """To one digit."""
+    unit = 10.0 ** math.floor(math.log10(time))
+    return math.floor(time / unit * (1.0 + 1e-9)) * unit

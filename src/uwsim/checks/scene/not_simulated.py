@@ -1,0 +1,47 @@
+"""Warnings about elements that are read and not simulated yet."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lxml import etree
+
+from ...errors import Diagnostic
+from ...scene.unsupported import FALL, LIMITS, OFF, READ_ONLY, UNSUPPORTED
+from ...schema import NAMESPACE
+from ..subjects import CheckedScene
+
+
+def not_simulated(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Warn of every kind of element that is read and not simulated yet, with its lines."""
+    if scene.document is not None:
+        for line, message in read_only(scene.document.root):
+            yield scene.warning(line, message)
+
+
+def read_only(root: etree._Element) -> Iterator[tuple[int, str]]:
+    """Yield a line and a message for each kind of element that is read and not simulated yet."""
+    lines: dict[str, list[int]] = {}
+    is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
+    falls = not is_dynamic and (root.findtext("simParams/enablePhysics") or "").strip() == "1"
+    for node in root.iter("*"):
+        parent = node.getparent()
+        if parent is None:
+            continue
+        place = (str(parent.tag), str(node.tag))
+        kind = UNSUPPORTED.get(place)
+        if place in FALL and falls:
+            kind = None
+        elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMITS:
+            kind = "limits of objects"
+        if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
+            lines.setdefault(kind, []).append(_line(node))
+    for kind, where in sorted(lines.items(), key=lambda entry: entry[1][0]):
+        shown = sorted(set(where))
+        listed = ", ".join(map(str, shown[:8])) + (", ..." if len(shown) > 8 else "")
+        many = "line" if len(shown) == 1 else "lines"
+        yield shown[0], f"{READ_ONLY}: {kind} ({many} {listed})"
+
+
+def _line(node: etree._Element) -> int:
+    return int(str(node.sourceline or 0))

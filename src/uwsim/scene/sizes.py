@@ -1,0 +1,91 @@
+"""Limits on the sizes of images, fans of beams and sonars, and on the planes of cameras."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..schema import Diagnostics
+from ..sensors.sonar.multibeam_sensor import MultibeamSensorSpec
+from ..sensors.sonar.profiling_sonar import ProfilingSonarSpec
+from ..sensors.sonar.spec import SonarSpec
+from ..sensors.virtual_camera import VirtualCameraSpec
+from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from .spec import SceneSpec
+
+MAX_PIXELS = 7680 * 4320
+"""Largest image of a camera [px]: 8K. Drawing it takes about 1 GB."""
+MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
+"""Of all cameras of a scene [px]."""
+MAX_BEAMS = 100_000
+"""Most beams of one sensor."""
+MAX_CELLS = 20_000_000
+"""Most bins of all beams of a sonar, or of all pings that it keeps: 80 MB."""
+MAX_RAYS = 1_000_000
+"""Most rays of a ping of a sonar."""
+
+
+def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
+    """Report cameras, fans of beams and sonars that are too large, or see nothing."""
+    n_all = 0
+    for image in _cameras(scene):
+        n = image.resw * image.resh
+        if n > MAX_PIXELS:
+            diagnostics.error(
+                image,
+                f"an image of {image.resw} x {image.resh} pixels; at most "
+                f"{MAX_PIXELS / 1e6:.0f} million are drawn",
+            )
+            continue
+        n_all += n
+        if n_all > MAX_PIXELS_IN_ALL:
+            diagnostics.error(
+                image,
+                f"with this one, the images of the scene have {n_all / 1e6:.0f} million pixels; "
+                f"at most {MAX_PIXELS_IN_ALL / 1e6:.0f} are drawn",
+            )
+            break
+    for camera in _cameras(scene):
+        planes = camera.parameters
+        if planes is not None and planes.f <= planes.n:
+            diagnostics.error(
+                planes,
+                f"the far plane <f> is {planes.f:g} m and the near plane <n> {planes.n:g} m; "
+                "expected the far one beyond the near one",
+            )
+    for fan in _fans(scene):
+        if abs(fan.final_angle - fan.init_angle) >= MAX_BEAMS * fan.angle_incr:
+            diagnostics.error(
+                fan,
+                f"from {fan.init_angle:g} to {fan.final_angle:g} degrees in steps of "
+                f"{fan.angle_incr:g} are more than {MAX_BEAMS} beams",
+            )
+    for sonar in (each for vehicle in scene.vehicles for each in vehicle.parts_of(SonarSpec)):
+        for error in _sonar_errors(sonar):
+            diagnostics.error(sonar, error)
+
+
+def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:
+    if sonar.min_range >= sonar.range:
+        yield f"<minRange> is {sonar.min_range:g}; expected less than <range>, {sonar.range:g} m"
+    if sonar.n_cells > MAX_CELLS:
+        yield (
+            f"{sonar.bins} bins of {sonar.n_cells // sonar.bins} beams or pings; at most "
+            f"{MAX_CELLS / 1e6:.0f} million are kept in all"
+        )
+    if sonar.n_rays > MAX_RAYS:
+        yield (
+            f"{sonar.n_rays // sonar.rows} columns of {sonar.rows} rays; at most "
+            f"{MAX_RAYS / 1e6:.0f} million rays are cast in a ping"
+        )
+
+
+def _cameras(scene: SceneSpec) -> Iterator[VirtualCameraSpec | VirtualRangeImageSpec]:
+    for vehicle in scene.vehicles:
+        yield from vehicle.parts_of(VirtualCameraSpec)
+        yield from vehicle.parts_of(VirtualRangeImageSpec)
+
+
+def _fans(scene: SceneSpec) -> Iterator[MultibeamSensorSpec | ProfilingSonarSpec]:
+    for vehicle in scene.vehicles:
+        yield from vehicle.parts_of(MultibeamSensorSpec)
+        yield from vehicle.parts_of(ProfilingSonarSpec)

@@ -1,0 +1,30 @@
+"""The rules about a scene that open no other file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from uwsim.checks.robots import robot_places
+from uwsim.checks.rule import Need
+from uwsim.checks.scene.models import model_files, projectors
+from uwsim.checks.subjects import CheckedScene
+from uwsim.checks.table import SCENE_RULES
+from uwsim.errors import Diagnostic
+from uwsim.scene.reader import read_document
+from uwsim.scene.xacro import parse_expanded
+from uwsim.schema import Diagnostics
+
+ABOUT_FILES = (robot_places, projectors, model_files)
+
+
+def check_text(path: Path) -> list[Diagnostic]:
+    """Return what the reader and the rules about its spec say of a scene without robots."""
+    diagnostics = Diagnostics(path)
+    document = parse_expanded(path)
+    spec = read_document(document, diagnostics)
+    assert spec is not None
+    scene = CheckedScene(spec, (), document=document, diagnostics=diagnostics, found=({}, {}))
+    for rule in SCENE_RULES:
+        if rule.in_check and rule.needs is Need.SPEC and rule.find not in ABOUT_FILES:
+            diagnostics.extend(rule.find(scene))
+    return diagnostics.all()
