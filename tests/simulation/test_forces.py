@@ -11,7 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from uwsim.runs.check import diagnostics_of
+from uwsim.checks import check_file
 
 from tests.simulation.girona500 import SCENE
 from tests.support.opened import open_scene
@@ -497,7 +497,7 @@ def test_a_number_of_a_force_can_be_set(tmp_path: Path) -> None:
 def test_check_reports_what_is_wrong_with_a_force_with_its_line(
     given: dict[str, str], line: int, message: str, tmp_path: Path
 ) -> None:
-    found = [d for d in diagnostics_of(scene_file(tmp_path, **given)) if message in d.message]
+    found = [d for d in check_file(scene_file(tmp_path, **given)) if message in d.message]
     assert [(each.line, each.severity) for each in found] == [
         (line, "warning" if "dynamics" in given else "error")
     ]
