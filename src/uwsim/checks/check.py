@@ -106,15 +106,17 @@ def scene_warnings(
 
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(scene, robots, data_path)
-    return _apply(CheckedScene(scene, data_path, timestep=timestep, found=(robots, dynamics)))
+    return _apply(CheckedScene(scene, data_path, timestep=timestep, resolved=(robots, dynamics)))
 
 
 def model_warnings(model: SceneModel) -> list[Diagnostic]:
     """Return the same of a scene that is compiled."""
     from .subjects import CheckedScene
 
-    found = (model.robots, model.dynamics)
-    return _apply(CheckedScene(model.varied, model.data_path, timestep=model.timestep, found=found))
+    resolved = (model.robots, model.dynamics)
+    return _apply(
+        CheckedScene(model.varied, model.data_path, timestep=model.timestep, resolved=resolved)
+    )
 
 
 def _apply(scene: CheckedScene) -> list[Diagnostic]:

@@ -81,7 +81,7 @@ class CheckedScene(Subject):
         data_path: folders in which files are looked for.
         document: of the file; None for a scene that is about to run.
         diagnostics: what the reader has reported; None for a scene that is about to run.
-        found: the robots and the hydrodynamics of its vehicles; None looks for them.
+        resolved: the robots and the hydrodynamics of its vehicles; None looks for them.
         timestep: length of a step [s].
     """
 
@@ -92,12 +92,12 @@ class CheckedScene(Subject):
         *,
         document: Document | None = None,
         diagnostics: Diagnostics | None = None,
-        found: tuple[Mapping[int, RobotSpec], Mapping[int, VehicleHydrodynamics]] | None = None,
+        resolved: tuple[Mapping[int, RobotSpec], Mapping[int, VehicleHydrodynamics]] | None = None,
         timestep: float = TIMESTEP,
     ) -> None:
         super().__init__(spec.path, diagnostics or Diagnostics(spec.path or "the scene"), data_path)
         self.spec, self.document, self.timestep = spec, document, timestep
-        self.is_run, self._found = document is None, found
+        self.is_run, self._resolved = document is None, resolved
 
     @cached_property
     def robot_search(self) -> RobotSearch:
@@ -107,12 +107,12 @@ class CheckedScene(Subject):
     @property
     def robots(self) -> Mapping[int, RobotSpec]:
         """The robot of each vehicle that has one, by its number."""
-        return self._found[0] if self._found else self.robot_search.robots
+        return self._resolved[0] if self._resolved else self.robot_search.robots
 
     def has_stand_in(self, index: int) -> bool:
         """Whether the robot of a vehicle stands for one that is not found."""
         name = self.spec.vehicles[index].file
-        return not self._found and name in self.robot_search.stand_ins
+        return not self._resolved and name in self.robot_search.stand_ins
 
     @cached_property
     def names(self) -> Search:
@@ -122,7 +122,7 @@ class CheckedScene(Subject):
     @property
     def dynamics(self) -> Mapping[int, VehicleHydrodynamics]:
         """The hydrodynamics of each vehicle that is simulated, by its number."""
-        return self._found[1] if self._found else self.names.dynamics
+        return self._resolved[1] if self._resolved else self.names.dynamics
 
     @property
     def is_valid(self) -> bool:
