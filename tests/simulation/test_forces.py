@@ -11,12 +11,12 @@ from typing import Any
 import mujoco
 import numpy as np
 import pytest
-from uwsim.checks import check_file
 
 from tests.simulation.girona500 import SCENE
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Array, Pose
 from uwsim.base.record import RandomState
+from uwsim.checks import check_file
 from uwsim.errors import SceneError, SimulationFailed, UnknownName, UwsimError
 from uwsim.forces import DockingMagnetSpec, Force, ForceSpec
 from uwsim.forces.docking_magnet import MagnetSpec
