@@ -121,7 +121,7 @@ def test_a_setting_of_nothing_is_told_what_may_be_set_updaters_included(
     assert main([*call, "--set", "sceneFogUpdate.color=1", "--set", "interval=5"]) == 2
     near, unknown = capsys.readouterr().err.splitlines()
     assert "there is no <sceneFogUpdate>. Did you mean 'sceneFogUpdater'? There are: " in near
-    assert unknown.endswith("rosInterfaces, vary, sceneFogUpdater, algorithm.")
+    assert unknown.endswith("rosInterfaces, vary, forces, sceneFogUpdater, algorithm.")
 
 
 def test_what_names_a_benchmark_that_is_nowhere_is_reported_with_the_rest(

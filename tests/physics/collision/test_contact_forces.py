@@ -14,7 +14,8 @@ from uwsim.simulation import Simulation
 def one_by_one(simulation: Simulation, name: str) -> dict[str, Array]:
     """The same from MuJoCo's own function."""
     state = simulation.world.engine
-    model, data, names = state._model, state._data, state._contacts._names
+    model, data, contacts = state._model, state._data, state._contacts
+    names = [contacts._names[owner] for owner in contacts._owner_numbers]
     found: dict[str, Array] = {}
     local = np.zeros(6)
     for i in range(data.ncon):

@@ -2,9 +2,11 @@
 
 import importlib.util
 import os
+import signal
 import socket
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -36,6 +38,14 @@ levels = []
 run_all(benches, RayExecutor(cpus=2), on_level=lambda: levels.append(1))
 print(len(levels), "levels,", sum(bench.n_lost for bench in benches), "lost")
 """
+
+
+@pytest.fixture(autouse=True)
+def interrupts() -> Iterator[None]:
+    """A worker blocks Ctrl-C for good: here it is not the end of its process."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+    yield
+    signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 def leftovers(home: Path) -> set[str]:
