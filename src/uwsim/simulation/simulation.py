@@ -141,7 +141,9 @@ class Simulation:
             BadSetting: the seed is negative, or no whole number.
             UwsimError: an algorithm is attached, whose state cannot be reset.
         """
-        self._refuse_if_attached("reset")
+        if self._nodes:
+            names = ", ".join(node.name for node in self._nodes)
+            raise UwsimError(f"Cannot be reset: {names} is attached, with a state of its own.")
         model = self.model
         if seed is not None:
             model = recompile(model, arguments.checked_seed(seed))
@@ -461,11 +463,6 @@ class Simulation:
         self.state.nodes.append(node.state)
         node.run(algorithm)
         return node
-
-    def _refuse_if_attached(self, action: str) -> None:
-        if self._nodes:
-            names = ", ".join(node.name for node in self._nodes)
-            raise UwsimError(f"Cannot be {action}: {names} is attached, with a state of its own.")
 
     def save(self) -> bytes:
         """Return the state as bytes, exact to the bit: those of `state`.

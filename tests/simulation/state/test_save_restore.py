@@ -223,3 +223,9 @@ def test_a_current_of_a_programs_own_class_has_no_bytes() -> None:
         simulation.restore(copy)
         with pytest.raises(uwsim.UwsimError, match="The state cannot be saved"):
             simulation.save()
+
+
+def test_bytes_of_another_version_are_refused_though_its_records_are_others() -> None:
+    record = [0, "uwsim.simulation.state.state:State", "one field"]
+    with pytest.raises(uwsim.UwsimError, match="was not saved by uwsim"):
+        uwsim.State.from_bytes(with_checksum(pickle.dumps(("0.0.1", record))))

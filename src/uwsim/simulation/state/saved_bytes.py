@@ -63,7 +63,7 @@ def unpack(data: bytes, kind: type[T]) -> T:
         raise UwsimError("These bytes are no saved simulation, or they were changed.")
     try:
         version, flat = _Unpickler(io.BytesIO(payload)).load()
-        value = _raised(flat)
+        value = _raised(flat) if version == __version__ else None  # records differ by version
     except Exception as error:  # whatever damaged bytes make of themselves
         raise UwsimError(f"These bytes are no saved simulation: {error}.") from None
     if version != __version__:
