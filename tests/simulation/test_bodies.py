@@ -62,7 +62,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
             replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
             compatibility=quirks,
         )
-        box = simulation.world.body("blackbox").box
+        box = simulation.world.bodies.find("blackbox").box
         simulation.close()
         assert box is not None
         sizes.append(np.subtract(box.upper, box.lower))
@@ -95,7 +95,7 @@ def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_i
 
 def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() -> None:
     simulation = open_scene(read_scene(SCENE).nominal)
-    link, visual = (simulation.world.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
+    link, visual = (simulation.world.bodies.find(f"girona500/end_effector{at}") for at in ("", "@visual"))
     assert visual.world_from_body.position == pytest.approx(link.world_from_body.position)
     assert visual.box is None
 

@@ -51,7 +51,7 @@ def drive(simulation: Simulation, surge: float, seconds: float, look: object = N
 
 def front(simulation: Simulation, thing: ObjectSpec, surge: float = 1.0) -> float:
     """How far the vehicle drives until it touches [m], to the length of a jump."""
-    while not simulation.world.contacts("girona500"):
+    while not simulation.world.contacts.find("girona500"):
         drive(simulation, surge, PERIOD)
     return position(simulation)[1] - 1.5
 
@@ -90,18 +90,18 @@ def test_who_stands_in_a_wall_is_in_contact_and_hits_nothing() -> None:
         measure.update()
     assert measure.value == 1.0
     assert measure.details["contact_share"] == 1.0
-    assert {contact.other for contact in simulation.world.contacts("girona500")} == {"wall"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {"wall"}
 
 
 def test_the_speed_lasts_as_long_as_the_jump_took_and_no_longer() -> None:
     simulation = scene(wall(1.5))
-    simulation.world.contacts("girona500")
+    simulation.world.contacts.find("girona500")
     drive(simulation, 0.2, 0.304)  # jumps at 0.104, 0.204 and 0.304 s
     speeds = []
     for _ in range(100):
         simulation.advance()
         speeds += [
-            max(abs(contact.own_speed) for contact in simulation.world.contacts("girona500"))
+            max(abs(contact.own_speed) for contact in simulation.world.contacts.find("girona500"))
         ]
     assert all(speed > 0.0 for speed in speeds[:49])  # until 0.404 s
     assert not any(speeds[49:])
@@ -109,10 +109,10 @@ def test_the_speed_lasts_as_long_as_the_jump_took_and_no_longer() -> None:
 
 def test_the_touched_object_sees_the_same_from_its_side() -> None:
     simulation = scene(wall(4.0))
-    simulation.world.contacts("girona500")
+    simulation.world.contacts.find("girona500")
     front(simulation, wall(4.0), 0.5)
     drive(simulation, 0.5, 0.01)
-    vehicle, thing = simulation.world.contacts("girona500"), simulation.world.contacts("wall")
+    vehicle, thing = simulation.world.contacts.find("girona500"), simulation.world.contacts.find("wall")
     assert len(vehicle) == len(thing) > 0
     for own, other in zip(vehicle, thing, strict=True):
         assert own.approach_speed == other.approach_speed
@@ -150,7 +150,7 @@ def test_looking_changes_nothing() -> None:
     for is_watched in (False, True):
         simulation = scene(wall(4.0))
         if is_watched:
-            simulation.world.contacts("girona500")
+            simulation.world.contacts.find("girona500")
         drive(simulation, 0.3, 1.0)
         places.append(position(simulation).tobytes())
     assert places[0] == places[1]

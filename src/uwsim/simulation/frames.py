@@ -2,34 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
+from typing import TYPE_CHECKING
 
 from ..base.geometry import Pose
-from ..model.scene_model import SceneModel
-from ..physics.engine import Engine
-from ..scene.spec import SceneSpec
 from ..scene.vehicle import VehicleSpec
 from ..sensors.sensor import MountedSensor
 from ..topics.frames import Frame
 from ..world import Body
-from .vehicles import SceneVehicle
+
+if TYPE_CHECKING:
+    from .live_scene import LiveScene
 
 
-def vehicle_frames(
-    model: SceneModel, vehicles: Sequence[SceneVehicle], engine: Engine
-) -> Iterator[Frame]:
-    """Every vehicle with its links and sensors; a sensor on a missing link is left out.
+def scene_frames(world: LiveScene, *, with_objects: bool) -> list[Frame]:
+    """List the frames of vehicles, their links and sensors, and those of objects."""
+    frames = [*_vehicle_frames(world)]
+    return [*frames, *_object_frames(world)] if with_objects else frames
 
-    Args:
-        model: of the scene.
-        vehicles: the vehicles of the scene, in the file's order.
-        engine: where their links are.
-    """
-    scene = model.scene
+
+def _vehicle_frames(world: LiveScene) -> Iterator[Frame]:
+    """Every vehicle with its links and sensors; a sensor on a missing link is left out."""
+    scene, robots, engine = world.model.scene, world.model.robots, world.engine
     localized_from_world = scene.world_from_localized.inverse()
-    for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
-        robot = model.robots[index]
+    for index, (spec, vehicle) in enumerate(zip(scene.vehicles, world.vehicles, strict=True)):
+        robot = robots[index]
         yield Frame("", spec.name, _in(localized_from_world, partial(engine.poses.vehicle, index)))
         yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity, is_fixed=True)
         links = {link.name: partial(engine.poses.link, index, link.name) for link in robot.links}
@@ -51,11 +49,12 @@ def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:
             yield part
 
 
-def object_frames(scene: SceneSpec, find: Callable[[str], Body]) -> Iterator[Frame]:
+def _object_frames(world: LiveScene) -> Iterator[Frame]:
     """The mesh frames of all objects in L; of several of one name the first."""
+    scene = world.model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for name in dict.fromkeys(thing.name for thing in scene.objects):
-        body = find(name)
+        body = world.bodies.find(name)
         yield Frame("", name, _in(localized_from_world, _on(body, Pose.identity())))
 
 

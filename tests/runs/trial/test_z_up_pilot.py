@@ -57,7 +57,7 @@ def moved(scene: Path, axis: str) -> tuple[Array, Array]:
         held = tuple(float(each == axis) for each in AXES)
         PilotInputs(simulation, lambda: held)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
-        name = simulation.world.vehicles[0]
+        name = simulation.world.vehicles.names[0]
         before = simulation.pose(name, "W").position
         simulation.advance(2.0)
         after = simulation.pose(name, "W")

@@ -85,7 +85,7 @@ def test_no_message_to_an_interface_ends_a_simulation(every_interface: Path, see
 def test_no_message_to_a_bundled_scene_ends_a_simulation(scene: str, seed: int) -> None:
     with uwsim.load(scene) as simulation:
         exchange(simulation, seed, 120)
-        for name in simulation.world.vehicles:
+        for name in simulation.world.vehicles.names:
             assert np.isfinite(simulation.pose(name).position).all()
 
 

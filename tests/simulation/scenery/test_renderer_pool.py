@@ -16,7 +16,7 @@ SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 
 def images(scene: SceneSpec, pool: RendererPool | None) -> list[np.ndarray]:
     simulation = open_scene(scene, seed=3, pool=pool)
-    camera = simulation.world.camera("bowtech1")
+    camera = simulation.world.sensors.camera("bowtech1")
     exact = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     assert exact.colour is not None
     assert exact.range is not None

@@ -332,7 +332,7 @@ def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str
         PilotInputs(simulation, view.pilot)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
         view.open(simulation, "scene")
-        name = simulation.world.vehicles[0]
+        name = simulation.world.vehicles.names[0]
         began = simulation.pose(name).position.copy()
         desk.said.append((1, {"type": "input", "keys": ["w", "q", "t"]}))
         simulation.advance(2.0)

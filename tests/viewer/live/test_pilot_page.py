@@ -204,14 +204,14 @@ def test_the_orbit_goes_along_with_the_piloted_vehicle_and_keeps_its_distance(
         parameters = pilot_topics(simulation)
         other = next(
             spec.topic
-            for spec in simulation.world.scene.ros_interfaces
+            for spec in simulation.world.model.scene.ros_interfaces
             if type(spec).__name__ == "ROSTwistToPATSpec"
-            and spec.vehicle_name == simulation.world.vehicles[1]
+            and spec.vehicle_name == simulation.world.vehicles.names[1]
         )
         for index, topic in enumerate((parameters["twist_topic"], other)):
             view = LiveView(server, mapping=PilotMapping())
             view.open(simulation, "scene", {**parameters, "twist_topic": topic})
-            began = simulation.pose(simulation.world.vehicles[index], "W")
+            began = simulation.pose(simulation.world.vehicles.names[index], "W")
             moved = Pose(np.add(began.position, (3.0, -2.0, 0.5)), began.rotation)
             simulation.world.engine.place_vehicle(index, moved)
             view._due["row"] = 0.0
@@ -251,7 +251,7 @@ def test_names_of_frames_of_two_vehicles_begin_with_the_vehicles(
         view = LiveView(server)
         view.open(simulation, "scene")
         view.close()
-        vehicles = simulation.world.vehicles
+        vehicles = simulation.world.vehicles.names
     page = browser.new_context(bypass_csp=True).new_page()
     page.set_default_timeout(LIMIT)
     page.goto(server.url)

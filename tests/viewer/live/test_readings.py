@@ -30,9 +30,9 @@ def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their
     ) as simulation:
         simulation.advance(0.2)
         found = {name: (unit, value) for name, unit, value in Readings(simulation, 0).take(0.0)}
-        live = simulation.world.vehicle("girona500")
+        live = simulation.world.vehicles.find("girona500")
         joints = live.joints
-        wrist = simulation.world.sensor("wrist", ("ForceSensor",)).sample(0.0).wrench.force
+        wrist = simulation.world.sensors.sensor("wrist", ("ForceSensor",)).sample(0.0).wrench.force
     for name, value in zip(live.joint_names, joints, strict=True):
         assert found[f"joint/{name}"] == ("deg", pytest.approx(math.degrees(value)))
     assert found["force/wrist"] == ("N", pytest.approx(math.hypot(wrist.x, wrist.y, wrist.z)))
@@ -46,12 +46,12 @@ def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their
 
 def test_a_contact_is_felt_and_a_slide_is_in_metres() -> None:
     with uwsim.load("grasp-scene") as simulation:
-        live = simulation.world.vehicle("girona500")
+        live = simulation.world.vehicles.find("girona500")
         sunk = replace(live.world_from_base, position=live.world_from_base.position - (0, 0, 1.9))
         live.place(sunk)
         simulation.advance(0.1)
         readings = {name: value for name, _, value in Readings(simulation, 0).take(0.0)}
-        forces = simulation.world.contact_forces("girona500").values()
+        forces = simulation.world.contacts.forces("girona500").values()
     assert readings["contact force"] == pytest.approx(sum(np.linalg.norm(f) for f in forces))
     assert readings["contact force"] > 1.0
 

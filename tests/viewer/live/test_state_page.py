@@ -257,7 +257,7 @@ def test_a_line_of_keys_has_the_names_of_the_joints_until_somebody_pilots(
     browser: Any, server: LiveServer
 ) -> None:
     with uwsim.load("grasp-scene") as simulation:
-        joints = simulation.world.vehicle("girona500").joint_names
+        joints = simulation.world.vehicles.find("girona500").joint_names
         page = shown(browser, server, simulation)
     line = " ".join(page.locator(".keyline").inner_text().split())
     for words in ("WS forward / back", "EQ turn right / left", "? all keys", f"TG {joints[0]}"):
@@ -368,7 +368,7 @@ def test_the_chase_view_is_nearer_where_something_hides_the_vehicle(
 
 def test_the_view_of_the_file_is_one_of_its_own(browser: Any, server: LiveServer) -> None:
     with uwsim.load("currents-scene") as simulation:
-        camera = simulation.world.scene.camera
+        camera = simulation.world.model.scene.camera
         page = shown(browser, server, simulation)
     assert camera is not None
     sight = "uwsim.page.views.sight(800, 600)"

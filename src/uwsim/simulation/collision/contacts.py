@@ -69,7 +69,7 @@ class Contacts:
         if self._overlaps.part is not None:
             self._overlaps.part.record(step)
 
-    def contacts(self, name: str) -> list[Contact]:
+    def find(self, name: str) -> list[Contact]:
         """Find where the vehicle or object of that name touches others.
 
         Raises:

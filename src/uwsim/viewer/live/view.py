@@ -298,7 +298,7 @@ class LiveView:
         if list(map(id, shown.values())) == list(map(id, self._markers.values())):
             return
         self._markers = shown
-        markers = described(looks_of(shown, world.world_from_localized))
+        markers = described(looks_of(shown, world.model.scene.world_from_localized))
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_sand(self) -> None:
@@ -315,7 +315,7 @@ class LiveView:
         assert self._simulation is not None
         wanted = self._server.wanted()
         world = self._simulation.world
-        for index, name in enumerate(world.cameras):
+        for index, name in enumerate(world.sensors.cameras):
             if (channel := f"?image/{name}") in wanted:
                 image = self._image(name, max(self._widths.values(), default=MAX_SIDE))
                 self._server.publish(channel, self._header(IMAGE, index) + jpeg(image))
@@ -324,11 +324,11 @@ class LiveView:
         """Return what a camera sees, ``width`` wide at most."""
         assert self._simulation is not None
         world = self._simulation.world
-        view = world.camera(camera)
+        view = world.sensors.camera(camera)
         lens = view.intrinsics
         size = width, max(1, round(width * lens.height / lens.width))
         is_smaller = width < lens.width
-        for images in self._simulation.images.values():
+        for images in self._simulation.world.images.values():
             if images.camera.name == camera and images.last is not None:
                 seen = images.last
                 if is_smaller:
@@ -348,7 +348,7 @@ class LiveView:
             return
         asked = next(reversed(self._views.values()))
         camera = asked.get("camera")
-        if isinstance(camera, str) and camera in self._simulation.world.cameras:
+        if isinstance(camera, str) and camera in self._simulation.world.sensors.cameras:
             image = self._image(camera)
         else:
             try:

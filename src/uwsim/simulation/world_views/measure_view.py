@@ -1,0 +1,36 @@
+"""A scene as its measures and triggers see it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...world import Actuators
+from .scene_view import SceneView
+
+if TYPE_CHECKING:
+    from ..live_scene import LiveScene
+
+
+class MeasureView(SceneView):
+    """A scene as its measures and triggers see it (`uwsim.world.World`).
+
+    Args:
+        scene: the scene.
+    """
+
+    def __init__(self, scene: LiveScene) -> None:
+        super().__init__(scene)
+        self._vehicles = scene.vehicles
+        self.world_from_localized = scene.model.scene.world_from_localized
+        """W from L: the scene's offset."""
+        self.compatibility = scene.model.compatibility
+        """The compatibility quirks that are on."""
+        self.body = scene.bodies.find
+        self.contacts = scene.contacts.find
+        self.contact_forces = scene.contacts.forces
+        self.camera = scene.sensors.camera
+        self.stream = scene.stream
+
+    def actuators(self, name: str) -> Actuators | None:
+        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
+        return self._vehicles.find(name).actuators()
