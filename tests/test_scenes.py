@@ -90,7 +90,7 @@ def test_the_first_view_of_a_bundled_scene_has_the_whole_vehicle_and_what_it_is_
 ) -> None:
     with open_scene(read_scene(SCENES[name]), is_blind=True) as simulation:
         world = simulation.world
-        camera = world.scene.camera
+        camera = world.model.scene.camera
         assert camera is not None
         view = viewer_view(simulation, camera, shape)
         camera_from_world = view.world_from_camera.inverse()

@@ -112,7 +112,9 @@ def test_it_loses_the_energy_that_the_measure_counts() -> None:
     battery = replace(BATTERY, hotel_load=50.0)
     with vehicle(battery) as simulation:
         simulation.publish("/thrusters", Float64MultiArray(data=np.array([0.5, 0.3, 0.0, 0, 0.2])))
-        energy = EnergySpec(name="e", target=NAME, hotel_load=50.0).bind(simulation.world)
+        energy = EnergySpec(name="e", target=NAME, hotel_load=50.0).bind(
+            simulation.world.measure_view
+        )
         energy.start()
         simulation.latest("/battery")
         for _ in range(1000):
@@ -174,7 +176,7 @@ def test_thrusters_get_no_more_than_the_battery_can_feed(
     with vehicle(replace(BATTERY, resistance=0.0)) as free:
         full_thrust(free)
         free.advance(1.0)
-        wanted = free.world.actuators(NAME)
+        wanted = free.world.vehicles.find(NAME).actuators()
         demand, full = float(wanted.powers().sum()), wanted.thrusts()
         for_thrust = float(wanted.powers()[:5].sum())
     with vehicle(battery) as simulation:
@@ -220,7 +222,7 @@ def test_an_overload_ends_with_the_load() -> None:
     with vehicle(BATTERY) as free:
         full_thrust(free, 0.05)
         free.advance(4.0)
-        assert thrusts == pytest.approx(free.world.actuators(NAME).thrusts(), rel=0.02)
+        assert thrusts == pytest.approx(free.world.vehicles.find(NAME).actuators().thrusts(), rel=0.02)
 
 
 @pytest.mark.parametrize(("resistance", "warns"), [(0.01, False), (4.0, True)])

@@ -80,7 +80,7 @@ def test_a_tool_uncovers_an_object_for_rays_and_cameras(tmp_path: Path) -> None:
         assert below(buried) == pytest.approx(1.0 - top, abs=1e-6)  # sand up to its top
         before = buried.image("eye")
         place = Pose(np.array([0.0, 0.0, top]), np.eye(3))
-        buried.world.vehicle("rov").place(place)
+        buried.world.vehicles.find("rov").place(place)
         buried.advance(0.1)
         assert buried.world.scenery.heaps[0].height(0.0, 0.0) < top - 0.02
         tool = next(d for d in buried.world.devices if isinstance(d, DredgeTool))

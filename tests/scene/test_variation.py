@@ -210,7 +210,9 @@ def test_a_simulation_is_of_its_seed(tmp_path: Path) -> None:
     for seed in (0, 5):
         simulation = open_scene(dataclasses.replace(spec, ros_interfaces=()), seed=seed)
         origin = simulation.world.bodies.find("blackbox").world_from_body.position
-        located = simulation.world.model.scene.world_from_localized.inverse().transform(origin[None])[0]
+        located = simulation.world.model.scene.world_from_localized.inverse().transform(
+            origin[None]
+        )[0]
         assert located[0] == pytest.approx(box_x(spec, seed))
         simulation.close()
 
@@ -221,7 +223,11 @@ def test_a_vehicle_that_sways_with_a_phase_begins_within_its_swing(tmp_path: Pat
     places = []
     for _ in range(3):
         origin = simulation.world.bodies.find("girona500").world_from_body.position
-        places.append(simulation.world.model.scene.world_from_localized.inverse().transform(origin[None])[0][0])
+        places.append(
+            simulation.world.model.scene.world_from_localized.inverse().transform(origin[None])[0][
+                0
+            ]
+        )
         simulation.advance()
     assert places[0] == pytest.approx(2.0 + 0.1 * np.sin(0.5))
     assert np.diff(places) == pytest.approx(

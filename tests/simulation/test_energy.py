@@ -54,7 +54,7 @@ def bend(simulation: Simulation, **given: list[float]) -> None:
 
 
 def start(simulation: Simulation, **given: float) -> Energy:
-    energy = EnergySpec(name="e", target=NAME, **given).bind(simulation.world)  # type: ignore[arg-type]
+    energy = EnergySpec(name="e", target=NAME, **given).bind(simulation.world.measure_view)  # type: ignore[arg-type]
     energy.start()
     return energy
 
@@ -212,7 +212,7 @@ def test_reading_what_is_drawn_changes_nothing() -> None:
         thrust(simulation, 0.5, 0.3, 0.2, 0.1, -0.4)
     run(still, 1.0)
     go_on(watched, energy, 1.0)
-    poses = [s.world.body(NAME).world_from_body.position.tolist() for s in (still, watched)]
+    poses = [s.world.bodies.find(NAME).world_from_body.position.tolist() for s in (still, watched)]
     assert poses[0] == poses[1]
 
 

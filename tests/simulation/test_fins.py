@@ -75,7 +75,7 @@ def test_a_vehicle_that_is_placed_begins_with_its_fins_at_rest(simulation: Simul
     for each in (simulation, other):
         say(each, "/remus/propeller", 1.0)
         advance(each, 2.0)
-    one, two = (each.world.vehicle("remus").velocity for each in (simulation, other))
+    one, two = (each.world.vehicles.find("remus").velocity for each in (simulation, other))
     assert one == pytest.approx(two, abs=1e-9)
 
 
@@ -87,7 +87,10 @@ def test_a_message_with_another_number_of_angles_is_refused(simulation: Simulati
 def test_the_thrust_that_is_reported_is_that_at_speed(tmp_path: Path) -> None:
     advance_line = "<advance>0 0.45 4 0</advance> <radius>0.06985</radius>"
     simulation = remus(changed(tmp_path, ("<radius>0.06985</radius>", advance_line)))
-    vehicle, actuators = simulation.world.vehicles.find("remus"), simulation.world.vehicles.find("remus").actuators()
+    vehicle, actuators = (
+        simulation.world.vehicles.find("remus"),
+        simulation.world.vehicles.find("remus").actuators(),
+    )
     assert actuators is not None
     say(simulation, "/remus/propeller", 1.0)
     advance(simulation, 5.0)

@@ -85,11 +85,11 @@ def test_velocity_sensors_measure_the_recorded_motion(dynamics: bool) -> None:
     simulation = following(dynamics=dynamics)
     play(simulation, 2.0)
     world, time = simulation.world, simulation.time
-    turn = world.sensor("imu", ("imu",)).sample(time)
+    turn = world.sensors.sensor("imu", ("imu",)).sample(time)
     assert abs(turn.angular_velocity.z) == pytest.approx(TURN, rel=1e-6)
     force = turn.linear_acceleration
     assert np.hypot(force.x, force.y) == pytest.approx(SPEED * TURN, abs=0.01)
-    motion = world.vehicle(NAME).moving_mount(DVL).motion()
+    motion = world.vehicles.find(NAME).moving_mount(DVL).motion()
     assert np.linalg.norm(motion.velocity) == pytest.approx(SPEED, rel=1e-3)
 
 

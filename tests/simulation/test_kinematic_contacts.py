@@ -58,7 +58,7 @@ def front(simulation: Simulation, thing: ObjectSpec, surge: float = 1.0) -> floa
 
 def test_a_vehicle_is_touched_at_the_speed_of_its_twist_and_goes_on_through_the_wall() -> None:
     simulation = scene(wall(4.0))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     drive(simulation, 0.3, 6.0, measure.update)
     assert position(simulation)[1] == pytest.approx(1.5 + 0.3 * 5.9)
@@ -73,7 +73,7 @@ def test_a_vehicle_is_touched_at_the_speed_of_its_twist_and_goes_on_through_the_
 def test_a_current_carries_a_vehicle_into_a_wall_at_its_own_speed() -> None:
     simulation = scene(wall(3.4))
     set_current(simulation, (0.0, 0.25, 0.0))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     for _ in range(2000):
         simulation.advance()
@@ -83,7 +83,7 @@ def test_a_current_carries_a_vehicle_into_a_wall_at_its_own_speed() -> None:
 
 def test_who_stands_in_a_wall_is_in_contact_and_hits_nothing() -> None:
     simulation = scene(wall(1.5))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     for _ in range(5):
         simulation.advance()
@@ -112,7 +112,10 @@ def test_the_touched_object_sees_the_same_from_its_side() -> None:
     simulation.world.contacts.find("girona500")
     front(simulation, wall(4.0), 0.5)
     drive(simulation, 0.5, 0.01)
-    vehicle, thing = simulation.world.contacts.find("girona500"), simulation.world.contacts.find("wall")
+    vehicle, thing = (
+        simulation.world.contacts.find("girona500"),
+        simulation.world.contacts.find("wall"),
+    )
     assert len(vehicle) == len(thing) > 0
     for own, other in zip(vehicle, thing, strict=True):
         assert own.approach_speed == other.approach_speed
@@ -124,13 +127,13 @@ def test_the_touched_object_sees_the_same_from_its_side() -> None:
 
 def test_an_arm_touches_as_the_vehicle_does() -> None:
     bare = scene(wall(1.5, depth=6.0))
-    assert bare.world.contacts("girona500") == []
+    assert bare.world.contacts.find("girona500") == []
     deep = 1.515 + 1.6  # below the hull, where only an arm that hangs down can be
     low = scene(replace(wall(1.5), position=(3.0, 1.5, deep + 1.5), scale_factor=(20, 20, 20)))
-    before = len(low.world.contacts("girona500"))
-    low.world.set_joints("girona500", {1: 1.5, 2: 0.0})
+    before = len(low.world.contacts.find("girona500"))
+    low.world.stage_view.set_joints("girona500", {1: 1.5, 2: 0.0})
     low.advance()
-    assert len(low.world.contacts("girona500")) > before
+    assert len(low.world.contacts.find("girona500")) > before
 
 
 def test_the_contact_sensor_of_a_vehicle_that_is_not_simulated_speaks() -> None:
@@ -159,19 +162,19 @@ def test_looking_changes_nothing() -> None:
 def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() -> None:
     open_water = scene(replace(TANK, physics=None), replace(wall(4.0), physics=None))
     assert (
-        open_water.world.contacts("girona500") == []
+        open_water.world.contacts.find("girona500") == []
     )  # though it is within the box around the tank
     drive(open_water, 1.0, 3.0)
-    assert {contact.other for contact in open_water.world.contacts("girona500")} == {"wall"}
+    assert {contact.other for contact in open_water.world.contacts.find("girona500")} == {"wall"}
     assert CollisionSpec(name="hits", target="wall").bind(open_water.world)
 
 
 def test_what_cannot_be_touched_is_reported_with_the_reason() -> None:
     both = scene(BLACKBOX, wall(4.0))
-    assert both.world.contacts("girona500") == []
+    assert both.world.contacts.find("girona500") == []
     with pytest.raises(UwsimError, match="it has no <physics>, nor <u:solid> 1; solid are: wall"):
-        both.world.contacts("blackbox")
+        both.world.contacts.find("blackbox")
     with pytest.raises(UwsimError, match="<u:solid> is 0; solid are: wall"):
-        scene(replace(BLACKBOX, is_solid=False), wall(4.0)).world.contacts("blackbox")
+        scene(replace(BLACKBOX, is_solid=False), wall(4.0)).world.contacts.find("blackbox")
     with pytest.raises(UnknownName, match="Did you mean 'wall'"):
-        both.world.contacts("wal")
+        both.world.contacts.find("wal")

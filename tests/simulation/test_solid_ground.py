@@ -68,7 +68,9 @@ def test_scenery_that_is_declared_solid_stops_a_vehicle() -> None:
     assert stopped < 2.6
     simulation = make(objects=(box_scenery(is_solid=True),))
     dive(simulation, 6.0)
-    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {"seabed_west"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {
+        "seabed_west"
+    }
 
 
 def test_something_with_physics_that_is_no_solid_is_passed_through_and_hangs_where_it_is() -> None:
@@ -169,4 +171,6 @@ def kinematic(vehicle: VehicleSpec) -> VehicleSpec:
 def test_solid_scenery_is_touched_by_a_vehicle_that_is_not_simulated_too() -> None:
     wall = box_scenery(is_solid=True, position=(3.0, 1.5, 1.9))
     simulation = make(objects=(wall, GHOST), change=kinematic)
-    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {"seabed_west"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {
+        "seabed_west"
+    }

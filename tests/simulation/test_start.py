@@ -60,7 +60,9 @@ def check_joints(scene: SceneSpec, n_steps: int = 0) -> None:
                     robot.movable, [*vehicle.joint_values, *[0.0] * 99], strict=False
                 )
             ]
-            assert simulation.world.vehicles.find(vehicle.name).joints == pytest.approx(expected, abs=1e-12)
+            assert simulation.world.vehicles.find(vehicle.name).joints == pytest.approx(
+                expected, abs=1e-12
+            )
             (message, *_) = inboxes[index].take()
             assert message.position == pytest.approx(expected, abs=1e-12)
             base = simulation.world.bodies.find(vehicle.name).world_from_body

@@ -75,7 +75,7 @@ def test_damping_takes_its_share_of_the_velocity_every_second() -> None:
 
 def test_a_thing_lands_on_the_floor_and_lies_there() -> None:
     simulation = play(FLOOR, box(3.0, 1.0, 4.5, mass=15.0))
-    measure = CollisionSpec(name="hits", target="blackbox").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="blackbox").bind(simulation.world.measure_view)
     measure.start()
     for _ in range(1500):
         simulation.advance()
@@ -113,7 +113,7 @@ def test_the_ground_is_not_dropped_where_nobody_gave_it_physics() -> None:
 
 def test_a_vehicle_moves_as_commanded_and_pushes_what_is_in_its_way() -> None:
     simulation = play(box(3.0, 3.5, 1.9, mass=15.0), gravity=(0.0, 0.0, 1e-9))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     for step in range(2000):
         if step % 50 == 0:
@@ -132,17 +132,21 @@ def test_where_nothing_is_loose_a_vehicle_touches_all_the_same() -> None:
         if step % 50 == 0:
             command(simulation, 1.0, 0.0)
         simulation.advance()
-    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {"blackbox"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {
+        "blackbox"
+    }
 
 
 def test_an_arm_that_is_commanded_to_jump_pushes_and_stays_where_it_was_commanded() -> None:
     simulation = play(box(3.0, 3.5, 1.9, mass=15.0))
     before = [
-        simulation.world.bodies.find(f"girona500/{link}").world_from_body for link in ("part2", "part3")
+        simulation.world.bodies.find(f"girona500/{link}").world_from_body
+        for link in ("part2", "part3")
     ]
     run(simulation, 1.0)
     after = [
-        simulation.world.bodies.find(f"girona500/{link}").world_from_body for link in ("part2", "part3")
+        simulation.world.bodies.find(f"girona500/{link}").world_from_body
+        for link in ("part2", "part3")
     ]
     for one, other in zip(before, after, strict=True):
         assert isinstance(one, Pose)

@@ -46,7 +46,7 @@ def test_of_things_of_one_name_each_is_drawn_where_it_is(tmp_path: Path) -> None
         assert len({signal.name for signal in state.signals}) == len(state.signals)
         assert [vehicle["name"] for vehicle in head["vehicles"]] == ["rov", "rov#2"]
         assert [heap["body"] for heap in head["sand"]] == ["sand/box", "sand/box#2"]
-        world.every_vehicle[1].place(Pose(np.array([5.0, -4.0, 3.0]), np.eye(3)))
+        world.vehicles[1].place(Pose(np.array([5.0, -4.0, 3.0]), np.eye(3)))
         rows = state.row()[: 7 * len(state.bodies)].reshape(-1, 7)
         found = {body["name"]: body["pose"] for body in head["bodies"]}
         found |= dict(zip(state.bodies, rows.tolist(), strict=True))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -11,13 +10,11 @@ from ..base.geometry import Array
 from ..errors import SceneError, SimulationFailed, UnknownName, UwsimError
 from ..forces import Force
 from ..schema import diagnostic_at
+from .physical_scene import PhysicalScene
 from .world_views.force_view import ForceView, SceneAttachment
 
-if TYPE_CHECKING:
-    from .live_scene import LiveScene
 
-
-def bind_forces(scene: LiveScene) -> tuple[Force, ...]:
+def bind_forces(scene: PhysicalScene) -> tuple[Force, ...]:
     """Bind the forces of a scene.
 
     Raises:

@@ -4,30 +4,38 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import TYPE_CHECKING
 
 from ..base.geometry import Pose
+from ..model.scene_model import SceneModel
+from ..physics.engine import Engine
+from ..scene.spec import SceneSpec
 from ..scene.vehicle import VehicleSpec
 from ..sensors.sensor import MountedSensor
 from ..topics.frames import Frame
 from ..world import Body
+from .bodies import SceneBodies
+from .vehicles import SceneVehicles
 
-if TYPE_CHECKING:
-    from .live_scene import LiveScene
 
-
-def scene_frames(world: LiveScene, *, with_objects: bool) -> list[Frame]:
+def scene_frames(
+    model: SceneModel,
+    engine: Engine,
+    vehicles: SceneVehicles,
+    bodies: SceneBodies,
+    *,
+    with_objects: bool,
+) -> list[Frame]:
     """List the frames of vehicles, their links and sensors, and those of objects."""
-    frames = [*_vehicle_frames(world)]
-    return [*frames, *_object_frames(world)] if with_objects else frames
+    frames = [*_vehicle_frames(model, engine, vehicles)]
+    return [*frames, *_object_frames(model.scene, bodies)] if with_objects else frames
 
 
-def _vehicle_frames(world: LiveScene) -> Iterator[Frame]:
+def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) -> Iterator[Frame]:
     """Every vehicle with its links and sensors; a sensor on a missing link is left out."""
-    scene, robots, engine = world.model.scene, world.model.robots, world.engine
+    scene = model.scene
     localized_from_world = scene.world_from_localized.inverse()
-    for index, (spec, vehicle) in enumerate(zip(scene.vehicles, world.vehicles, strict=True)):
-        robot = robots[index]
+    for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
+        robot = model.robots[index]
         yield Frame("", spec.name, _in(localized_from_world, partial(engine.poses.vehicle, index)))
         yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity, is_fixed=True)
         links = {link.name: partial(engine.poses.link, index, link.name) for link in robot.links}
@@ -49,12 +57,11 @@ def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:
             yield part
 
 
-def _object_frames(world: LiveScene) -> Iterator[Frame]:
+def _object_frames(scene: SceneSpec, bodies: SceneBodies) -> Iterator[Frame]:
     """The mesh frames of all objects in L; of several of one name the first."""
-    scene = world.model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for name in dict.fromkeys(thing.name for thing in scene.objects):
-        body = world.bodies.find(name)
+        body = bodies.find(name)
         yield Frame("", name, _in(localized_from_world, _on(body, Pose.identity())))
 
 

@@ -60,8 +60,9 @@ class SceneTopics:
             for i, each in enumerate(world.model.scene.objects)
             if world.engine.poses.is_fixed(i)
         }
-        vehicles = scene_frames(world, with_objects=False)
-        objects = scene_frames(world, with_objects=True)[len(vehicles) :]
+        parts = world.model, world.engine, world.vehicles, world.bodies
+        vehicles = scene_frames(*parts, with_objects=False)
+        objects = scene_frames(*parts, with_objects=True)[len(vehicles) :]
         missing = [] if own else vehicles
         self._moving = [each for each in missing if not each.is_fixed]
         self._fixed = [each for each in missing if each.is_fixed]

@@ -206,7 +206,7 @@ def simulation() -> Iterator[Simulation]:
 
 def test_a_restart_brings_back_force_and_pose_in_a_simulation(simulation: Simulation) -> None:
     spec = nested(RepeatSpec(iterations=2, interval=1.0), current(initial_value=0.0), ARM)
-    updaters = bind_updaters(spec, simulation.world)
+    updaters = bind_updaters(spec, simulation.world.stage_view)
     start = simulation.world.bodies.find(VEHICLE).world_from_body.position
     joints = {}
     drifted = {}

@@ -157,7 +157,7 @@ def run_into(thing: ObjectSpec, surge: float = 0.4) -> tuple[Simulation, object,
     sensor = ContactSensorToROSSpec(name="girona500", topic="/touch", rate=100)
     simulation = make((TWIST, sensor), objects=(thing,))
     inbox = simulation.bus.inbox("/touch", Bool)
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     command(simulation, surge, 0.0)
     for _ in range(round(8.0 / simulation.timestep)):

@@ -282,7 +282,7 @@ def test_a_scaled_vehicle_stands_on_its_scaled_foot(tmp_path: Path) -> None:
         on_floor=ON_FLOOR,
     )
     scene = SceneSpec(objects=(ground(grid(tmp_path, flat(6.0))),), vehicles=(vehicle,))
-    height = open_scene(scene).world.body("tall").world_from_body.position[2]
+    height = open_scene(scene).world.bodies.find("tall").world_from_body.position[2]
     assert height == pytest.approx(-6.0 + 1.5 * 2.1, abs=1e-6)
 
 
@@ -299,7 +299,7 @@ def test_check_says_with_its_line_where_there_is_no_ground(tmp_path: Path) -> No
     path = tmp_path / "scene.xml"
     path.write_text(FILE.format(x=3))
     assert [diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"] == []
-    assert open_scene(read_scene(path)).world.body("pot").world_from_body.position[2] > -7.2
+    assert open_scene(read_scene(path)).world.bodies.find("pot").world_from_body.position[2] > -7.2
     path.write_text(FILE.format(x=300))
     (diagnostic,) = [
         diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"

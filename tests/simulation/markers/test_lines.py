@@ -74,7 +74,9 @@ def test_what_a_program_spawns_is_sent_once_and_again_when_it_is_gone() -> None:
         simulation.call(SERVICE, SpawnMarker(marker=marker(type=Marker.CUBE)))
         simulation.advance(0.1)
         assert [[each["name"] for each in said["markers"]] for said in markers()] == [["7+buoy"]]
-        where = simulation.world.model.scene.world_from_localized.transform(np.array([[1.0, 2.0, 3.0]]))[0]
+        where = simulation.world.model.scene.world_from_localized.transform(
+            np.array([[1.0, 2.0, 3.0]])
+        )[0]
         assert markers()[0]["markers"][0]["at"] == pytest.approx(where.tolist(), abs=1e-3)
         simulation.call(SERVICE, SpawnMarker(marker=marker(action=Marker.DELETEALL)))
         simulation.advance(0.1)

@@ -43,7 +43,7 @@ def test_two_simulations_at_once_do_not_see_each_other() -> None:
     pool = RendererPool()
     emptier = open_scene(replace(scene, objects=scene.objects[:1]), pool=pool)
     whole = open_scene(scene, pool=pool)
-    camera = emptier.world.camera("bowtech1")
+    camera = emptier.world.sensors.camera("bowtech1")
     with_all = whole.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids
     with_one = emptier.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids
     assert with_all is not None

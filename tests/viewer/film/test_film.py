@@ -147,9 +147,9 @@ def test_bodies_are_put_where_they_were_and_cameras_go_with_them(trial: Recorded
         puppets.put(0.7)
         np.testing.assert_allclose(world.engine.poses.vehicle(0).position, poses[21, number, :3])
         assert world.scenery.state.water.fog == pytest.approx(0.4)
-        before = world.camera("bowtech1").world_from_camera.position
+        before = world.sensors.camera("bowtech1").world_from_camera.position
         puppets.put(1.0)
-        now = world.camera("bowtech1").world_from_camera.position
+        now = world.sensors.camera("bowtech1").world_from_camera.position
         np.testing.assert_allclose(now - before, [1.0, 0.0, 0.0], atol=1e-3)
     finally:
         puppets.close()

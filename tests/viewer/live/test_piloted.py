@@ -92,7 +92,9 @@ def test_axes_are_those_that_the_vehicle_has(scene: str, axes: set[str]) -> None
             for vehicle in simulation.world.vehicles.names[:1]
             for name in simulation.world.vehicles.find(vehicle).joint_names
         ]
-        thrusters = list(simulation.world.vehicles.find(simulation.world.vehicles.names[0]).thrusters)
+        thrusters = list(
+            simulation.world.vehicles.find(simulation.world.vehicles.names[0]).thrusters
+        )
     named = {axis: name for axis, name in piloted.names.items() if axis[:5] != "thrus"}
     wanted = dict(zip(("joint1", "joint2", "joint3", "joint4", "jaw"), joints, strict=False))
     assert named == (wanted if "joint1" in axes else {})

@@ -22,7 +22,7 @@ from uwsim.viewer.live.view import LiveView
 
 def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their_sensors() -> None:
     with uwsim.load("grasp-scene") as opened:
-        scene = opened.world.scene
+        scene = opened.world.model.scene
     battery = BatterySpec(name="pack", capacity=10.0, voltage=24.0, charge=0.25, hotel_load=500.0)
     [vehicle] = scene.vehicles
     with open_scene(
@@ -71,7 +71,7 @@ def test_the_real_time_factor_is_that_of_the_last_seconds_and_none_in_a_pause() 
 
 def test_a_scene_without_a_vehicle_has_its_pace_alone() -> None:
     with uwsim.load("currents-scene") as opened:
-        scene = replace(opened.world.scene, vehicles=(), ros_interfaces=())
+        scene = replace(opened.world.model.scene, vehicles=(), ros_interfaces=())
     with open_scene(scene, is_blind=True) as simulation:
         assert [name for name, _, _ in Readings(simulation, 0).take(0.0)] == ["real-time factor"]
 

@@ -123,9 +123,9 @@ def test_the_state_is_that_of_the_vehicle_whichever_way_its_z_axis_points(
     y = starboard if is_down else -starboard
     with uwsim.load("grasp-scene") if is_down else rov(tmp_path / "scene.xml") as simulation:
         world = simulation.world
-        live = world.vehicle(world.vehicles[0])
+        live = world.vehicles.find(world.vehicles.names[0])
         assert bool(live.world_from_base.rotation[2, 2] < 0.0) is is_down
-        place = np.array([0.3, 0.2, world.surface_height - 2.75])
+        place = np.array([0.3, 0.2, world.model.scene.ocean_state.ocean_surface_height - 2.75])
 
         def move() -> None:
             live.place(Pose(place, np.column_stack([ahead, y, np.cross(ahead, y)])))

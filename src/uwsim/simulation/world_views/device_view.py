@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ...base.geodesy import Geodetic
 from ...base.geometry import Array
+from ...network import Network
 from ...world import Actuators
+from ..datagrams import Datagrams
+from ..physical_scene import PhysicalScene
 from .scene_view import SceneView
-
-if TYPE_CHECKING:
-    from ..live_scene import LiveScene
 
 
 class DeviceView(SceneView):
@@ -18,9 +16,11 @@ class DeviceView(SceneView):
 
     Args:
         scene: the scene.
+        network: the packets between communication devices.
+        datagrams: the UDP ports at which packets are taken.
     """
 
-    def __init__(self, scene: LiveScene) -> None:
+    def __init__(self, scene: PhysicalScene, network: Network, datagrams: Datagrams) -> None:
         super().__init__(scene)
         self._scenery, self._vehicles = scene.scenery, scene.vehicles
         self._objects, self._grips = scene.model.scene.objects, scene.engine.grips
@@ -32,9 +32,9 @@ class DeviceView(SceneView):
         """Where on Earth the origin of W is."""
         self.rays = scene.rays
         """The surfaces of the scene where they are now."""
-        self.network = scene.network
+        self.network = network
         """The packets between communication devices."""
-        self.datagrams = scene.datagrams.open
+        self.datagrams = datagrams.open
         self.every = scene.schedule.every
         self.stream = scene.stream
 

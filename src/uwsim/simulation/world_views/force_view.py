@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,9 +12,7 @@ from ...base.numerics.linear import turned
 from ...errors import UnknownName
 from ...scene.attachable import attachable_bodies
 from ...world import BodyMotion
-
-if TYPE_CHECKING:
-    from ..live_scene import LiveScene
+from ..physical_scene import PhysicalScene
 
 
 class SceneAttachment:
@@ -68,7 +65,7 @@ class ForceView:
         scene: the scene.
     """
 
-    def __init__(self, scene: LiveScene) -> None:
+    def __init__(self, scene: PhysicalScene) -> None:
         spec = scene.model.scene
         self._scene = scene
         self._bodies = attachable_bodies(spec, scene.model.robots)

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from ...world import Actuators
+from ..physical_scene import PhysicalScene
+from ..scene_sensors import SceneSensors
 from .scene_view import SceneView
-
-if TYPE_CHECKING:
-    from ..live_scene import LiveScene
 
 
 class MeasureView(SceneView):
@@ -16,9 +13,10 @@ class MeasureView(SceneView):
 
     Args:
         scene: the scene.
+        sensors: its sensors.
     """
 
-    def __init__(self, scene: LiveScene) -> None:
+    def __init__(self, scene: PhysicalScene, sensors: SceneSensors) -> None:
         super().__init__(scene)
         self._vehicles = scene.vehicles
         self.world_from_localized = scene.model.scene.world_from_localized
@@ -28,7 +26,7 @@ class MeasureView(SceneView):
         self.body = scene.bodies.find
         self.contacts = scene.contacts.find
         self.contact_forces = scene.contacts.forces
-        self.camera = scene.sensors.camera
+        self.camera = sensors.camera
         self.stream = scene.stream
 
     def actuators(self, name: str) -> Actuators | None:

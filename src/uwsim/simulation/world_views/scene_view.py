@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from ..live_scene import LiveScene
+from ..physical_scene import PhysicalScene
 
 
 class SceneView:
@@ -15,7 +12,7 @@ class SceneView:
         scene: the scene.
     """
 
-    def __init__(self, scene: LiveScene) -> None:
+    def __init__(self, scene: PhysicalScene) -> None:
         self.bus = scene.bus
         """Its topics and services."""
         self.timestep = scene.model.timestep

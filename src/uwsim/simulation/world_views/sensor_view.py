@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Intrinsics, Pose
 from ...sensors.pinhole import cast_depth
+from ..physical_scene import PhysicalScene
 from .scene_view import SceneView
-
-if TYPE_CHECKING:
-    from ..live_scene import LiveScene
 
 
 class SensorView(SceneView):
@@ -23,7 +19,7 @@ class SensorView(SceneView):
         is_blind: measure depths by rays, not by the renderer.
     """
 
-    def __init__(self, scene: LiveScene, *, is_blind: bool) -> None:
+    def __init__(self, scene: PhysicalScene, *, is_blind: bool) -> None:
         super().__init__(scene)
         spec = scene.model.scene
         self._scenery, self._is_blind = scene.scenery, is_blind

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ...model.robots import find_file
+from ...world import World
+from ..physical_scene import PhysicalScene
+from ..scene_sensors import SceneSensors
 from .scene_view import SceneView
-
-if TYPE_CHECKING:
-    from ..live_scene import LiveScene
 
 
 class StageView(SceneView):
@@ -18,13 +17,15 @@ class StageView(SceneView):
 
     Args:
         scene: the scene.
+        sensors: its sensors.
+        world: the scene as its measures see it.
     """
 
-    def __init__(self, scene: LiveScene) -> None:
+    def __init__(self, scene: PhysicalScene, sensors: SceneSensors, world: World) -> None:
         super().__init__(scene)
-        self._scenery, self._sensors = scene.scenery, scene.sensors
+        self._scenery, self._sensors = scene.scenery, sensors
         self._vehicles, self._data_path = scene.vehicles, scene.model.data_path
-        self.world = scene.measure_view
+        self.world = world
         """Bodies, cameras and contacts, as measures see them."""
         self.vehicles = scene.vehicles.names
         """Names of the vehicles, in the file's order."""

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
 
 from ...topics.frames import Frame
 from ..frames import scene_frames
+from ..markers import Markers
+from ..physical_scene import PhysicalScene
+from ..scene_sensors import SceneSensors
 from ..scenery.segmenter import SceneSegmenter
 from .scene_view import SceneView
-
-if TYPE_CHECKING:
-    from ..live_scene import LiveScene
 
 
 class TopicView(SceneView):
@@ -19,10 +18,14 @@ class TopicView(SceneView):
 
     Args:
         scene: the scene.
+        sensors: its sensors, and its devices that measure.
+        markers: the markers in it.
         is_blind: images are black, and nothing is drawn.
     """
 
-    def __init__(self, scene: LiveScene, *, is_blind: bool) -> None:
+    def __init__(
+        self, scene: PhysicalScene, sensors: SceneSensors, markers: Markers, *, is_blind: bool
+    ) -> None:
         super().__init__(scene)
         self._scene = scene
         self.is_blind = is_blind
@@ -31,7 +34,7 @@ class TopicView(SceneView):
         """W from L: the scene's offset."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
-        self.sensors = scene.sensors
+        self.sensors = sensors
         """The sensors and devices that publish."""
         self.contacts = scene.contacts
         """Contacts between bodies."""
@@ -39,10 +42,13 @@ class TopicView(SceneView):
         """What tells which body a pixel sees."""
         self.body = scene.bodies.find
         self.vehicle = scene.vehicles.find
-        self.marker_frames = scene.markers.frames
+        self.marker_frames = markers.frames
         self.every = scene.schedule.every
         self.at_next_step = scene.schedule.at_next_step
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
-        return scene_frames(self._scene, with_objects=with_objects)
+        scene = self._scene
+        return scene_frames(
+            scene.model, scene.engine, scene.vehicles, scene.bodies, with_objects=with_objects
+        )
