@@ -142,7 +142,9 @@ def test_a_body_that_moves_otherwise_in_the_replay_is_named_with_its_steps(
     def drifting(self: Simulation, seconds: float | None = None) -> None:
         if self.step == 700:
             arm = self.world.vehicles.find("girona500")
-            arm.set_joints(arm.joints + [0.0, 1e-9, 0.0, 0.0, 0.0])
+            joints = arm.joints
+            joints[1] += 1e-9
+            arm.set_joints(joints)
         advance(self, seconds)
 
     monkeypatch.setattr(Simulation, "advance", drifting)

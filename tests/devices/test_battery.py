@@ -222,7 +222,9 @@ def test_an_overload_ends_with_the_load() -> None:
     with vehicle(BATTERY) as free:
         full_thrust(free, 0.05)
         free.advance(4.0)
-        assert thrusts == pytest.approx(free.world.vehicles.find(NAME).actuators().thrusts(), rel=0.02)
+        assert thrusts == pytest.approx(
+            free.world.vehicles.find(NAME).actuators().thrusts(), rel=0.02
+        )
 
 
 @pytest.mark.parametrize(("resistance", "warns"), [(0.01, False), (4.0, True)])

@@ -17,7 +17,7 @@ from uwsim.devices.battery import BatterySpec
 from uwsim.messages import Float64, Float64MultiArray, JointState, PoseStamped, String
 from uwsim.viewer.live.heard_topics import MAX_FIELDS, HeardTopics, fields_of
 from uwsim.viewer.live.readings import Readings
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 
 def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their_sensors() -> None:
@@ -143,14 +143,14 @@ def test_the_list_of_topics_is_sent_when_it_has_changed() -> None:
 def test_pages_get_readings_and_the_topics_they_want() -> None:
     desk = Desk(wanted=frozenset({"?topic/dataNavigator"}))
     wall = [0.0]
-    view = LiveView(desk, speed=0.0, wall=lambda: wall[0])  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, wall=lambda: wall[0])  # type: ignore[arg-type]
     with uwsim.load("currents-scene") as simulation:
-        view.open(simulation, "scene")
+        session.open(simulation, "scene")
         for _ in range(5):
             wall[0] += 0.25
             simulation.publish("dataNavigator", simulation.bus.message_type("dataNavigator")())  # type: ignore[misc]
             simulation.advance(0.02)
-        view.close()
+        session.close()
         assert json.loads(desk.on("readings")[-1])["time"] == pytest.approx(0.1, abs=0.021)
         assert len(desk.on("topics")) == 1
         assert len(desk.on("?topic/dataNavigator")) >= 3

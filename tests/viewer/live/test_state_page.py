@@ -23,7 +23,7 @@ from uwsim.simulation import Simulation
 from uwsim.viewer.document import document
 from uwsim.viewer.live.mapping import PilotMapping
 from uwsim.viewer.live.server import LiveServer
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 pytestmark = pytest.mark.slow
 PHONE, DESKTOP = (390, 844), (1280, 800)
@@ -52,12 +52,12 @@ def shown(
     browser: Any, server: LiveServer, simulation: Simulation, move: Callable[[], object] = lambda: 0
 ) -> Any:
     """Open the page of a simulation that stands still, piloted; ``move`` is done before."""
-    view = LiveView(server, mapping=PilotMapping(), resets=True)
-    view.open(simulation, "scene", pilot_topics(simulation))
+    session = LiveSession(server, mapping=PilotMapping(), resets=True)
+    session.open(simulation, "scene", pilot_topics(simulation))
     move()
-    view._due = dict.fromkeys(view._due, 0.0)
-    view._hand_over()
-    view.close()
+    session.view._due = dict.fromkeys(session.view._due, 0.0)
+    session.view.hand_over()
+    session.close()
     page = page_of(browser, server)
     page.wait_for_function(
         "uwsim.page.drawn !== '' && document.querySelectorAll('#hud button').length"
