@@ -85,7 +85,7 @@ def test_an_empty_battery_stops_the_thrusters_if_it_is_to(stops: bool) -> None:
     with vehicle(battery) as simulation:
         ahead = Float64MultiArray(data=np.array([0.5, 0.5, 0.0, 0, 0]))
         simulation.publish("/thrusters", ahead)
-        actuators = simulation.world.vehicles.find(NAME).actuators()
+        actuators = simulation.world.vehicles.actuators(NAME)
         assert actuators is not None
         full = after(simulation, 0.5)
         drawn = actuators.powers()[: len(actuators.thrusters)].sum()
@@ -132,7 +132,7 @@ def test_currents_are_power_per_volt_of_each_motor() -> None:
         simulation.publish("/thrusters", Float64MultiArray(data=np.array([0.5, 0, 0, 0, 0.0])))
         simulation.advance(1.0)
         message = simulation.latest("/currents")
-        actuators = simulation.world.vehicles.find(NAME).actuators()
+        actuators = simulation.world.vehicles.actuators(NAME)
         assert actuators is not None
         assert message.name == [*actuators.thrusters, *actuators.joints]
         np.testing.assert_allclose(message.effort, actuators.powers() / 50.0, rtol=1e-12)
@@ -176,14 +176,14 @@ def test_thrusters_get_no_more_than_the_battery_can_feed(
     with vehicle(replace(BATTERY, resistance=0.0)) as free:
         full_thrust(free)
         free.advance(1.0)
-        wanted = free.world.vehicles.find(NAME).actuators()
+        wanted = free.world.vehicles.actuators(NAME)
         demand, full = float(wanted.powers().sum()), wanted.thrusts()
         for_thrust = float(wanted.powers()[:5].sum())
     with vehicle(battery) as simulation:
         simulation.latest("/battery")
         full_thrust(simulation)
         simulation.advance(1.0)
-        actuators = simulation.world.vehicles.find(NAME).actuators()
+        actuators = simulation.world.vehicles.actuators(NAME)
         power, thrusts = float(actuators.powers().sum()) + hotel_load, actuators.thrusts()
         share = (float(actuators.powers()[:5].sum()) / for_thrust) ** (2.0 / 3.0)
         message = simulation.latest("/battery")
@@ -217,14 +217,12 @@ def test_an_overload_ends_with_the_load() -> None:
         after(simulation, 1.0)
         full_thrust(simulation, 0.05)
         message = after(simulation, 3.0)
-        thrusts = simulation.world.vehicles.find(NAME).actuators().thrusts()
+        thrusts = simulation.world.vehicles.actuators(NAME).thrusts()
     assert message.power_supply_health == BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
     with vehicle(BATTERY) as free:
         full_thrust(free, 0.05)
         free.advance(4.0)
-        assert thrusts == pytest.approx(
-            free.world.vehicles.find(NAME).actuators().thrusts(), rel=0.02
-        )
+        assert thrusts == pytest.approx(free.world.vehicles.actuators(NAME).thrusts(), rel=0.02)
 
 
 @pytest.mark.parametrize(("resistance", "warns"), [(0.01, False), (4.0, True)])

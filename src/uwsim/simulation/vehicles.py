@@ -84,10 +84,6 @@ class SceneVehicle:
     def _actuation(self) -> VehicleActuation | None:
         return self._engine.actuation.get(self.index)
 
-    def actuators(self) -> Actuators | None:
-        """Return its thrusters and joints; None if it is not simulated."""
-        return self._actuation.actuators() if self._actuation else None
-
     @property
     def thrusters(self) -> tuple[str, ...]:
         """Names of its thrusters as in its hydrodynamics file; none if it is not simulated."""
@@ -235,7 +231,7 @@ class SceneVehicle:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
         link, engine = (self.index, spec.relative_to), self._engine
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
-        contacts = partial(engine.contact_wrench, *link)
+        contacts = partial(engine.contacts.wrench, engine.poses.link_body(*link))
         motion = partial(self._motion, spec.relative_to)
         if not engine.is_simulated(self.index):
             self.follow()
@@ -272,6 +268,7 @@ class SceneVehicles:
         scene = model.scene
         self.names = tuple(vehicle.name for vehicle in scene.vehicles)
         """Their names, by number."""
+        self._actuation = engine.actuation
         self._vehicles = tuple(
             SceneVehicle(
                 index,
@@ -287,6 +284,11 @@ class SceneVehicles:
         if name not in self.names:
             raise UnknownName("vehicle", name, self.names)
         return self._vehicles[self.names.index(name)]
+
+    def actuators(self, name: str) -> Actuators | None:
+        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
+        actuation = self._actuation.get(self.find(name).index)
+        return None if actuation is None else actuation.actuators()
 
     def __getitem__(self, index: int) -> SceneVehicle:
         """Return a vehicle by its number in the file."""

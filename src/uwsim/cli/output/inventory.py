@@ -105,7 +105,7 @@ def _water(scene: SceneSpec) -> Fields:
 def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
     spec = scene.vehicles[index]
     robot = simulation.world.model.robots[index]
-    actuators = simulation.world.vehicles.find(spec.name).actuators()
+    actuators = simulation.world.vehicles.actuators(spec.name)
     dynamics = simulation.world.model.dynamics.get(index)
     return {
         "name": spec.name,

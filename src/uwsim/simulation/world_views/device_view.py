@@ -5,7 +5,6 @@ from __future__ import annotations
 from ...base.geodesy import Geodetic
 from ...base.geometry import Array
 from ...network import Network
-from ...world import Actuators
 from ..datagrams import Datagrams
 from ..physical_scene import PhysicalScene
 from .scene_view import SceneView
@@ -22,7 +21,7 @@ class DeviceView(SceneView):
 
     def __init__(self, scene: PhysicalScene, network: Network, datagrams: Datagrams) -> None:
         super().__init__(scene)
-        self._scenery, self._vehicles = scene.scenery, scene.vehicles
+        self._scenery = scene.scenery
         self._objects, self._grips = scene.model.scene.objects, scene.engine.grips
         self.world_from_localized = scene.model.scene.world_from_localized
         """W from L: the scene's offset."""
@@ -36,11 +35,8 @@ class DeviceView(SceneView):
         """The packets between communication devices."""
         self.datagrams = datagrams.open
         self.every = scene.schedule.every
+        self.actuators = scene.vehicles.actuators
         self.stream = scene.stream
-
-    def actuators(self, name: str) -> Actuators | None:
-        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
-        return self._vehicles.find(name).actuators()
 
     def dig(self, point: Array) -> int:
         """Take sand around a point in W (3,) [m]; returns how many columns of it lost some."""

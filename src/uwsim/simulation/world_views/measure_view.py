@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from ...world import Actuators
 from ..physical_scene import PhysicalScene
 from ..scene_sensors import SceneSensors
 from .scene_view import SceneView
@@ -18,7 +17,6 @@ class MeasureView(SceneView):
 
     def __init__(self, scene: PhysicalScene, sensors: SceneSensors) -> None:
         super().__init__(scene)
-        self._vehicles = scene.vehicles
         self.world_from_localized = scene.model.scene.world_from_localized
         """W from L: the scene's offset."""
         self.compatibility = scene.model.compatibility
@@ -27,8 +25,5 @@ class MeasureView(SceneView):
         self.contacts = scene.contacts.find
         self.contact_forces = scene.contacts.forces
         self.camera = sensors.camera
+        self.actuators = scene.vehicles.actuators
         self.stream = scene.stream
-
-    def actuators(self, name: str) -> Actuators | None:
-        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
-        return self._vehicles.find(name).actuators()
