@@ -71,7 +71,7 @@ def scene_figures(folder: Path) -> None:
         camera = simulation.world.sensors.camera(CAMERA)
         views = {}
         for fog in (0.0, PAPER_FOG):
-            simulation.world.scenery.set_fog(fog)
+            simulation.set_fog(fog)
             outside = simulation.world.scenery.render_clean(looking(EYE, TARGET), viewer).colour
             inside = simulation.world.scenery.render_clean(
                 camera.world_from_camera, camera.intrinsics

@@ -120,7 +120,7 @@ def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
             swim(0.5 * SIDE / SURGE, SURGE, down, 0.0)
             swim(0.5 * SIDE / SURGE, SURGE, up, 0.0)
             swim(TURN, 0.0, 0.0, 0.5 * np.pi / TURN)
-        origin = simulation.world.model.scene.earth_origin
+        origin = scene.earth_origin or Geodetic(latitude=0.0, longitude=0.0)
         return np.array(times), np.array(places), *metres(inbox.take(), origin)
 
 
