@@ -24,7 +24,7 @@ def remus(path: Path | None = None) -> Simulation:
     vehicle = replace(scene.vehicles[0], parts=())
     commands = tuple(each for each in scene.ros_interfaces if not hasattr(each, "camera_name"))
     made = open_scene(replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=commands))
-    made.start()
+    made.advance(0.0)
     return made
 
 
@@ -89,7 +89,7 @@ def test_the_thrust_that_is_reported_is_that_at_speed(tmp_path: Path) -> None:
     simulation = remus(changed(tmp_path, ("<radius>0.06985</radius>", advance_line)))
     vehicle, actuators = (
         simulation.world.vehicles.find("remus"),
-        simulation.world.vehicles.find("remus").actuators(),
+        simulation.world.vehicles.actuators("remus"),
     )
     assert actuators is not None
     say(simulation, "/remus/propeller", 1.0)

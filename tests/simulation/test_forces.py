@@ -91,7 +91,7 @@ class Probe(Force):
                 "place": place,
                 "velocity": here.motion().velocity,
                 "spin": here.motion().angular_velocity,
-                "water": self._world.water.velocity(place[None], time, here.vehicle)[0],
+                "water": self._world.water_velocity(place[None], time, here.vehicle)[0],
                 "density": self._world.water_density(place[None] + [[0, 0, 0], [0, 0, 99.0]]),
             }
         )
@@ -221,7 +221,7 @@ def test_a_force_on_a_link_is_felt_by_base_and_joints_as_its_jacobian_says(link:
     with in_water() as plain, in_water(forces=(pull,)) as simulation:
         world_from_link = plain.world.bodies.find(f"girona0/{link}").world_from_body
         point = world_from_link.position + world_from_link.rotation @ np.array(at)
-        plain.start()
+        plain.advance(0.0)
         expected = generalised(plain, f"vehicle/0/{link}", point, wrench)
         simulation.advance(0.0)
         plain.advance()

@@ -166,7 +166,7 @@ def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() 
     )  # though it is within the box around the tank
     drive(open_water, 1.0, 3.0)
     assert {contact.other for contact in open_water.world.contacts.find("girona500")} == {"wall"}
-    assert CollisionSpec(name="hits", target="wall").bind(open_water.world)
+    assert CollisionSpec(name="hits", target="wall").bind(open_water.world.measure_view)
 
 
 def test_what_cannot_be_touched_is_reported_with_the_reason() -> None:

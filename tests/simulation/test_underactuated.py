@@ -265,11 +265,13 @@ def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_pa
         scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>thrust</u:accept>")
     )
     assert [f for f in check_file(tmp_path / "scene.xml") if "drive" in f.message] == []
-    assert model_warnings(open_scene(read_scene(tmp_path / "scene.xml")).model) == []
+    assert model_warnings(open_scene(read_scene(tmp_path / "scene.xml")).world.model) == []
 
 
 def test_nothing_is_reported_of_the_bundled_scene() -> None:
     assert (
-        model_warnings(open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).model)
+        model_warnings(
+            open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.model
+        )
         == []
     )
