@@ -14,7 +14,7 @@ from uwsim.simulation import Simulation
 def one_by_one(simulation: Simulation, name: str) -> dict[str, Array]:
     """The same from MuJoCo's own function."""
     state = simulation.world.engine
-    model, data, contacts = state._model, state._data, state._contacts
+    model, data, contacts = state._model, state._data, state.contacts
     names = [contacts._names[owner] for owner in contacts._owner_numbers]
     found: dict[str, Array] = {}
     local = np.zeros(6)
