@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Literal
 
@@ -39,6 +39,34 @@ class SceneBody:
     def box(self) -> Box | None:
         """Bounding box of its mesh in its own frame; None without a mesh."""
         return self._box
+
+
+class SceneBodies:
+    """The bodies of a scene by name.
+
+    Args:
+        model: of the scene.
+        engine: where everything is.
+    """
+
+    def __init__(self, model: SceneModel, engine: Engine) -> None:
+        self._bodies = name_bodies(model, engine)
+
+    def find(self, name: str) -> SceneBody:
+        """Find what a route ``a/b/c`` names; nodes between the first and the last may be skipped.
+
+        The name of a link may have slashes itself, ``rov/bluerov2/base_link``.
+
+        Raises:
+            UnknownName: nothing matches; lists what there is.
+        """
+        nodes = [node.strip() for node in name.strip().strip("/").split("/")]
+        if nodes[0] == "localizedWorld" and len(nodes) > 1:
+            nodes = nodes[1:]
+        for known in ("/".join(nodes), f"{nodes[0]}/{nodes[-1]}"):
+            if known in self._bodies:
+                return self._bodies[known]
+        raise UnknownName("body", name, self._bodies)
 
 
 def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
@@ -127,23 +155,6 @@ def scaled_box(
     corners = product(box.corners(), scaling.T)  # (8, 3) [m]
     lower, upper = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Box(tuple(lower), tuple(upper))
-
-
-def find_body(route: str, bodies: Mapping[str, SceneBody]) -> SceneBody:
-    """Find what a route ``a/b/c`` names; nodes between the first and the last may be skipped.
-
-    The name of a link may have slashes itself, ``rov/bluerov2/base_link``.
-
-    Raises:
-        UnknownName: nothing matches; lists what there is.
-    """
-    nodes = [node.strip() for node in route.strip().strip("/").split("/")]
-    if nodes[0] == "localizedWorld" and len(nodes) > 1:
-        nodes = nodes[1:]
-    for name in ("/".join(nodes), f"{nodes[0]}/{nodes[-1]}"):
-        if name in bodies:
-            return bodies[name]
-    raise UnknownName("body", route, bodies)
 
 
 def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:

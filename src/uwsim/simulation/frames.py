@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
 
 from ..base.geometry import Pose
@@ -13,19 +13,25 @@ from ..scene.vehicle import VehicleSpec
 from ..sensors.sensor import MountedSensor
 from ..topics.frames import Frame
 from ..world import Body
-from .vehicles import SceneVehicle
+from .bodies import SceneBodies
+from .vehicles import SceneVehicles
 
 
-def vehicle_frames(
-    model: SceneModel, vehicles: Sequence[SceneVehicle], engine: Engine
-) -> Iterator[Frame]:
-    """Every vehicle with its links and sensors; a sensor on a missing link is left out.
+def scene_frames(
+    model: SceneModel,
+    engine: Engine,
+    vehicles: SceneVehicles,
+    bodies: SceneBodies,
+    *,
+    with_objects: bool,
+) -> list[Frame]:
+    """List the frames of vehicles, their links and sensors, and those of objects."""
+    frames = [*_vehicle_frames(model, engine, vehicles)]
+    return [*frames, *_object_frames(model.scene, bodies)] if with_objects else frames
 
-    Args:
-        model: of the scene.
-        vehicles: the vehicles of the scene, in the file's order.
-        engine: where their links are.
-    """
+
+def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) -> Iterator[Frame]:
+    """Every vehicle with its links and sensors; a sensor on a missing link is left out."""
     scene = model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
@@ -51,11 +57,11 @@ def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:
             yield part
 
 
-def object_frames(scene: SceneSpec, find: Callable[[str], Body]) -> Iterator[Frame]:
+def _object_frames(scene: SceneSpec, bodies: SceneBodies) -> Iterator[Frame]:
     """The mesh frames of all objects in L; of several of one name the first."""
     localized_from_world = scene.world_from_localized.inverse()
     for name in dict.fromkeys(thing.name for thing in scene.objects):
-        body = find(name)
+        body = bodies.find(name)
         yield Frame("", name, _in(localized_from_world, _on(body, Pose.identity())))
 
 
