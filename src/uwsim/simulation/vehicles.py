@@ -17,7 +17,7 @@ from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..physics.kinematics.placed_motion import PlacedMotion, Source
-from ..scene.mounts import MountFrames, link_from_frame
+from ..scene.mounts import MountFrames
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
 from ..world import BodyMotion
@@ -248,9 +248,7 @@ class SceneVehicle:
         link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
             raise UnknownName("link", link, [each.name for each in robot.links])
-        link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
-            spec, visual=visual
-        )
+        link_from_part = self._frames.link_from_mounted(spec, visual=visual)
         return partial(self._engine.poses.mounted, self.index, link, link_from_part)
 
 
@@ -258,9 +256,5 @@ def bind_vehicles(
     model: SceneModel, engine: Engine, step: Callable[[], int]
 ) -> tuple[SceneVehicle, ...]:
     """Return the vehicles of a scene, in the file's order."""
-    place = model.scene.world_from_localized
-    frames = [
-        MountFrames(vehicle, model.robots[index], place)
-        for index, vehicle in enumerate(model.scene.vehicles)
-    ]
-    return tuple(SceneVehicle(index, each, engine, step) for index, each in enumerate(frames))
+    vehicles = enumerate(model.mount_frames)
+    return tuple(SceneVehicle(index, frames, engine, step) for index, frames in vehicles)

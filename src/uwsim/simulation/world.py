@@ -13,13 +13,12 @@ from ..base.geodesy import Geodetic
 from ..base.geometry import Intrinsics, Pose
 from ..base.rng import stream
 from ..bus import Bus
-from ..devices.device import DeviceSpec
 from ..errors import UnknownName
 from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
 from ..scene.urdf.robot import RobotSpec
 from ..sensors.pinhole import cast_depth, cast_surfaces
-from ..sensors.sensor import BindsSensor, Sensor
+from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..world import Actuators, Contact
 from .bodies import SceneBody, find_body, name_bodies
@@ -115,12 +114,10 @@ class SceneWorld:
     def _bound_sensors(self) -> dict[tuple[str, str], Sensor]:
         """Sensors by element and name; where two share both, the last has it."""
         sensors: dict[tuple[str, str], Sensor] = {}
-        for spec, vehicle in zip(self.scene.vehicles, self.every_vehicle, strict=True):
-            for element, part in spec.all_parts():
-                # a sensor on a link that is not there is left out, as in the original
-                with suppress(UnknownName):
-                    if not isinstance(part, DeviceSpec) and isinstance(part, BindsSensor):
-                        sensors[element, part.name] = part.bind(self, vehicle)
+        for index, element, spec in self.model.sensor_specs:
+            # a sensor on a link that is not there is left out, as in the original
+            with suppress(UnknownName):
+                sensors[element, spec.name] = spec.bind(self, self.every_vehicle[index])
         return sensors
 
     @property
