@@ -61,7 +61,7 @@ class EngineMemory(Live):
         self._forget = forget
         fields, size = data_places()
         self._struct = struct = _view(data._address, size)
-        self._bytes = memoryview(struct)
+        self._bytes = struct.data
         self._counts = _places_of_counts()
         first, end = fields["contact"].start, fields["signature"].start
         self._places = struct[first:end].view(np.uint64)

@@ -56,6 +56,7 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
         "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
     }
     boxes, link_boxes = model.compute_once(_object_boxes), model.compute_once(_link_boxes)
+    engine.poses.refresh()  # the state at the start has the poses of all bodies
 
     def add(names: Sequence[str], pose: Callable[[], Pose], box: Box | None) -> None:
         for name in names:
