@@ -57,7 +57,7 @@ class Engine:
         shapes = scene_model.shapes
         self._robots, self._dynamics = robots, dynamics
         # its own: servos, grips and lifts change numbers of it
-        self._model = model = copy.copy(scene_model.engine_model)
+        self._model = model = copy.copy(scene_model.compute_once(_corrected_model))
         self._data = data = mujoco.MjData(model)
         place_fixed_shapes(model, data)
         names = [body_name(scene, model.body(i).name) for i in range(model.nbody)]
@@ -84,7 +84,7 @@ class Engine:
         self._water: Hydrodynamics | None = _water_of(model) if dynamics else None
         self.joint_wrench = JointWrench(model, data, self.poses, self._water)
         """What links do to the joints that carry them."""
-        self.actuation = actuation_of(scene, robots, dynamics, data, self._water, self.poses)
+        self.actuation = actuation_of(scene_model, data, self._water, self.poses)
         """What moves each simulated vehicle, by its number."""
         self._set_first_joints(scene)
         self._wet, self._felt_at = self._wet_points()
@@ -321,8 +321,19 @@ def _bounces_of(scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) ->
     return BounceLimit(model, data, bodies) if bodies else None
 
 
-def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
-    """Install the hydrodynamics of a model."""
+def _corrected_model(scene_model: SceneModel) -> mujoco.MjModel:
+    """Return the model that the engines of a scene copy: with the water in its inverse weights."""
+    if not scene_model.dynamics:
+        return scene_model.engine_model
     from .hydrodynamics.hydrodynamics import install
 
-    return install(model)
+    model = copy.copy(scene_model.engine_model)
+    install(model)
+    return model
+
+
+def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
+    """Return the hydrodynamics of an engine's model."""
+    from .hydrodynamics.hydrodynamics import attach
+
+    return attach(model)

@@ -83,7 +83,8 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
     bodies = {
         "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
     }
-    boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
+    boxes, link_boxes = model.compute_once(_object_boxes), model.compute_once(_link_boxes)
+    engine.poses.refresh()  # the state at the start has the poses of all bodies
 
     def add(names: Sequence[str], pose: Callable[[], Pose], box: Box | None) -> None:
         for name in names:
@@ -101,19 +102,44 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
             pose = partial(engine.poses.mounted, index, link.name, link_from_visual)
-            shown = [
-                part for part in model.parts if (part.vehicle, part.link) == (index, link.name)
-            ]
-            add(seen, pose, _box_of(shown, pose(), engine.poses.link_frame(index, link.name)))
+            add(seen, pose, link_boxes[index, link.name])
     for index, thing in enumerate(scene.objects):
-        mesh, box = thing.object_from_mesh, boxes.get(index)
-        if box is not None and "box-scale" not in model.compatibility:
-            box = scaled_box(box, mesh.rotation, thing.scale_factor)
+        mesh = thing.object_from_mesh
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
         object_from_mesh = Pose(origin, mesh.rotation)
         pose = partial(_attached, partial(engine.poses.object, index), object_from_mesh)
-        add([thing.name], pose().copy if engine.poses.is_fixed(index) else pose, box)
+        add([thing.name], pose().copy if engine.poses.is_fixed(index) else pose, boxes.get(index))
     return bodies
+
+
+def _object_boxes(model: SceneModel) -> dict[int, Box]:
+    """Return the box of each object that is seen, by its number."""
+    boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
+    if "box-scale" in model.compatibility:
+        return boxes
+    things = {index: model.scene.objects[index] for index in boxes}
+    return {
+        index: scaled_box(boxes[index], thing.object_from_mesh.rotation, thing.scale_factor)
+        for index, thing in things.items()
+    }
+
+
+def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
+    """Return the box of each link that is seen, by the number of its vehicle and its name."""
+    engine = Engine(model)
+    boxes = {}
+    for index, robot in model.robots.items():
+        for link in robot.links:
+            if link.visual is None:
+                continue
+            link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
+            world_from_visual = engine.poses.mounted(index, link.name, link_from_visual)
+            parts = [
+                each for each in model.parts if (each.vehicle, each.link) == (index, link.name)
+            ]
+            frame = engine.poses.link_frame(index, link.name)
+            boxes[index, link.name] = _box_of(parts, world_from_visual, frame)
+    return boxes
 
 
 def _box_of(

@@ -9,8 +9,6 @@ from ..base.geometry import Pose
 from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
-from ..scene.vehicle import VehicleSpec
-from ..sensors.sensor import MountedSensor
 from ..topics.frames import Frame
 from ..world import Body
 from .bodies import SceneBodies
@@ -43,18 +41,12 @@ def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) 
             parent, child = f"{spec.name}/{joint.parent}", f"{spec.name}/{joint.child}"
             between = _between(links[joint.parent], links[joint.child])
             yield Frame(parent, child, between, is_fixed=not joint.moves)
-        for sensor in _sensors(spec):
+        for sensor in (part for owner, part in model.mounted_sensors if owner == index):
             if (link := links.get(sensor.relative_to)) is not None:
                 sensor_from_frame = Pose.from_rpy((0.0, 0.0, 0.0), sensor.frame_rpy)
                 frame = _on(vehicle.mount(sensor), sensor_from_frame)
                 parent = f"{spec.name}/{sensor.relative_to}"
                 yield Frame(parent, sensor.name, _between(link, frame), is_fixed=True)
-
-
-def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:
-    for _, part in vehicle.all_parts():
-        if isinstance(part, MountedSensor):
-            yield part
 
 
 def _object_frames(scene: SceneSpec, bodies: SceneBodies) -> Iterator[Frame]:

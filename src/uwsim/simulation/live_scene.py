@@ -81,9 +81,7 @@ class LiveScene:
         """How its water moves."""
         self.stream = physical.stream
         """Returns the random generator of a name."""
-        self.sensors = SceneSensors(
-            model.scene, self.vehicles, SensorView(physical, is_blind=is_blind)
-        )
+        self.sensors = SceneSensors(model, self.vehicles, SensorView(physical, is_blind=is_blind))
         """The sensors, by element and name."""
         self.network = _network(physical)
         """The packets between communication devices."""

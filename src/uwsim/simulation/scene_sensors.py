@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
-from ..devices.device import DeviceSpec
 from ..errors import UnknownName
-from ..scene.spec import SceneSpec
-from ..sensors.sensor import BindsSensor, Sensor
+from ..model.scene_model import SceneModel
+from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from .faulty_topic import FaultyTopic, faults_of
-from .vehicles import SceneVehicle
+from .vehicles import SceneVehicles
 from .world_views.sensor_view import SensorView
 
 
@@ -22,22 +21,18 @@ class SceneSensors:
     Where two share element and name, the last has it.
 
     Args:
-        spec: of the scene.
+        model: of the scene.
         vehicles: its vehicles, in the file's order.
         world: the scene as sensors see it.
     """
 
-    def __init__(
-        self, spec: SceneSpec, vehicles: Iterable[SceneVehicle], world: SensorView
-    ) -> None:
-        self._spec, self._world = spec, world
+    def __init__(self, model: SceneModel, vehicles: SceneVehicles, world: SensorView) -> None:
+        self._spec, self._world = model.scene, world
         self._sensors: dict[tuple[str, str], Sensor] = {}
-        for vehicle_spec, vehicle in zip(spec.vehicles, vehicles, strict=True):
-            for element, part in vehicle_spec.all_parts():
-                # a sensor on a link that is not there is left out, as in the original
-                with suppress(UnknownName):
-                    if not isinstance(part, DeviceSpec) and isinstance(part, BindsSensor):
-                        self._sensors[element, part.name] = part.bind(world, vehicle)
+        for index, element, sensor in model.sensor_specs:
+            # a sensor on a link that is not there is left out, as in the original
+            with suppress(UnknownName):
+                self._sensors[element, sensor.name] = sensor.bind(world, vehicles[index])
         self.bound: tuple[Sensor, ...] = tuple(self._sensors.values())
         """The sensors that are no devices, in the file's order."""
         self._cameras = {

@@ -18,7 +18,7 @@ from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..physics.kinematics.placed_motion import PlacedMotion, Source
-from ..scene.mounts import MountFrames, link_from_frame
+from ..scene.mounts import MountFrames
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
 from ..world import Actuators, BodyMotion
@@ -249,9 +249,7 @@ class SceneVehicle:
         link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
             raise UnknownName("link", link, [each.name for each in robot.links])
-        link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
-            spec, visual=visual
-        )
+        link_from_part = self._frames.link_from_mounted(spec, visual=visual)
         return partial(self._engine.poses.mounted, self.index, link, link_from_part)
 
 
@@ -265,18 +263,12 @@ class SceneVehicles:
     """
 
     def __init__(self, model: SceneModel, engine: Engine, bus: Bus) -> None:
-        scene = model.scene
-        self.names = tuple(vehicle.name for vehicle in scene.vehicles)
+        self.names = tuple(vehicle.name for vehicle in model.scene.vehicles)
         """Their names, by number."""
         self._actuation = engine.actuation
         self._vehicles = tuple(
-            SceneVehicle(
-                index,
-                MountFrames(vehicle, model.robots[index], scene.world_from_localized),
-                engine,
-                lambda: bus.state.step,
-            )
-            for index, vehicle in enumerate(scene.vehicles)
+            SceneVehicle(index, frames, engine, lambda: bus.state.step)
+            for index, frames in enumerate(model.mount_frames)
         )
 
     def find(self, name: str) -> SceneVehicle:

@@ -79,8 +79,9 @@ class Scenery:
         self.mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
         """The projector of the scene, and its pattern (h, w, 4)."""
         self._projector: Projector | None = None
+        buried = {index for index, thing in enumerate(scene.objects) if thing.buried > 0.0}
         self.heaps = heaps_of(
-            scene, [(p.object, self.corners(p)) for p in self.parts if p.object is not None]
+            scene, [(p.object, self.corners(p)) for p in self.parts if p.object in buried]
         )
         """The sand over buried objects."""
         self.state = SceneryState(
