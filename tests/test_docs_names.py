@@ -76,8 +76,9 @@ def assigned(node: ast.AST) -> Iterator[str]:
 def own_attributes(node: ast.ClassDef) -> Iterator[str]:
     """Every attribute that a class's methods set or read of ``self``."""
     for each in ast.walk(node):
-        if isinstance(each, ast.Attribute) and ast.unparse(each.value) in ("self", "cls"):
-            yield each.attr
+        match each:
+            case ast.Attribute(value=ast.Name(id="self" | "cls")):
+                yield each.attr
 
 
 @cache

@@ -6,6 +6,7 @@ import ast
 import re
 from collections import Counter
 from collections.abc import Callable
+from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
@@ -80,11 +81,18 @@ def room_of(path: Path) -> str:
     return first.removesuffix(".py")
 
 
+@cache
+def imports_of(path: Path) -> tuple[ast.Import | ast.ImportFrom, ...]:
+    """Return the import statements of a module, also those in functions."""
+    nodes = ast.walk(ast.parse(path.read_text()))
+    return tuple(node for node in nodes if isinstance(node, ast.Import | ast.ImportFrom))
+
+
 def rooms_imported(path: Path) -> list[tuple[int, str]]:
     """Return line and room of every import from inside the package."""
     package = ["uwsim", *path.relative_to(PACKAGE).parent.parts]
     found: list[tuple[int, str]] = []
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in imports_of(path):
         if isinstance(node, ast.ImportFrom) and node.level:
             base = package[: len(package) - node.level + 1]
             names = [*base, *(node.module or "").split(".")] if node.module else base
@@ -104,7 +112,7 @@ def rooms_imported(path: Path) -> list[tuple[int, str]]:
 def imported_by(path: Path) -> set[Path]:
     """Return the modules that a module imports, also in functions and for type checks."""
     found: set[Path] = set()
-    for node in ast.walk(ast.parse(path.read_text())):
+    for node in imports_of(path):
         if not isinstance(node, ast.ImportFrom) or not node.level:
             continue
         folder = path.parents[node.level - 1].joinpath(*(node.module or "").split("."))

@@ -35,6 +35,20 @@ SCENE = """<?xml version="1.0"?>
 """
 FLOOR = "v -9 -9 0\nv 9 -9 0\nv 9 9 0\nv -9 9 0\nf 1 2 3\nf 1 3 4\n"
 PACKAGE = Path(__file__).parent.parent / "src" / "uwsim"
+IMPORT_EACH = """
+import importlib, os, sys
+import llvmlite.binding, numba, numpy
+for package in sys.argv[1:]:
+    child = os.fork()
+    if not child:
+        try:
+            importlib.import_module(package)
+        finally:
+            os._exit(1 + ("glfw" in sys.modules) if package in sys.modules else 3)
+    print(package, os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+"""
+"""Imports each package in a process of its own, where numba is loaded and nothing of uwsim: the
+status is 1 without windows, 2 with them, 3 where it cannot be imported."""
 PROGRAM = """
 import sys
 import uwsim
@@ -73,9 +87,7 @@ def test_whatever_is_imported_first_the_engine_looks_for_no_windows() -> None:
     packages = sorted(
         f"uwsim.{room}" for room in rooms if (PACKAGE / room / "__init__.py").exists()
     )
-    program = "import sys, importlib; importlib.import_module(sys.argv[1])\n"
-    program += "print('glfw' in sys.modules)"
-    for package in [*packages, "uwsim.model.scene_model", "uwsim.base.engine"]:
-        command = [sys.executable, "-c", program, package]
-        done = subprocess.run(command, capture_output=True, text=True, check=True)
-        assert (package, done.stdout) == (package, "False\n")
+    packages += ["uwsim.model.scene_model", "uwsim.base.engine"]
+    command = [sys.executable, "-c", IMPORT_EACH, *packages]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == [f"{package} 1" for package in packages]

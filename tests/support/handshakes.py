@@ -3,6 +3,13 @@
 import socket
 
 
+def request_of(request_lines: str) -> bytes:
+    """Return a request that begins with these lines, without the last line end."""
+    upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+    key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+    return f"{request_lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode("latin1")
+
+
 def status_of(port: int, request_lines: str, timeout: float) -> str:
     """Send a request that begins with these lines; returns the status of its answer.
 
@@ -11,8 +18,6 @@ def status_of(port: int, request_lines: str, timeout: float) -> str:
         request_lines: the first lines, without the last line end.
         timeout: of the connection [s].
     """
-    upgrade = "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
-    key = "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
     with socket.create_connection(("127.0.0.1", port), timeout) as client:
-        client.sendall(f"{request_lines}\r\nHost: 127.0.0.1\r\n{upgrade}{key}\r\n".encode("latin1"))
+        client.sendall(request_of(request_lines))
         return client.recv(100).decode().split()[1]

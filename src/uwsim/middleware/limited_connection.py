@@ -63,6 +63,11 @@ class ConnectionLimits:
         """Count a connection no more."""
         self._open.pop(connection, None)
 
+    def abort_all(self) -> None:
+        """Break off every connection; its transport is closed in the next turn of the loop."""
+        for connection in tuple(self._open):
+            connection.transport.abort()
+
 
 class LimitedConnection(ServerConnection):
     """A connection that is not read for a while when it has taken more than its share.

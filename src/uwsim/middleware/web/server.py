@@ -14,7 +14,7 @@ from functools import partial
 from typing import Any, ClassVar, cast
 from urllib.parse import parse_qs, urlsplit
 
-from websockets.asyncio.server import ServerConnection, serve
+from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.datastructures import Headers
 from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
@@ -332,6 +332,7 @@ class WebBridge(Bridge):
             for task in left:
                 task.cancel()
             self._loop.run_until_complete(asyncio.gather(*left, return_exceptions=True))
+            self._limits.abort_all()  # of clients that take nothing, or have not asked yet
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
 
@@ -356,6 +357,7 @@ class WebBridge(Bridge):
         )
         self._listening.set_result(server.sockets[0].getsockname()[1])
         await self._ended.wait()
+        await _stop_accepting(server)
         server.close(code=1001, reason="the simulation has ended")
         self._begun.set()  # who came before the first step waits no longer
         with suppress(TimeoutError):
@@ -401,6 +403,17 @@ class WebBridge(Bridge):
             self._sessions.discard(session)
             why = connection.close_reason or connection.close_code or "its connection broke"
             self.log.say(f"{name} has left ({why})", kind="has left")
+
+
+async def _stop_accepting(server: Server) -> None:
+    """Accept no more clients, and let asyncio make the transports of those accepted just now.
+
+    Where a server closes before that, asyncio never closes them (python/cpython#109564).
+    """
+    loop = asyncio.get_running_loop()
+    for listener in server.sockets:
+        loop.remove_reader(listener.fileno())
+    await asyncio.sleep(0.0)
 
 
 async def _write(connection: ServerConnection, session: Session) -> None:

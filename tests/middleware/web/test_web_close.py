@@ -1,0 +1,87 @@
+"""The server ends with every connection closed, in whatever state it is."""
+
+from __future__ import annotations
+
+import gc
+import socket
+import sys
+from contextlib import ExitStack
+
+import pytest
+
+from tests.support.handshakes import request_of
+from tests.support.waiting import LIMIT, until
+from uwsim.bus import Bus
+from uwsim.middleware.log import Log
+from uwsim.middleware.web.options import WebOptions
+from uwsim.middleware.web.server import WebBridge
+
+
+@pytest.fixture
+def unraisable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Record what goes wrong where no error can be raised: a transport that was never closed."""
+    monkeypatch.setattr("uwsim.middleware.web.server.CLOSING", 0.2)  # [s]
+    found: list[str] = []
+
+    def record(unraisable: sys.UnraisableHookArgs) -> None:
+        found.append(repr(unraisable.exc_value))
+
+    monkeypatch.setattr(sys, "unraisablehook", record)
+    return found
+
+
+def opened() -> WebBridge:
+    bridge = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
+    bridge.step()
+    return bridge
+
+
+def peer(bridge: WebBridge) -> socket.socket:
+    return socket.create_connection(("127.0.0.1", bridge.port), LIMIT)
+
+
+def close(bridge: WebBridge) -> None:
+    bridge.close()
+    assert not bridge._thread.is_alive()
+    gc.collect()
+
+
+def test_connections_that_are_accepted_while_it_closes_are_closed(unraisable: list[str]) -> None:
+    bridge = opened()
+    with ExitStack() as peers:
+
+        def come_and_end() -> None:
+            """Connect, and end the server in the same turn of its loop."""
+            for _ in range(5):
+                peers.enter_context(peer(bridge))
+            assert bridge._ended is not None
+            bridge._ended.set()
+
+        bridge._loop.call_soon_threadsafe(come_and_end)
+        bridge._thread.join(LIMIT)
+        close(bridge)
+    assert unraisable == []
+
+
+def test_connections_without_a_handshake_are_closed(unraisable: list[str]) -> None:
+    bridge = opened()
+    with peer(bridge), peer(bridge) as second:
+        second.sendall(b"GET / HTTP/1.1\r\n")
+        until(lambda: len(bridge._limits._open) == 2)
+        close(bridge)
+    assert unraisable == []
+
+
+def test_a_connection_whose_client_takes_nothing_is_closed(unraisable: list[str]) -> None:
+    bridge = opened()
+    with peer(bridge) as client:
+        client.sendall(request_of("GET / HTTP/1.1"))
+        assert client.recv(12) == b"HTTP/1.1 101"
+        until(lambda: bridge._sessions)
+        (session,) = bridge._sessions
+        for _ in range(8):
+            session.reply({"op": "status", "msg": 2**20 * "a"})
+        (connection,) = bridge._limits._open
+        until(connection.transport.get_write_buffer_size)
+        close(bridge)
+    assert unraisable == []
