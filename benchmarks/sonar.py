@@ -48,7 +48,7 @@ def measure() -> dict[str, object]:
         scene.write_text(SCENE.format(sonars=sonars))
         with uwsim.load(scene, is_blind=True) as simulation:
             world = simulation.world
-            multibeam = world.sensor("multibeam", ("multibeamSensor",))
+            multibeam = world.sensors.sensor("multibeam", ("multibeamSensor",))
             n_beams = len(multibeam.sample(0.0).ranges)  # type: ignore[attr-defined]
             figures: dict[str, object] = {
                 f"multibeam, {n_beams} beams": milliseconds(
@@ -56,7 +56,7 @@ def measure() -> dict[str, object]:
                 )
             }
             for rows in ROWS:
-                sonar = world.sensor(f"rows{rows}", ("u:imagingSonar",))
+                sonar = world.sensors.sensor(f"rows{rows}", ("u:imagingSonar",))
                 figures[f"imaging sonar, 512 x 500, {rows} rows"] = milliseconds(
                     lambda sonar=sonar: sonar.sample(0.0),  # type: ignore[misc]
                     target=3.0,

@@ -20,7 +20,7 @@ from measure import main
 from steps import written
 
 CPU_S = 1.0
-MEMORY_MB = 150.0
+MEMORY_MB = 190.0
 RUNS = 7
 MARKS = """
 import json, sys, time

@@ -64,8 +64,8 @@ def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> floa
 def begin_and_end(scene: SceneSpec, pool: RendererPool | None) -> None:
     """Do what every unit does once: make the scene live, draw with noise and without, close."""
     simulation = Simulation(compile_scene(scene), pool=pool)
-    simulation.start()
-    camera = simulation.world.camera(CAMERA)
+    simulation.advance(0.0)
+    camera = simulation.world.sensors.camera(CAMERA)
     camera.capture()
     simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics, fog=0.0)
     simulation.close()

@@ -29,11 +29,11 @@ first = vehicle.parts[0]
 both = (first, dataclasses.replace(first, name="second"))
 vehicle = dataclasses.replace(vehicle, parts=both)
 simulation = uwsim.load(dataclasses.replace(scene, vehicles=(vehicle,)))
-simulation.start()
+simulation.advance(0.0)
 for _ in range(500):
     simulation.advance()
-    simulation.world.camera(first.name).capture()
-    simulation.world.camera("second").capture()
+    simulation.world.sensors.camera(first.name).capture()
+    simulation.world.sensors.camera("second").capture()
 """
 
 

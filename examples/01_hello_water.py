@@ -25,7 +25,7 @@ def main() -> None:
 def show(simulation: uwsim.Simulation) -> None:
     clear = None
     for fog in FOGS:
-        simulation.world.set_fog(fog)
+        simulation.set_fog(fog)
         image = simulation.image(CAMERA)
         row, column = PIXEL
         # The fog's colour has no red, so all red light comes from the floor.

@@ -65,17 +65,17 @@ def scene_figure(folder: Path) -> None:
     viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
     eye = looking(EYE, TARGET)
     try:
-        camera = simulation.world.camera(CAMERA)
+        camera = simulation.world.sensors.camera(CAMERA)
         outside = simulation.world.scenery.render_clean(eye, viewer).colour[..., :3]
         inside = simulation.world.scenery.render_clean(
             camera.world_from_camera, camera.intrinsics
         ).colour[..., :3]
         # the mean current flows along y of the scene's frame, from stern to bow
-        base = simulation.world.world_from_localized.inverse().transform(
-            simulation.world.body("girona500").world_from_body.position[None]
+        base = simulation.world.model.scene.world_from_localized.inverse().transform(
+            simulation.world.bodies.find("girona500").world_from_body.position[None]
         )[0]
         ends = base + np.array([[0.0, -0.9, -0.75], [0.0, 0.9, -0.75]])  # above the vehicle
-        world = simulation.world.world_from_localized.transform(ends)
+        world = simulation.world.model.scene.world_from_localized.transform(ends)
     finally:
         simulation.close()
     figure = image_with_inset(outside, inside, share=0.30)

@@ -33,7 +33,7 @@ def main() -> None:
         for turn in np.linspace(0.0, 2.0 * math.pi * ROUNDS, 12 * ROUNDS, endpoint=False):
             reach = REACH * (0.5 + 0.5 * math.sin(0.37 * turn))
             x, y = middle + reach * np.array([math.cos(turn), math.sin(turn)])
-            simulation.world.dig(np.array([x, y, heap.height(x, y) + 0.02]))
+            heap.dig(np.array([x, y, heap.height(x, y) + 0.02]))
         after = seen(simulation)
     width, height = SIZE
     whole = Image.new("RGB", (2 * width + GAP, height), "white")

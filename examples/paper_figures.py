@@ -68,10 +68,10 @@ def scene_figures(folder: Path) -> None:
     simulation = load_scene(path, seed=SEED)
     viewer = Intrinsics.from_fovy(1320, 990, math.radians(60.0), near=0.1)
     try:
-        camera = simulation.world.camera(CAMERA)
+        camera = simulation.world.sensors.camera(CAMERA)
         views = {}
         for fog in (0.0, PAPER_FOG):
-            simulation.world.set_fog(fog)
+            simulation.set_fog(fog)
             outside = simulation.world.scenery.render_clean(looking(EYE, TARGET), viewer).colour
             inside = simulation.world.scenery.render_clean(
                 camera.world_from_camera, camera.intrinsics

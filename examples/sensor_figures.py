@@ -96,7 +96,7 @@ def survey() -> Survey:
     """Swim, and read everything."""
     times, depths, twists = [], [], []
     with uwsim.load(scene(), seed=1, is_blind=True) as simulation:
-        simulation.start()
+        simulation.advance(0.0)
         inboxes = {each: simulation.bus.inbox(f"/{NAME}/{each}", object) for each in TOPICS}
         phases = [(*phase, 0.0) for phase in PHASES] + [(ARM[0], 0.0, 0.0, ARM[1])]
         for lasts, surge, yaw, elbow in phases:

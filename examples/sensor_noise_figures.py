@@ -48,7 +48,7 @@ def still() -> tuple[np.ndarray, np.ndarray]:
     scene = replace(scene, vehicles=(vehicle,), ros_interfaces=())
     rates, forces = np.empty((2, N_SAMPLES, 3))
     with uwsim.load(scene, seed=1, is_blind=True) as simulation:
-        sensor = simulation.world.sensor("imu", ("imu",))
+        sensor = simulation.world.sensors.sensor("imu", ("imu",))
         for k in range(N_SAMPLES):
             message = sensor.sample((k + 1) / RATE)
             rate, force = message.angular_velocity, message.linear_acceleration
@@ -103,7 +103,7 @@ def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     scene = replace(scene, vehicles=(vehicle,), ros_interfaces=(twist, fixes))
     times, places = [], []
     with uwsim.load(scene, seed=1, is_blind=True) as simulation:
-        simulation.start()
+        simulation.advance(0.0)
         inbox = simulation.bus.inbox("/gps", NavSatFix)
 
         def swim(lasts: float, surge: float, heave: float, yaw: float) -> None:
@@ -112,7 +112,7 @@ def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
                 stamp = header(simulation.time)
                 simulation.publish("/twist", TwistStamped(header=stamp, twist=motion))
                 simulation.advance(0.2)
-                body = simulation.world.body(f"{NAME}/base_link").world_from_body
+                body = simulation.world.bodies.find(f"{NAME}/base_link").world_from_body
                 times.append(simulation.time)
                 places.append(body.transform(np.array([antenna]))[0])
 
@@ -120,7 +120,7 @@ def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
             swim(0.5 * SIDE / SURGE, SURGE, down, 0.0)
             swim(0.5 * SIDE / SURGE, SURGE, up, 0.0)
             swim(TURN, 0.0, 0.0, 0.5 * np.pi / TURN)
-        origin = simulation.world.ned_origin
+        origin = scene.earth_origin or Geodetic(latitude=0.0, longitude=0.0)
         return np.array(times), np.array(places), *metres(inbox.take(), origin)
 
 

@@ -78,7 +78,7 @@ def test_a_vehicle_is_commanded_and_observed() -> None:
 def test_poses_are_given_in_the_frame_asked_for() -> None:
     with uwsim.load("currents-scene") as simulation:
         in_world, in_file = simulation.pose("blackbox", of="W"), simulation.pose("blackbox")
-        world_from_file = simulation.world.world_from_localized
+        world_from_file = simulation.world.model.scene.world_from_localized
         np.testing.assert_allclose((world_from_file @ in_file).matrix, in_world.matrix, atol=1e-12)
 
 
@@ -387,8 +387,8 @@ def test_set_pose_names_what_can_be_placed() -> None:
 def run_of(simulation: uwsim.Simulation) -> bytes:
     """What follows from now: poses, a sensor's noise."""
     simulation.advance(0.2)
-    row = np.zeros(simulation.motion.size)
-    simulation.motion.read(row)
+    row = np.zeros(simulation.world.engine.motion.size)
+    simulation.world.engine.motion.read(row)
     return row.tobytes()
 
 
@@ -425,7 +425,7 @@ def test_a_reset_refuses_what_is_no_seed(seed: object) -> None:
 def test_an_image_names_its_ids_and_has_boxes_and_its_camera() -> None:
     with uwsim.load("visibility-scene") as simulation:
         image = simulation.image("bowtech1")
-        view = simulation.world.camera("bowtech1")
+        view = simulation.world.sensors.camera("bowtech1")
         assert image.ids is not None
         seen = {image.names[number] for number in np.unique(image.ids).tolist() if number}
         assert seen == set(image.boxes)
@@ -458,7 +458,7 @@ def test_a_box_in_space_is_around_what_the_image_shows() -> None:
             assert inside.all()
             assert box.corners.shape == (8, 3)
         own = simulation.boxes()
-        here = simulation.world.world_from_localized
+        here = simulation.world.model.scene.world_from_localized
         for name, box in boxes.items():
             np.testing.assert_allclose(here.transform(own[name].corners), box.corners, atol=1e-9)
 
@@ -477,14 +477,14 @@ def test_fog_light_and_currents_are_set_from_a_program() -> None:
         assert foggy[..., 1].std() < 0.5 * clear[..., 1].std()
         assert dark.mean() < 0.5 * clear.mean()
         point = np.zeros((1, 3))
-        before = simulation.world.water_velocity(point, 0.0, "girona500")
+        before = simulation.world.water.velocity(point, 0.0, "girona500")
         simulation.set_current([0.3, -0.1, 0.0])
         simulation.set_current((0.3, 0.2, 0.0))
-        added = simulation.world.water_velocity(point, 0.0, "girona500") - before
-        turned = simulation.world.world_from_localized.rotation @ [0.3, 0.2, 0.0]
+        added = simulation.world.water.velocity(point, 0.0, "girona500") - before
+        turned = simulation.world.model.scene.world_from_localized.rotation @ [0.3, 0.2, 0.0]
         np.testing.assert_allclose(added[0], turned, atol=1e-12)
         simulation.set_current(None)
-        now = simulation.world.water_velocity(point, 0.0, "girona500")
+        now = simulation.world.water.velocity(point, 0.0, "girona500")
         np.testing.assert_array_equal(now, before)
         for wrong in (-0.1, float("nan"), float("inf")):
             with pytest.raises(uwsim.UwsimError, match="expected a finite number >= 0"):

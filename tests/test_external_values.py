@@ -12,9 +12,10 @@ from uwsim.base.geometry import rotation_about
 from uwsim.errors import BadMessage, BadSetting
 from uwsim.messages import ColorRGBA, Float32MultiArray, Point, Pose, Quaternion, Vector3
 from uwsim.middleware.json_encoding import from_json
+from uwsim.viewer.live.audience import _width_of
 from uwsim.viewer.live.clock import Clock
 from uwsim.viewer.live.mapping import PilotMapping
-from uwsim.viewer.live.view import _asked_for, _width_of
+from uwsim.viewer.live.view import _asked_for
 
 HUGE = 10**400
 

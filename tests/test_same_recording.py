@@ -80,7 +80,7 @@ def heard(scene: SceneSpec) -> dict[str, str]:
 
             simulation.bus.subscribe(topic, object, hear)
 
-        simulation.start()
+        simulation.advance(0.0)
         for topic in simulation.bus.topics:
             if topic.strip("/") != "tf":
                 listen(topic)

@@ -61,7 +61,7 @@ def test_what_looks_down_sees_the_bottom_and_not_its_vehicle(
     with open_scene(read_scene(SCENES[name]), is_blind=True) as simulation:
         for sensor in sensors:
             kinds = ("multibeamSensor", "rangeSensor")
-            message: Any = simulation.world.sensor(sensor, kinds).sample(0.0)
+            message: Any = simulation.world.sensors.sensor(sensor, kinds).sample(0.0)
             nearest = message.range if hasattr(message, "range") else min(message.ranges)
             assert 1.0 < nearest < 20.0
 
@@ -69,7 +69,7 @@ def test_what_looks_down_sees_the_bottom_and_not_its_vehicle(
 @pytest.mark.slow
 def test_the_side_scan_of_the_survey_hears_no_echo_of_its_vehicle() -> None:
     with open_scene(read_scene(SCENES["survey-scene"]), is_blind=True) as simulation:
-        message: Any = simulation.world.sensor("sidescan", ("u:sideScanSonar",)).sample(0.0)
+        message: Any = simulation.world.sensors.sensor("sidescan", ("u:sideScanSonar",)).sample(0.0)
         echoes = amplitudes(message)
         near = np.asarray(message.ranges) < 2.0
         assert echoes[~near].max() > 30.0 * echoes[near].max()
@@ -90,7 +90,7 @@ def test_the_first_view_of_a_bundled_scene_has_the_whole_vehicle_and_what_it_is_
 ) -> None:
     with open_scene(read_scene(SCENES[name]), is_blind=True) as simulation:
         world = simulation.world
-        camera = world.scene.camera
+        camera = world.model.scene.camera
         assert camera is not None
         view = viewer_view(simulation, camera, shape)
         camera_from_world = view.world_from_camera.inverse()

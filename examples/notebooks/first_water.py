@@ -38,9 +38,9 @@ display(Image.fromarray(simulation.image("bowtech1").colour))
 # of density $f$.
 
 # %%
-simulation.world.set_fog(0.3)
+simulation.set_fog(0.3)
 display(Image.fromarray(simulation.image("bowtech1").colour))
-simulation.world.set_fog(0.0)
+simulation.set_fog(0.0)
 
 # %% [markdown]
 # ## A command

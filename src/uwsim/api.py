@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .analysis.comparison.model import Comparison
     from .bus import Algorithm
     from .results.result import Result
+    from .runs.planning.plan_request import PlanRequest
     from .scene.spec import SceneSpec
     from .simulation import Simulation
 
@@ -119,12 +120,6 @@ def bench(
         UwsimError: an input is wrong, or a run failed as it does with the command: also if a
             simulation failed, or the algorithm in every row. Finished rows are kept in ``out``.
     """
-    from .analysis.load_reporter import load_reporter
-    from .results.directory import check as check_directory
-    from .results.directory import prepared
-    from .runs.execute import Callbacks, execute, plan_all, prepare_execution
-    from .runs.executors.background import BackgroundProcess, Jobs
-    from .runs.executors.choose import CALLBACK_LIMIT
     from .runs.planning.plan_request import PlanRequest
 
     name, kind = _name_and_class(algorithm)
@@ -140,6 +135,20 @@ def bench(
         settings=[f"{path}={value}" for path, value in _checked_settings(settings).items()],
         data_path=tuple(Path(folder) for folder in data_path),
     )
+    return _execute_request(request, workers, out, on_progress)
+
+
+def _execute_request(
+    request: PlanRequest, workers: int, out: str | Path | None, on_progress: OnProgress | None
+) -> Result:
+    """Run what is requested, in a result directory that is kept if ``out`` names it."""
+    from .analysis.load_reporter import load_reporter
+    from .results.directory import check as check_directory
+    from .results.directory import prepared
+    from .runs.execute import Callbacks, execute, plan_all, prepare_execution
+    from .runs.executors.background import BackgroundProcess, Jobs
+    from .runs.executors.choose import CALLBACK_LIMIT
+
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)
         wrong = AllErrors()

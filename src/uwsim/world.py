@@ -179,8 +179,8 @@ class Flow(Protocol):
         """Return both."""
 
 
-class World(Protocol):
-    """The simulation as a measure or a trigger sees it."""
+class TimedWorld(Protocol):
+    """The clock and the topics of a simulation: what all its parts see."""
 
     @property
     def step(self) -> int:
@@ -197,6 +197,10 @@ class World(Protocol):
     @property
     def bus(self) -> Bus:
         """Its topics and services."""
+
+
+class World(TimedWorld, Protocol):
+    """The simulation as a measure or a trigger sees it."""
 
     @property
     def world_from_localized(self) -> Pose:
@@ -229,36 +233,19 @@ class World(Protocol):
         """The random generator of that name under the run's seed."""
 
 
-class Stage(World, Protocol):
-    """The simulation as a scene updater sees it: the world, and setters."""
+class Stage(TimedWorld, Protocol):
+    """The simulation as a scene updater sees it: setters, and the world of measures."""
+
+    @property
+    def world(self) -> World:
+        """Bodies, cameras, contacts, and the compatibility quirks that are on."""
+
+    def stream(self, name: str) -> np.random.Generator:
+        """The random generator of that name under the run's seed."""
 
     @property
     def vehicles(self) -> tuple[str, ...]:
         """Names of the vehicles, in the file's order."""
-
-    @property
-    def network(self) -> Network:
-        """The packets between communication devices."""
-
-    @property
-    def ned_origin(self) -> Geodetic:
-        """Where on Earth the origin of W is."""
-
-    @property
-    def rays(self) -> Rays:
-        """The surfaces of the scene where they are now."""
-
-    def dig(self, point: npt.NDArray[np.float64]) -> int:
-        """Take sand around a point in W (3,) [m]; returns how many columns of it lost some."""
-
-    def catchable(self, surface: int) -> int | None:
-        """Return the number of the object with a surface; None where nothing may pick it up."""
-
-    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
-        """Return what returns the UDP packets that have come to a port since its last call.
-
-        None where the simulation takes none.
-        """
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
@@ -320,8 +307,64 @@ class Rays(Protocol):
         """Balls that cover each surface, where they are now; heaps of sand have none."""
 
 
-class SensorWorld(World, Protocol):
-    """The simulation as a sensor sees it: the world, light and sound."""
+class DeviceWorld(TimedWorld, Protocol):
+    """The simulation as a device sees it: surfaces, sand, actuators, packets and timers."""
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: the scene's offset."""
+
+    @property
+    def compatibility(self) -> frozenset[str]:
+        """The names of the compatibility quirks that are on (`uwsim.base.compatibility`)."""
+
+    def stream(self, name: str) -> np.random.Generator:
+        """The random generator of that name under the run's seed."""
+
+    def actuators(self, name: str) -> Actuators | None:
+        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
+
+    @property
+    def rays(self) -> Rays:
+        """The surfaces of the scene where they are now."""
+
+    @property
+    def network(self) -> Network:
+        """The packets between communication devices."""
+
+    @property
+    def ned_origin(self) -> Geodetic:
+        """Where on Earth the origin of W is."""
+
+    def dig(self, point: npt.NDArray[np.float64]) -> int:
+        """Take sand around a point in W (3,) [m]; returns how many columns of it lost some."""
+
+    def catchable(self, surface: int) -> int | None:
+        """Return the number of the object with a surface; None where nothing may pick it up."""
+
+    def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
+        """Return what returns the UDP packets that have come to a port since its last call.
+
+        None where the simulation takes none.
+        """
+
+    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
+
+
+class SensorWorld(TimedWorld, Protocol):
+    """The simulation as a sensor sees it: surfaces, light and sound."""
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: the scene's offset."""
+
+    @property
+    def compatibility(self) -> frozenset[str]:
+        """The names of the compatibility quirks that are on (`uwsim.base.compatibility`)."""
+
+    def stream(self, name: str) -> np.random.Generator:
+        """The random generator of that name under the run's seed."""
 
     @property
     def rays(self) -> Rays:

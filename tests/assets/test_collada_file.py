@@ -200,7 +200,7 @@ def test_check_and_run_warn_of_a_broken_material(tmp_path: Path) -> None:
         found = [each for each in check_file(file) if "material 'bad'" in each.message]
         assert [each.severity for each in found] == ["warning"]
     with open_scene(read_scene(scene)) as simulation:
-        warnings = [str(each) for each in model_warnings(simulation.model)]
+        warnings = [str(each) for each in model_warnings(simulation.world.model)]
     assert len([each for each in warnings if "material 'bad'" in each]) == 1
     scene.write_text("<UWSimScene><object><name>o</name><file>x.dae</file></object></UWSimScene>")
     assert [each for each in check_file(scene) if "material 'bad'" in each.message]

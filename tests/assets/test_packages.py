@@ -337,7 +337,7 @@ def test_a_scene_and_a_robot_use_the_meshes_of_two_packages(tmp_path: Path) -> N
     assert check_file(scene, data_path=folders) == []
     with open_scene(read_scene(scene, data_path=folders), data_path=folders) as simulation:
         edges = [part.model.box.upper[0] for part in simulation.world.scenery.parts]
-        assert model_warnings(simulation.model) == []
+        assert model_warnings(simulation.world.model) == []
     assert edges == pytest.approx([2.0, 0.2])
 
 
@@ -353,7 +353,7 @@ def test_check_and_run_report_a_package_that_is_not_found(has_mesh: bool, tmp_pa
         assert len(messages) == 1
         assert "package 'tool_of_nobody' is not found" in messages[0]
     with open_scene(read_scene(scene)) as simulation:
-        warnings = [str(each) for each in model_warnings(simulation.model)]
+        warnings = [str(each) for each in model_warnings(simulation.world.model)]
     assert len([each for each in warnings if "package 'tool_of_nobody' is not found" in each]) == 1
 
 
@@ -394,7 +394,7 @@ def test_check_and_run_report_a_mesh_that_is_nowhere(name: str, place: str, tmp_
     scene.write_text(SCENE.format("r.urdf"))
     found = [str(each) for each in check_file(scene)]
     with open_scene(read_scene(scene)) as simulation:
-        told = [str(each) for each in model_warnings(simulation.model)]
+        told = [str(each) for each in model_warnings(simulation.world.model)]
     for messages in (found, told):
         assert len([each for each in messages if "none.stl" in each and "r.urdf:1" in each]) == 1
         assert all("a labelled box" in each for each in messages if "none.stl" in each)

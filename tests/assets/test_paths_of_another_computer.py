@@ -96,7 +96,7 @@ def test_check_and_run_warn_and_use_the_file(tmp_path: Path) -> None:
         "hull.obj",
     ]
     with open_scene(read_scene(scene)) as simulation:
-        warnings = [str(each) for each in model_warnings(simulation.model)]
+        warnings = [str(each) for each in model_warnings(simulation.world.model)]
         sources = {part.model.source for part in simulation.world.scenery.parts}
     assert sum("is a path of another computer" in each for each in warnings) == 3
     assert sources == {"file"}

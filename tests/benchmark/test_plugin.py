@@ -316,7 +316,7 @@ def test_bundled_tables_are_not_changed_by_a_plugin(folder: Path) -> None:
         ("return Count(self.weight)", "pass", "CountSpec.bind gives None; expected a Measure"),
         ('unit = "1"', "", "Count has no unit"),
         ("return Late(world, self.after)", "return 1 / 0", "parts.py:48: ZeroDivisionError"),
-        ("return Murk(stage)", "return stage", "MurkSpec.bind gives SceneStage"),
+        ("return Murk(stage)", "return stage", "MurkSpec.bind gives StageView"),
         ("return (0.0, self.thick)", "return ()", "at least one level"),
         ("return (0.0, self.thick)", "return self.thin", "AttributeError: 'MurkSpec' object has"),
     ],

@@ -139,11 +139,13 @@ def test_a_body_that_moves_otherwise_in_the_replay_is_named_with_its_steps(
 ) -> None:
     advance = Simulation.advance
 
-    def drifting(self: Simulation) -> None:
+    def drifting(self: Simulation, seconds: float | None = None) -> None:
         if self.step == 700:
-            joints = self.world.joints("girona500")
-            self.world.set_joints("girona500", {1: float(joints[1]) + 1e-9})
-        advance(self)
+            arm = self.world.vehicles.find("girona500")
+            joints = arm.joints
+            joints[1] += 1e-9
+            arm.set_joints(joints)
+        advance(self, seconds)
 
     monkeypatch.setattr(Simulation, "advance", drifting)
     status, said = verify(capsys, "--sample", "1")

@@ -96,8 +96,10 @@ def test_what_is_no_argument_is_refused(
 
 def test_python_and_set_take_them_as_settings(scene: Path) -> None:
     with uwsim.load(scene, settings={"xacro.depth": 2.5, "xacro.payload": "lamp"}) as simulation:
-        assert simulation.world.body("rov/lamp").name == "rov/lamp"
-        assert simulation.world.body("rov").world_from_body.position[2] == pytest.approx(-2.5)
+        assert simulation.world.bodies.find("rov/lamp").name == "rov/lamp"
+        assert simulation.world.bodies.find("rov").world_from_body.position[2] == pytest.approx(
+            -2.5
+        )
     with pytest.raises(SceneError):
         uwsim.load(scene, settings={"xacro.depth": "deep"})
     found = [each.message for each in uwsim.check(scene, arguments={"payload": "hull"})]

@@ -85,7 +85,7 @@ def test_an_empty_battery_stops_the_thrusters_if_it_is_to(stops: bool) -> None:
     with vehicle(battery) as simulation:
         ahead = Float64MultiArray(data=np.array([0.5, 0.5, 0.0, 0, 0]))
         simulation.publish("/thrusters", ahead)
-        actuators = simulation.world.actuators(NAME)
+        actuators = simulation.world.vehicles.actuators(NAME)
         assert actuators is not None
         full = after(simulation, 0.5)
         drawn = actuators.powers()[: len(actuators.thrusters)].sum()
@@ -112,7 +112,9 @@ def test_it_loses_the_energy_that_the_measure_counts() -> None:
     battery = replace(BATTERY, hotel_load=50.0)
     with vehicle(battery) as simulation:
         simulation.publish("/thrusters", Float64MultiArray(data=np.array([0.5, 0.3, 0.0, 0, 0.2])))
-        energy = EnergySpec(name="e", target=NAME, hotel_load=50.0).bind(simulation.world)
+        energy = EnergySpec(name="e", target=NAME, hotel_load=50.0).bind(
+            simulation.world.measure_view
+        )
         energy.start()
         simulation.latest("/battery")
         for _ in range(1000):
@@ -130,7 +132,7 @@ def test_currents_are_power_per_volt_of_each_motor() -> None:
         simulation.publish("/thrusters", Float64MultiArray(data=np.array([0.5, 0, 0, 0, 0.0])))
         simulation.advance(1.0)
         message = simulation.latest("/currents")
-        actuators = simulation.world.actuators(NAME)
+        actuators = simulation.world.vehicles.actuators(NAME)
         assert actuators is not None
         assert message.name == [*actuators.thrusters, *actuators.joints]
         np.testing.assert_allclose(message.effort, actuators.powers() / 50.0, rtol=1e-12)
@@ -174,14 +176,14 @@ def test_thrusters_get_no_more_than_the_battery_can_feed(
     with vehicle(replace(BATTERY, resistance=0.0)) as free:
         full_thrust(free)
         free.advance(1.0)
-        wanted = free.world.actuators(NAME)
+        wanted = free.world.vehicles.actuators(NAME)
         demand, full = float(wanted.powers().sum()), wanted.thrusts()
         for_thrust = float(wanted.powers()[:5].sum())
     with vehicle(battery) as simulation:
         simulation.latest("/battery")
         full_thrust(simulation)
         simulation.advance(1.0)
-        actuators = simulation.world.actuators(NAME)
+        actuators = simulation.world.vehicles.actuators(NAME)
         power, thrusts = float(actuators.powers().sum()) + hotel_load, actuators.thrusts()
         share = (float(actuators.powers()[:5].sum()) / for_thrust) ** (2.0 / 3.0)
         message = simulation.latest("/battery")
@@ -215,12 +217,12 @@ def test_an_overload_ends_with_the_load() -> None:
         after(simulation, 1.0)
         full_thrust(simulation, 0.05)
         message = after(simulation, 3.0)
-        thrusts = simulation.world.actuators(NAME).thrusts()
+        thrusts = simulation.world.vehicles.actuators(NAME).thrusts()
     assert message.power_supply_health == BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
     with vehicle(BATTERY) as free:
         full_thrust(free, 0.05)
         free.advance(4.0)
-        assert thrusts == pytest.approx(free.world.actuators(NAME).thrusts(), rel=0.02)
+        assert thrusts == pytest.approx(free.world.vehicles.actuators(NAME).thrusts(), rel=0.02)
 
 
 @pytest.mark.parametrize(("resistance", "warns"), [(0.01, False), (4.0, True)])
@@ -228,6 +230,6 @@ def test_a_battery_that_cannot_feed_all_thrusters_is_warned_of(
     resistance: float, warns: bool
 ) -> None:
     with vehicle(replace(BATTERY, resistance=resistance)) as simulation:
-        texts = [warning.message for warning in model_warnings(simulation.model)]
+        texts = [warning.message for warning in model_warnings(simulation.world.model)]
     found = [text for text in texts if "'battery' feeds 156.2 W at most" in text]
     assert bool(found) is warns

@@ -80,7 +80,7 @@ def test_a_tool_uncovers_an_object_for_rays_and_cameras(tmp_path: Path) -> None:
         assert below(buried) == pytest.approx(1.0 - top, abs=1e-6)  # sand up to its top
         before = buried.image("eye")
         place = Pose(np.array([0.0, 0.0, top]), np.eye(3))
-        buried.world.vehicle("rov").place(place)
+        buried.world.vehicles.find("rov").place(place)
         buried.advance(0.1)
         assert buried.world.scenery.heaps[0].height(0.0, 0.0) < top - 0.02
         tool = next(d for d in buried.world.devices if isinstance(d, DredgeTool))
@@ -113,7 +113,7 @@ def test_a_dvl_over_a_buried_object_hears_the_sand(tmp_path: Path) -> None:
     spec = scene(tmp_path, 1.0)
     rov = replace(spec.vehicles[0], position=(0.0, 0.0, 1.0), parts=(dvl,))
     with open_scene(replace(spec, vehicles=(rov,)), is_blind=True) as simulation:
-        sensor = simulation.world.sensor("dvl", ("dvlSensor",))
+        sensor = simulation.world.sensors.sensor("dvl", ("dvlSensor",))
         assert isinstance(sensor, Dvl)
         ranges = sensor.ranges(Pose(np.array([0.0, 0.0, 1.0]), rotation_from_rpy(*looks_down)))
         assert ranges == pytest.approx(below(simulation) / np.cos(np.radians(1.0)), abs=1e-3)

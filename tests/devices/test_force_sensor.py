@@ -187,7 +187,7 @@ def test_what_a_wrist_measures_does_not_depend_on_who_else_asks(tmp_path: Path) 
         simulation.latest("/force")
         for _ in range(50):
             simulation.advance()
-            simulation.world.body("rov/tool").world_from_body  # noqa: B018
+            simulation.world.bodies.find("rov/tool").world_from_body  # noqa: B018
         simulation.advance()
         force = simulation.latest("/force").wrench.force
     assert [force.x, force.y, force.z] == alone[:3].tolist()

@@ -39,7 +39,7 @@ def scene(folder: Path, *objects: ObjectSpec, **given: object) -> SceneSpec:
 
 
 def move(simulation: Simulation, *to: float) -> None:
-    vehicle = simulation.world.vehicle("rov")
+    vehicle = simulation.world.vehicles.find("rov")
     here = vehicle.world_from_base
     vehicle.place(replace(here, position=np.array(to)))
 

@@ -39,8 +39,8 @@ def solves_together(simulation: Simulation) -> bool:
 
 
 def motion(simulation: Simulation) -> np.ndarray:
-    row = np.zeros(simulation.motion.size)
-    simulation.motion.read(row)
+    row = np.zeros(simulation.world.engine.motion.size)
+    simulation.world.engine.motion.read(row)
     return row
 
 

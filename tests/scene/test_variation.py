@@ -209,8 +209,10 @@ def test_a_simulation_is_of_its_seed(tmp_path: Path) -> None:
     spec = scene(tmp_path, UNIFORM)
     for seed in (0, 5):
         simulation = open_scene(dataclasses.replace(spec, ros_interfaces=()), seed=seed)
-        origin = simulation.world.body("blackbox").world_from_body.position
-        located = simulation.world.world_from_localized.inverse().transform(origin[None])[0]
+        origin = simulation.world.bodies.find("blackbox").world_from_body.position
+        located = simulation.world.model.scene.world_from_localized.inverse().transform(
+            origin[None]
+        )[0]
         assert located[0] == pytest.approx(box_x(spec, seed))
         simulation.close()
 
@@ -220,14 +222,18 @@ def test_a_vehicle_that_sways_with_a_phase_begins_within_its_swing(tmp_path: Pat
     simulation = open_scene(dataclasses.replace(spec, ros_interfaces=()))
     places = []
     for _ in range(3):
-        origin = simulation.world.body("girona500").world_from_body.position
-        places.append(simulation.world.world_from_localized.inverse().transform(origin[None])[0][0])
+        origin = simulation.world.bodies.find("girona500").world_from_body.position
+        places.append(
+            simulation.world.model.scene.world_from_localized.inverse().transform(origin[None])[0][
+                0
+            ]
+        )
         simulation.advance()
     assert places[0] == pytest.approx(2.0 + 0.1 * np.sin(0.5))
     assert np.diff(places) == pytest.approx(
         [0.1 * np.cos(0.5) * 2 * np.pi / 7 * 0.002] * 2, rel=0.01
     )
-    simulation.world.put_back("girona500")
-    origin = simulation.world.body("girona500").world_from_body.position
-    located = simulation.world.world_from_localized.inverse().transform(origin[None])[0]
+    simulation.world.vehicles.find("girona500").put_back()
+    origin = simulation.world.bodies.find("girona500").world_from_body.position
+    located = simulation.world.model.scene.world_from_localized.inverse().transform(origin[None])[0]
     assert located[0] == pytest.approx(places[-1], abs=1e-3)

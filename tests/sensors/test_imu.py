@@ -42,7 +42,7 @@ def numbers(vector: Vector3) -> np.ndarray:
 
 
 def world_from_imu(simulation: Simulation, spec: ImuSpec = OFF_AXIS) -> Pose:
-    base = simulation.world.body("girona500/base_link").world_from_body
+    base = simulation.world.bodies.find("girona500/base_link").world_from_body
     return base @ Pose.from_rpy(spec.position, spec.orientation)
 
 
@@ -91,7 +91,7 @@ def test_noise_of_the_attitude_has_its_standard_deviation() -> None:
     simulation = simulation_with(replace(OFF_AXIS, std=0.01))
     simulation.latest("imu")
     errors = []
-    offset = simulation.world.world_from_localized.rotation
+    offset = simulation.world.model.scene.world_from_localized.rotation
     for _ in range(500):
         simulation.advance()
         q = simulation.latest("imu").orientation
@@ -128,8 +128,8 @@ def test_a_sensor_more_changes_no_numbers_and_no_motion() -> None:
         command(simulation, 0.4, 0.2)
         simulation.latest("imu")
         run(simulation, 0.3)
-        motion = np.zeros(simulation.motion.size)
-        simulation.motion.read(motion)
+        motion = np.zeros(simulation.world.engine.motion.size)
+        simulation.world.engine.motion.read(motion)
         found.append((repr(simulation.latest("imu")), motion.tobytes()))
     assert found[0] == found[1] == found[2]
 
@@ -140,7 +140,7 @@ def test_to_measure_leaves_the_velocities_of_contacts_as_they_are() -> None:
     run(simulation, 0.1)
     data = simulation.world.engine._data
     before = data.cvel.copy(), data.subtree_com.copy()
-    simulation.world.sensor("imu", ("imu",)).sample(simulation.time)
+    simulation.world.sensors.sensor("imu", ("imu",)).sample(simulation.time)
     assert np.array_equal(data.cvel, before[0])
     assert np.array_equal(data.subtree_com, before[1])
 

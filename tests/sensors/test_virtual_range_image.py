@@ -130,7 +130,7 @@ def test_the_renderer_and_rays_give_the_same_depth(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(SCENE)
     with open_scene(read_scene(path)) as simulation:
-        world, eye = simulation.world, simulation.world.camera("eye")
+        world, eye = simulation.world, simulation.world.sensors.camera("eye")
         drawn = eye.depth(0.0)
         cast = cast_depth(world.rays, eye.world_from_camera, eye.intrinsics)
     is_other = ~np.isclose(drawn, cast, rtol=1e-5)

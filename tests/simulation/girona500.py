@@ -34,7 +34,7 @@ def make(
         replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces),
         data_path=data_path,
     )
-    simulation.start()
+    simulation.advance(0.0)
     return simulation
 
 
@@ -44,18 +44,18 @@ def run(simulation: Simulation, seconds: float) -> None:
 
 
 def position(simulation: Simulation, name: str = "girona500") -> np.ndarray:
-    world = simulation.world.body(name).world_from_body
-    return (simulation.world.world_from_localized.inverse() @ world).position
+    world = simulation.world.bodies.find(name).world_from_body
+    return (simulation.world.model.scene.world_from_localized.inverse() @ world).position
 
 
 def heading_deg(simulation: Simulation) -> float:
-    world = simulation.world.body("girona500").world_from_body
-    rotation = (simulation.world.world_from_localized.inverse() @ world).rotation
+    world = simulation.world.bodies.find("girona500").world_from_body
+    rotation = (simulation.world.model.scene.world_from_localized.inverse() @ world).rotation
     return float(np.degrees(np.arctan2(rotation[1, 0], rotation[0, 0])))
 
 
 def set_current(simulation: Simulation, velocity: tuple[float, float, float]) -> None:
-    simulation.world.set_current(
+    simulation.world.water.set(
         ConstantSpec(velocity=velocity).bind(Place(stream=simulation.world.stream))
     )
 

@@ -55,5 +55,5 @@ def scene_of(vehicle: VehicleSpec, **given: object) -> SceneSpec:
 
 def begin(scene: SceneSpec, **given: object) -> Simulation:
     simulation = open_scene(scene, **given)  # type: ignore[arg-type]
-    simulation.start()
+    simulation.advance(0.0)
     return simulation

@@ -47,7 +47,7 @@ def adrift(tmp_path: Path, *, has_drag: bool) -> Simulation:
             path=str(folder / "scene.xml"),
         )
     )
-    simulation.start()
+    simulation.advance(0.0)
     still = Float64MultiArray(layout=MultiArrayLayout(dim=[], data_offset=0), data=np.zeros(5))
     simulation.bus.publisher("/thrusters", Float64MultiArray)(still)
     return simulation

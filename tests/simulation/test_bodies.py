@@ -62,7 +62,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
             replace(scene, vehicles=(), objects=(thing,), ros_interfaces=()),
             compatibility=quirks,
         )
-        box = simulation.world.body("blackbox").box
+        box = simulation.world.bodies.find("blackbox").box
         simulation.close()
         assert box is not None
         sizes.append(np.subtract(box.upper, box.lower))
@@ -72,7 +72,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
 
 
 def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
-    body = open_scene(read_scene(SCENE).nominal).world.body("blackbox")
+    body = open_scene(read_scene(SCENE).nominal).world.bodies.find("blackbox")
     place, turn = body.world_from_body.position, body.world_from_body.rotation
     body.world_from_body.position[:] = np.nan
     body.world_from_body.rotation[:] = np.nan
@@ -86,7 +86,7 @@ def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_i
     looks = {}
     for name in ("", "uwsim", "visual-frames"):
         asked = compatibility([name] if name else [])
-        camera = open_scene(scene, compatibility=asked).world.camera("bowtech1")
+        camera = open_scene(scene, compatibility=asked).world.sensors.camera("bowtech1")
         looks[name] = -camera.world_from_camera.rotation[:, 2]  # along -z of OpenGL
     assert looks[""] == pytest.approx((0.0, 0.0, -1.0), abs=0.01)
     assert looks["uwsim"] == pytest.approx(looks[""])
@@ -95,7 +95,9 @@ def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_i
 
 def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() -> None:
     simulation = open_scene(read_scene(SCENE).nominal)
-    link, visual = (simulation.world.body(f"girona500/end_effector{at}") for at in ("", "@visual"))
+    link, visual = (
+        simulation.world.bodies.find(f"girona500/end_effector{at}") for at in ("", "@visual")
+    )
     assert visual.world_from_body.position == pytest.approx(link.world_from_body.position)
     assert visual.box is None
 
@@ -106,8 +108,9 @@ def test_a_link_whose_name_has_a_slash_is_found_by_its_route(tmp_path: Path) -> 
     vehicle = VehicleSpec(name="rov", file=str(write_robot(tmp_path, inside)))
     world = open_scene(scene_of(vehicle), is_blind=True).world
     found = [
-        world.body(route).name for route in ("ns/base_link", "/rov/ns/base_link/", "rov/x/tool")
+        world.bodies.find(route).name
+        for route in ("ns/base_link", "/rov/ns/base_link/", "rov/x/tool")
     ]
     assert found == ["ns/base_link", "rov/ns/base_link", "rov/tool"]
     with pytest.raises(UnknownName):
-        world.body("rov/ns")
+        world.bodies.find("rov/ns")

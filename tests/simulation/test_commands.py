@@ -40,13 +40,13 @@ def simulation() -> Simulation:
         ROSOdomToPATSpec(topic="/odometry", vehicle_name="girona500"),
     )
     simulation = open_scene(replace(scene, objects=(), ros_interfaces=interfaces))
-    simulation.start()
+    simulation.advance(0.0)
     return simulation
 
 
 def pose_in_l(simulation: Simulation) -> Pose:
-    return simulation.world.world_from_localized.inverse() @ (
-        simulation.world.body("girona500").world_from_body
+    return simulation.world.model.scene.world_from_localized.inverse() @ (
+        simulation.world.bodies.find("girona500").world_from_body
     )
 
 
@@ -141,7 +141,7 @@ def test_positions_of_joints_do_not_take_the_time_of_their_velocities(
     publish(slew(nothing, np.array([-0.5])))
     simulation.advance()
     simulation.advance()
-    assert simulation.world.joints("girona500")[0] == pytest.approx(0.2 - 0.5 * 0.1)
+    assert simulation.world.vehicles.find("girona500").joints[0] == pytest.approx(0.2 - 0.5 * 0.1)
 
 
 def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:
@@ -154,10 +154,10 @@ def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:
             effort=np.array([]),
         )
     )
-    before = simulation.world.joints("girona500")
+    before = simulation.world.vehicles.find("girona500").joints
     simulation.advance()
     simulation.advance()
-    after = simulation.world.joints("girona500")
+    after = simulation.world.vehicles.find("girona500").joints
     assert after[2] == pytest.approx(2.15294)
     assert after[0] == pytest.approx(-0.3)
     assert after[[1, 3, 4]] == pytest.approx(before[[1, 3, 4]])

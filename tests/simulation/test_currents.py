@@ -16,41 +16,41 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-sc
 @pytest.fixture
 def simulation() -> Simulation:
     simulation = open_scene(replace(read_scene(SCENE), objects=(), ros_interfaces=()))
-    simulation.start()
+    simulation.advance(0.0)
     return simulation
 
 
 def place_in_l(simulation: Simulation) -> list[float]:
-    world = simulation.world.body("girona500").world_from_body
-    return list((simulation.world.world_from_localized.inverse() @ world).position)
+    world = simulation.world.bodies.find("girona500").world_from_body
+    return list((simulation.world.model.scene.world_from_localized.inverse() @ world).position)
 
 
 def test_a_current_carries_a_kinematic_vehicle_along(simulation: Simulation) -> None:
     current = ConstantSpec(velocity=(0.2, -0.1, 0.0)).bind(Place(stream=simulation.world.stream))
-    simulation.world.set_current(current)
+    simulation.world.water.set(current)
     for _ in range(500):
         simulation.advance()
     assert place_in_l(simulation) == pytest.approx([2.2, -0.1, 2.515])
-    simulation.world.set_current(None)
+    simulation.world.water.set(None)
     simulation.advance()
     assert place_in_l(simulation) == pytest.approx([2.2, -0.1, 2.515])
 
 
 def test_a_vehicle_is_put_back_where_its_file_has_it(simulation: Simulation) -> None:
-    simulation.world.set_current(
+    simulation.world.water.set(
         ConstantSpec(velocity=(1.0, 0.0, 0.0)).bind(Place(stream=simulation.world.stream))
     )
     for _ in range(10):
         simulation.advance()
-    simulation.world.put_back("girona500")
+    simulation.world.vehicles.find("girona500").put_back()
     assert place_in_l(simulation) == pytest.approx([2.0, 0.0, 2.515])
     with pytest.raises(UnknownName, match="girona500"):
-        simulation.world.put_back("girona50")
+        simulation.world.vehicles.find("girona50").put_back()
 
 
 def test_a_timer_is_called_at_its_rate_until_it_is_stopped(simulation: Simulation) -> None:
     steps: list[int] = []
-    stop = simulation.world.every(100.0, lambda: steps.append(simulation.step))
+    stop = simulation.world.schedule.every(100.0, lambda: steps.append(simulation.step))
     for _ in range(12):
         simulation.advance()
     stop()

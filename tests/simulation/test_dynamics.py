@@ -26,7 +26,7 @@ def make(velocity_loop: str = "water") -> Simulation:
     simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=scene.ros_interfaces[1:])
     )
-    simulation.start()
+    simulation.advance(0.0)
     return simulation
 
 
@@ -36,19 +36,19 @@ def run(simulation: Simulation, seconds: float) -> None:
 
 
 def position(simulation: Simulation) -> np.ndarray:
-    world = simulation.world.body("girona500").world_from_body
-    return (simulation.world.world_from_localized.inverse() @ world).position
+    world = simulation.world.bodies.find("girona500").world_from_body
+    return (simulation.world.model.scene.world_from_localized.inverse() @ world).position
 
 
 def heading_deg(simulation: Simulation) -> float:
-    world = simulation.world.body("girona500").world_from_body
-    rotation = (simulation.world.world_from_localized.inverse() @ world).rotation
+    world = simulation.world.bodies.find("girona500").world_from_body
+    rotation = (simulation.world.model.scene.world_from_localized.inverse() @ world).rotation
     return float(np.degrees(np.arctan2(rotation[1, 0], rotation[0, 0])))
 
 
 def set_current(simulation: Simulation, velocity: tuple[float, float, float]) -> None:
     place = Place(stream=simulation.world.stream)
-    simulation.world.set_current(ConstantSpec(velocity=velocity).bind(place))
+    simulation.world.water.set(ConstantSpec(velocity=velocity).bind(place))
 
 
 def command(simulation: Simulation, surge: float, sway: float) -> None:
@@ -122,7 +122,7 @@ def test_a_vehicle_that_is_put_back_is_at_rest() -> None:
     simulation = make()
     command(simulation, 0.3, 0.0)
     run(simulation, 5.0)
-    simulation.world.put_back("girona500")
+    simulation.world.vehicles.find("girona500").put_back()
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515])
     run(simulation, 5.0)
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.02)
@@ -205,9 +205,9 @@ def test_water_is_asked_only_where_it_acts() -> None:
     scene = read_scene(SCENE).nominal
     vehicle = replace(scene.vehicles[0], parts=())
     simulation = open_scene(replace(scene, vehicles=(vehicle,)), is_blind=True)
-    simulation.start()
+    simulation.advance(0.0)
     asked = Asked()
-    simulation.world.set_current(asked)
+    simulation.world.water.set(asked)
     simulation.advance()
     assert asked.names == {"girona500"}
     # velocity, acceleration, and the velocity at six points around for the shear
@@ -222,13 +222,13 @@ def test_water_that_never_moves_leaves_the_same_bytes_asked_or_not() -> None:
         simulation = make()
         place = Place(stream=simulation.world.stream)
         none = UwsimSinusoidSpec(speed=0.0, theta=1.0).bind(place)
-        simulation.world.set_current(Asked() if is_asked else none)
+        simulation.world.water.set(Asked() if is_asked else none)
         assert simulation.world.water.is_still != is_asked
         wanted = Twist(linear=Vector3(x=0.3, y=0.1, z=0.0), angular=Vector3(x=0.0, y=0.0, z=0.2))
         publish = simulation.bus.publisher("/dataNavigator", TwistStamped)
         publish(TwistStamped(header=header(0.0), twist=wanted))
         run(simulation, 0.2)
-        ends.append(np.zeros(simulation.motion.size))
-        simulation.motion.read(ends[-1])
+        ends.append(np.zeros(simulation.world.engine.motion.size))
+        simulation.world.engine.motion.read(ends[-1])
     assert np.array_equal(*ends)
     assert np.linalg.norm(simulation.velocity("girona500")) > 0.01

@@ -65,7 +65,7 @@ def test_a_velocity_turns_it_beyond_a_turn(
         for _ in range(50):
             simulation.publish("/arm", JointState(name=[name], velocity=np.array([-1.5])))
             simulation.advance(0.1)
-        angle = float(simulation.world.joints("boat")[0])
+        angle = float(simulation.world.vehicles.find("boat").joints[0])
     assert angle == pytest.approx(-7.5, abs=0.3)
 
 
@@ -77,7 +77,7 @@ def test_a_position_beyond_half_a_turn_is_reached(
     with loaded(tmp_path, "spin", ENDLESS[limit], DYNAMICS[dynamics]) as simulation:
         simulation.publish("/arm", JointState(name=["spin"], position=np.array([4.0])))
         simulation.advance(3.0)
-        angle = float(simulation.world.joints("boat")[0])
+        angle = float(simulation.world.vehicles.find("boat").joints[0])
     assert angle == pytest.approx(4.0, abs=0.02)
 
 
@@ -87,10 +87,10 @@ def test_any_position_leaves_a_finite_angle(value: float, dynamics: str, tmp_pat
     with loaded(tmp_path, "spin", "", DYNAMICS[dynamics]) as simulation:
         simulation.publish("/arm", JointState(name=["spin"], position=np.array([value])))
         simulation.advance(0.2)
-        assert np.isfinite(simulation.world.joints("boat")).all()
+        assert np.isfinite(simulation.world.vehicles.find("boat").joints).all()
         simulation.world.engine.set_joints(0, np.array([value]))
         simulation.advance(0.2)
-        angle = float(simulation.world.joints("boat")[0])
+        angle = float(simulation.world.vehicles.find("boat").joints[0])
     assert abs(angle) < 10.0
 
 

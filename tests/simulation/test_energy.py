@@ -54,7 +54,7 @@ def bend(simulation: Simulation, **given: list[float]) -> None:
 
 
 def start(simulation: Simulation, **given: float) -> Energy:
-    energy = EnergySpec(name="e", target=NAME, **given).bind(simulation.world)  # type: ignore[arg-type]
+    energy = EnergySpec(name="e", target=NAME, **given).bind(simulation.world.measure_view)  # type: ignore[arg-type]
     energy.start()
     return energy
 
@@ -108,12 +108,12 @@ def test_energy_is_the_integral_of_the_published_thrusts_and_efforts(
     run(simulation, 0.5)
     before = told.take()[-1].velocity
     energy = start(simulation)
-    actuators = simulation.world.actuators(NAME)
+    actuators = simulation.world.vehicles.actuators(NAME)
     assert actuators is not None
     laws = [partial(thruster_power, power_table(one, vehicle.density)) for one in vehicle.thrusters]
     drawn = [[law(t) for law, t in zip(laws, actuators.thrusts(), strict=True)]]  # [W]
     works = np.zeros(5)  # [J]
-    dampings = np.array([servo_gains(one)[1] for one in simulation.world.robots[0].movable])
+    dampings = np.array([servo_gains(one)[1] for one in simulation.world.model.robots[0].movable])
     for _ in range(1500):
         simulation.advance()
         energy.update()
@@ -163,7 +163,7 @@ def test_a_joint_held_against_gravity_draws_its_copper_loss_alone(
     run(simulation, 15.0)  # hangs still, the autopilot holds the vehicle
     energy = start(simulation)
     go_on(simulation, energy, 1.0)
-    actuators = simulation.world.actuators(NAME)
+    actuators = simulation.world.vehicles.actuators(NAME)
     assert actuators is not None
     effort = dict(zip(actuators.joints, actuators.efforts(), strict=True))["Shoulder"]
     assert abs(effort) > 10.0
@@ -178,7 +178,7 @@ def test_a_joint_that_is_pushed_draws_for_the_commanded_effort(
     told = simulation.bus.inbox("/joints", JointState)
     bend(simulation, effort=[-3.0])
     run(simulation, 0.1)
-    actuators = simulation.world.actuators(NAME)
+    actuators = simulation.world.vehicles.actuators(NAME)
     assert actuators is not None
     slew = actuators.joints.index("Slew")
     assert actuators.efforts()[slew] == pytest.approx(-3.0)
@@ -197,7 +197,7 @@ def test_a_thruster_half_out_of_the_water_draws_for_the_thrust_it_has_left() -> 
         )
         thrust(simulation, 1.0, 1.0, 0.0, 0.0, 0.0)
         run(simulation, 0.04)
-        actuators = simulation.world.actuators(NAME)
+        actuators = simulation.world.vehicles.actuators(NAME)
         assert actuators is not None
         powers.append(actuators.powers()[0])
         thrusts.append(actuators.thrusts()[0])
@@ -212,12 +212,12 @@ def test_reading_what_is_drawn_changes_nothing() -> None:
         thrust(simulation, 0.5, 0.3, 0.2, 0.1, -0.4)
     run(still, 1.0)
     go_on(watched, energy, 1.0)
-    poses = [s.world.body(NAME).world_from_body.position.tolist() for s in (still, watched)]
+    poses = [s.world.bodies.find(NAME).world_from_body.position.tolist() for s in (still, watched)]
     assert poses[0] == poses[1]
 
 
 def test_a_vehicle_that_is_not_simulated_has_no_actuators_and_an_unknown_one_is_named() -> None:
     simulation = make(change=lambda spec: replace(spec, dynamics=None))
-    assert simulation.world.actuators(NAME) is None
+    assert simulation.world.vehicles.actuators(NAME) is None
     with pytest.raises(UnknownName, match="Did you mean 'girona500'"):
-        simulation.world.actuators("girona50")
+        simulation.world.vehicles.actuators("girona50")

@@ -24,7 +24,7 @@ def remus(path: Path | None = None) -> Simulation:
     vehicle = replace(scene.vehicles[0], parts=())
     commands = tuple(each for each in scene.ros_interfaces if not hasattr(each, "camera_name"))
     made = open_scene(replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=commands))
-    made.start()
+    made.advance(0.0)
     return made
 
 
@@ -52,7 +52,7 @@ def say(simulation: Simulation, topic: str, *values: float) -> None:
 
 
 def yaw_rate(simulation: Simulation) -> float:
-    return float(simulation.world.vehicle("remus").velocity[5])
+    return float(simulation.world.vehicles.find("remus").velocity[5])
 
 
 def advance(simulation: Simulation, seconds: float) -> None:
@@ -70,12 +70,12 @@ def test_rudders_turn_a_vehicle_that_moves(simulation: Simulation) -> None:
 def test_a_vehicle_that_is_placed_begins_with_its_fins_at_rest(simulation: Simulation) -> None:
     say(simulation, "/remus/fins", -0.2, -0.2, 0.0, 0.0)
     advance(simulation, 0.1)
-    simulation.world.vehicle("remus").put_back()
+    simulation.world.vehicles.find("remus").put_back()
     other = remus()
     for each in (simulation, other):
         say(each, "/remus/propeller", 1.0)
         advance(each, 2.0)
-    one, two = (each.world.vehicle("remus").velocity for each in (simulation, other))
+    one, two = (each.world.vehicles.find("remus").velocity for each in (simulation, other))
     assert one == pytest.approx(two, abs=1e-9)
 
 
@@ -87,7 +87,10 @@ def test_a_message_with_another_number_of_angles_is_refused(simulation: Simulati
 def test_the_thrust_that_is_reported_is_that_at_speed(tmp_path: Path) -> None:
     advance_line = "<advance>0 0.45 4 0</advance> <radius>0.06985</radius>"
     simulation = remus(changed(tmp_path, ("<radius>0.06985</radius>", advance_line)))
-    vehicle, actuators = simulation.world.vehicle("remus"), simulation.world.actuators("remus")
+    vehicle, actuators = (
+        simulation.world.vehicles.find("remus"),
+        simulation.world.vehicles.actuators("remus"),
+    )
     assert actuators is not None
     say(simulation, "/remus/propeller", 1.0)
     advance(simulation, 5.0)

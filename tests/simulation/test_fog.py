@@ -23,12 +23,12 @@ def test_a_fog_updater_changes_how_thick_the_fog_is_and_not_its_colour() -> None
     murky = replace(scene, ocean_state=replace(scene.ocean_state, fog=fog))
     simulation = open_scene(murky)
     try:
-        simulation.world.set_fog(20.0)
-        camera = simulation.world.camera("bowtech1")
+        simulation.world.scenery.set_fog(20.0)
+        camera = simulation.world.sensors.camera("bowtech1")
         image = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     finally:
         simulation.close()
-    assert simulation.world.fog_colour == colour
+    assert simulation.world.stage_view.fog_colour == colour
     assert image.colour is not None
     middle = image.colour[120, 160].astype(float) / 255.0
     assert middle == pytest.approx(np.array(colour), abs=0.003)

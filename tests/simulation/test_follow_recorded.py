@@ -85,11 +85,11 @@ def test_velocity_sensors_measure_the_recorded_motion(dynamics: bool) -> None:
     simulation = following(dynamics=dynamics)
     play(simulation, 2.0)
     world, time = simulation.world, simulation.time
-    turn = world.sensor("imu", ("imu",)).sample(time)
+    turn = world.sensors.sensor("imu", ("imu",)).sample(time)
     assert abs(turn.angular_velocity.z) == pytest.approx(TURN, rel=1e-6)
     force = turn.linear_acceleration
     assert np.hypot(force.x, force.y) == pytest.approx(SPEED * TURN, abs=0.01)
-    motion = world.vehicle(NAME).moving_mount(DVL).motion()
+    motion = world.vehicles.find(NAME).moving_mount(DVL).motion()
     assert np.linalg.norm(motion.velocity) == pytest.approx(SPEED, rel=1e-3)
 
 
@@ -119,16 +119,16 @@ def test_where_a_recording_begins_is_no_motion() -> None:
 def test_joints_move_what_is_mounted_on_them() -> None:
     simulation = following()
     link = "part1"
-    mount = simulation.world.vehicle(NAME).moving_mount(replace(IMU, relative_to=link))
+    mount = simulation.world.vehicles.find(NAME).moving_mount(replace(IMU, relative_to=link))
     play(simulation, 1.0, joints=True)
-    base = simulation.world.vehicle(NAME).moving_mount(IMU).motion()
+    base = simulation.world.vehicles.find(NAME).moving_mount(IMU).motion()
     apart = mount.motion().angular_velocity - base.angular_velocity
     assert np.linalg.norm(apart) == pytest.approx(SLEW, rel=1e-3)
 
 
 def test_a_joint_that_is_recorded_as_no_number_stays() -> None:
     simulation = following()
-    before = simulation.world.vehicle(NAME).joints
+    before = simulation.world.vehicles.find(NAME).joints
     heard = JointState(
         header(0.0),
         ["Slew", "Elbow"],
@@ -139,7 +139,7 @@ def test_a_joint_that_is_recorded_as_no_number_stays() -> None:
     simulation.bus.publisher("/recorded/joints", JointState)(heard)
     simulation.advance()
     expected = before - [0.0, 0.0, 0.1, 0.0, 0.0]
-    assert simulation.world.vehicle(NAME).joints == pytest.approx(expected, abs=1e-4)
+    assert simulation.world.vehicles.find(NAME).joints == pytest.approx(expected, abs=1e-4)
 
 
 def test_a_vehicle_that_follows_nothing_keeps_its_own_velocity() -> None:

@@ -200,9 +200,9 @@ def test_a_towed_ball_comes_to_the_speed_at_which_its_drag_is_the_force() -> Non
     """F = rho / 2 * 0.47 * pi R^2 v^2: the drag of `uwsim.physics.free_objects`."""
     ball = box(mass=20.0, volume=0.02, collision_shape_type="sphere", centre_of_mass=None)
     with in_water(ball) as simulation:
-        density = simulation.world.density_levels[0][1]
+        density = simulation.world.model.density_levels[0][1]
         model, data = engine(simulation)
-        mesh = simulation.world.body("box").world_from_body
+        mesh = simulation.world.bodies.find("box").world_from_body
         centre = mesh.inverse().transform(data.xipos[[model.body("object/0").id]])[0]
     pull = PullSpec(body="box", at=tuple(centre), wrench=(20.0, 0, 0, 0, 0, 0))
     with in_water(ball, forces=(pull,)) as simulation:
@@ -219,11 +219,11 @@ def test_a_force_on_a_link_is_felt_by_base_and_joints_as_its_jacobian_says(link:
     at = (0.1, 0.2, -0.05)
     pull = PullSpec(body=f"girona0/{link}", at=at, wrench=tuple(wrench))
     with in_water() as plain, in_water(forces=(pull,)) as simulation:
-        world_from_link = plain.world.body(f"girona0/{link}").world_from_body
+        world_from_link = plain.world.bodies.find(f"girona0/{link}").world_from_body
         point = world_from_link.position + world_from_link.rotation @ np.array(at)
-        plain.start()
+        plain.advance(0.0)
         expected = generalised(plain, f"vehicle/0/{link}", point, wrench)
-        simulation.start()
+        simulation.advance(0.0)
         plain.advance()
         simulation.advance()
         felt = engine(simulation)[1].qfrc_smooth - engine(plain)[1].qfrc_smooth
@@ -280,15 +280,15 @@ def test_a_force_sees_places_velocities_and_the_water_at_the_beginning_of_the_st
         simulation.set_current([0.1, 0.2, 0.0])
         simulation.advance(0.2)
         seen = simulation.world.forces[0].seen
-        here = simulation.world.body(link).world_from_body
+        here = simulation.world.bodies.find(link).world_from_body
         assert np.linalg.norm(seen[-1]["velocity"]) > 1e-4
         gone = (seen[-1]["place"] - seen[-2]["place"]) / STEP
         assert seen[-1]["velocity"] == pytest.approx(gone, rel=0.05, abs=1e-4)
         lever = here.rotation @ np.array(at)
         assert seen[-1]["place"] == pytest.approx(here.position + lever, abs=1e-3)
-        turn = simulation.world.world_from_localized.rotation
+        turn = simulation.world.model.scene.world_from_localized.rotation
         assert seen[-1]["water"] == pytest.approx(turn @ [0.1, 0.2, 0.0])
-        assert seen[-1]["density"][0] == simulation.world.density_levels[0][1]
+        assert seen[-1]["density"][0] == simulation.world.model.density_levels[0][1]
         assert seen[-1]["density"][1] == 0.0  # above the surface
 
 
@@ -409,7 +409,7 @@ def test_the_frame_of_an_object_is_that_of_its_mesh() -> None:
     scaled = replace(box(), scale_factor=(2.0, 1.0, 0.5), orientation=(0.1, 0.2, 0.3))
     probe = PullSpec(body="box", at=(0.1, 0.2, 0.3), wrench=(0.0,) * 6)
     with falling(scaled, forces=(probe,)) as simulation:
-        mesh = simulation.world.body("box").world_from_body
+        mesh = simulation.world.bodies.find("box").world_from_body
         here = simulation.world.forces[0].attachment.world_from_body
         assert here.rotation == pytest.approx(mesh.rotation)
         expected = mesh.position + mesh.rotation @ [0.1, 0.2, 0.3]
@@ -418,7 +418,7 @@ def test_the_frame_of_an_object_is_that_of_its_mesh() -> None:
 
 def test_a_force_that_acts_on_what_it_has_not_attached_is_an_error() -> None:
     with falling(box(), forces=(PullSpec(body="box", wrench=(0.0,) * 6),)) as simulation:
-        simulation.world.forces[0].attachment = simulation.world.body("box")
+        simulation.world.forces[0].attachment = simulation.world.bodies.find("box")
         with pytest.raises(UwsimError, match=r"acts on a SceneBody; expected what attach\(\)"):
             simulation.advance()
 

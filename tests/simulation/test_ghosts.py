@@ -32,7 +32,7 @@ def test_cameras_do_not_see_a_ghost_and_viewers_do(tmp_path: Path, vr: bool) -> 
         number = next(each.id for each in simulation.world.scenery.parts if each.is_hidden is vr
                       and each.name == "seen/base_link")  # fmt: skip
         by_camera = simulation.image("eye").ids
-        camera = simulation.world.camera("eye")
+        camera = simulation.world.sensors.camera("eye")
         from_outside = simulation.world.scenery.render_view(
             camera.world_from_camera, camera.intrinsics, targets={"ids"}
         ).ids

@@ -72,7 +72,7 @@ class Grasp:
             ),
             timestep=timestep,
         )
-        self.simulation.start()
+        self.simulation.advance(0.0)
         self.go_up(0.0)
         run(self.simulation, 1.0)
 
@@ -101,12 +101,12 @@ class Grasp:
         self.simulation.bus.publisher("/pose", PoseMessage)(message)
 
     def box_in_jaw(self) -> Pose:
-        wrist = self.simulation.world.body("girona500/part4_base").world_from_body
-        return wrist.inverse() @ self.simulation.world.body("blackbox").world_from_body
+        wrist = self.simulation.world.bodies.find("girona500/part4_base").world_from_body
+        return wrist.inverse() @ self.simulation.world.bodies.find("blackbox").world_from_body
 
     @property
     def touches(self) -> set[str]:
-        return {contact.other for contact in self.simulation.world.contacts("blackbox")}
+        return {contact.other for contact in self.simulation.world.contacts.find("blackbox")}
 
     def _bend(self, names: list[str], **given: list[float]) -> None:
         arrays = {
@@ -157,9 +157,9 @@ def test_a_lifted_box_is_held_for_ten_seconds_and_while_the_arm_moves(timestep: 
 def test_a_box_that_is_let_go_sinks() -> None:
     grasp = Grasp()
     grasp.lift()
-    before = grasp.simulation.world.body("blackbox").world_from_body.position[2]
+    before = grasp.simulation.world.bodies.find("blackbox").world_from_body.position[2]
     grasp.jaw(OPEN)
-    after = grasp.simulation.world.body("blackbox").world_from_body.position[2]
+    after = grasp.simulation.world.bodies.find("blackbox").world_from_body.position[2]
     assert after < before - 0.1
     assert "girona500" not in grasp.touches
 
@@ -202,7 +202,7 @@ def test_the_weight_of_a_held_box_is_what_the_fingers_feel_to_two_percent() -> N
     total = 0.0
     for _ in range(100):
         run(grasp.simulation, 0.02)
-        total += grasp.simulation.world.contact_forces("blackbox")["girona500"][2]
+        total += grasp.simulation.world.contacts.forces("blackbox")["girona500"][2]
     weight = (12.0 - 1000.0 * VOLUME) * GRAVITY
     assert total / 100 == pytest.approx(weight, rel=0.02)
 
@@ -227,8 +227,8 @@ def test_the_faces_of_the_fingers_are_parallel_on_the_bar_and_touch_it_with_all_
     grasp.lift()
     fingers = {"girona500/part4_jaw1": 1.0, "girona500/part4_jaw2": -1.0}
     normals = [
-        side * grasp.simulation.world.body(name).world_from_body.rotation[:, 0]
+        side * grasp.simulation.world.bodies.find(name).world_from_body.rotation[:, 0]
         for name, side in fingers.items()
     ]
     assert float(normals[0] @ normals[1]) < -np.cos(0.01)
-    assert len(grasp.simulation.world.contacts("blackbox")) == 8
+    assert len(grasp.simulation.world.contacts.find("blackbox")) == 8

@@ -27,7 +27,7 @@ def numbers(seed: int = 0, **changed: str | float) -> dict[str, tuple[float, ...
 
 
 def of(simulation: Simulation) -> dict[str, tuple[float, ...]]:
-    (dynamics,) = simulation.model.dynamics.values()
+    (dynamics,) = simulation.world.model.dynamics.values()
     body = dynamics.body("base_link")
     assert body is not None
     return {
@@ -65,7 +65,7 @@ def test_one_number_of_a_list_is_set(number: str, index: int, factor: float) -> 
 
 def test_a_whole_list_is_set() -> None:
     with uwsim.load(SCENE) as simulation:
-        (dynamics,) = simulation.model.dynamics.values()
+        (dynamics,) = simulation.world.model.dynamics.values()
         name = dynamics.thrusters[0].name
     assert with_setting(f"{SET}thruster[{name}].forward", "0 33 4")["forward"] == (0.0, 33.0, 4.0)
 

@@ -91,7 +91,7 @@ def test_images_are_the_same_bytes_with_the_stamps_of_their_samples(scene: str, 
 def read_images(scene: str) -> list[str]:
     """Topics of images of a scene."""
     with open_scene(read_scene(SCENES / f"{scene}.xml")) as simulation:
-        return sorted(simulation.images)
+        return sorted(simulation.world.images)
 
 
 @pytest.mark.slow

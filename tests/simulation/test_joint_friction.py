@@ -30,7 +30,7 @@ def slewing(folder: Path, dynamics: str) -> Simulation:
     simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(arm,)), data_path=(folder,)
     )
-    simulation.start()
+    simulation.advance(0.0)
     nothing = np.zeros(0)
     message = JointState(
         header=header(0.0),

@@ -73,7 +73,7 @@ def pull_down(simulation: uwsim.Simulation, newtons: float, seconds: float) -> f
     data.xfrc_applied[-1, 2] = -newtons
     for _ in range(round(seconds / 0.01)):
         simulation.advance(0.01)
-        farthest = max(farthest, float(simulation.world.joints("lifter")[0]))
+        farthest = max(farthest, float(simulation.world.vehicles.find("lifter").joints[0]))
     return farthest
 
 
@@ -102,7 +102,7 @@ def test_a_lift_of_200_newtons_gives_way_by_millimetres_under_35(
 ) -> None:
     simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.2])))
     simulation.advance(4.0)
-    assert simulation.world.joints("lifter")[0] == pytest.approx(0.2, abs=0.001)
+    assert simulation.world.vehicles.find("lifter").joints[0] == pytest.approx(0.2, abs=0.001)
     assert pull_down(simulation, 35.0, 2.0) < 0.206
 
 
@@ -138,7 +138,7 @@ def test_a_servo_that_comes_to_its_limit_under_a_load_does_not_touch_the_stop(
     simulation.advance(4.0)
     simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.5])))
     assert pull_down(simulation, 20.0, 4.0) < 0.5 + 0.5 * BEYOND_TURN
-    assert simulation.world.joints("lifter")[0] == pytest.approx(0.5, abs=0.002)
+    assert simulation.world.vehicles.find("lifter").joints[0] == pytest.approx(0.5, abs=0.002)
 
 
 def test_a_continuous_joint_without_limits_has_no_stop_while_it_is_held(tmp_path: Path) -> None:
@@ -148,4 +148,4 @@ def test_a_continuous_joint_without_limits_has_no_stop_while_it_is_held(tmp_path
     for _ in range(100):
         data.qfrc_applied[-1] = 3000.0
         simulation.advance(0.01)
-    assert simulation.world.joints("lifter")[0] > 2.0 * np.pi
+    assert simulation.world.vehicles.find("lifter").joints[0] > 2.0 * np.pi

@@ -51,14 +51,14 @@ def drive(simulation: Simulation, surge: float, seconds: float, look: object = N
 
 def front(simulation: Simulation, thing: ObjectSpec, surge: float = 1.0) -> float:
     """How far the vehicle drives until it touches [m], to the length of a jump."""
-    while not simulation.world.contacts("girona500"):
+    while not simulation.world.contacts.find("girona500"):
         drive(simulation, surge, PERIOD)
     return position(simulation)[1] - 1.5
 
 
 def test_a_vehicle_is_touched_at_the_speed_of_its_twist_and_goes_on_through_the_wall() -> None:
     simulation = scene(wall(4.0))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     drive(simulation, 0.3, 6.0, measure.update)
     assert position(simulation)[1] == pytest.approx(1.5 + 0.3 * 5.9)
@@ -73,7 +73,7 @@ def test_a_vehicle_is_touched_at_the_speed_of_its_twist_and_goes_on_through_the_
 def test_a_current_carries_a_vehicle_into_a_wall_at_its_own_speed() -> None:
     simulation = scene(wall(3.4))
     set_current(simulation, (0.0, 0.25, 0.0))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     for _ in range(2000):
         simulation.advance()
@@ -83,25 +83,25 @@ def test_a_current_carries_a_vehicle_into_a_wall_at_its_own_speed() -> None:
 
 def test_who_stands_in_a_wall_is_in_contact_and_hits_nothing() -> None:
     simulation = scene(wall(1.5))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     for _ in range(5):
         simulation.advance()
         measure.update()
     assert measure.value == 1.0
     assert measure.details["contact_share"] == 1.0
-    assert {contact.other for contact in simulation.world.contacts("girona500")} == {"wall"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {"wall"}
 
 
 def test_the_speed_lasts_as_long_as_the_jump_took_and_no_longer() -> None:
     simulation = scene(wall(1.5))
-    simulation.world.contacts("girona500")
+    simulation.world.contacts.find("girona500")
     drive(simulation, 0.2, 0.304)  # jumps at 0.104, 0.204 and 0.304 s
     speeds = []
     for _ in range(100):
         simulation.advance()
         speeds += [
-            max(abs(contact.own_speed) for contact in simulation.world.contacts("girona500"))
+            max(abs(contact.own_speed) for contact in simulation.world.contacts.find("girona500"))
         ]
     assert all(speed > 0.0 for speed in speeds[:49])  # until 0.404 s
     assert not any(speeds[49:])
@@ -109,10 +109,13 @@ def test_the_speed_lasts_as_long_as_the_jump_took_and_no_longer() -> None:
 
 def test_the_touched_object_sees_the_same_from_its_side() -> None:
     simulation = scene(wall(4.0))
-    simulation.world.contacts("girona500")
+    simulation.world.contacts.find("girona500")
     front(simulation, wall(4.0), 0.5)
     drive(simulation, 0.5, 0.01)
-    vehicle, thing = simulation.world.contacts("girona500"), simulation.world.contacts("wall")
+    vehicle, thing = (
+        simulation.world.contacts.find("girona500"),
+        simulation.world.contacts.find("wall"),
+    )
     assert len(vehicle) == len(thing) > 0
     for own, other in zip(vehicle, thing, strict=True):
         assert own.approach_speed == other.approach_speed
@@ -124,13 +127,13 @@ def test_the_touched_object_sees_the_same_from_its_side() -> None:
 
 def test_an_arm_touches_as_the_vehicle_does() -> None:
     bare = scene(wall(1.5, depth=6.0))
-    assert bare.world.contacts("girona500") == []
+    assert bare.world.contacts.find("girona500") == []
     deep = 1.515 + 1.6  # below the hull, where only an arm that hangs down can be
     low = scene(replace(wall(1.5), position=(3.0, 1.5, deep + 1.5), scale_factor=(20, 20, 20)))
-    before = len(low.world.contacts("girona500"))
-    low.world.set_joints("girona500", {1: 1.5, 2: 0.0})
+    before = len(low.world.contacts.find("girona500"))
+    low.world.stage_view.set_joints("girona500", {1: 1.5, 2: 0.0})
     low.advance()
-    assert len(low.world.contacts("girona500")) > before
+    assert len(low.world.contacts.find("girona500")) > before
 
 
 def test_the_contact_sensor_of_a_vehicle_that_is_not_simulated_speaks() -> None:
@@ -150,7 +153,7 @@ def test_looking_changes_nothing() -> None:
     for is_watched in (False, True):
         simulation = scene(wall(4.0))
         if is_watched:
-            simulation.world.contacts("girona500")
+            simulation.world.contacts.find("girona500")
         drive(simulation, 0.3, 1.0)
         places.append(position(simulation).tobytes())
     assert places[0] == places[1]
@@ -159,19 +162,19 @@ def test_looking_changes_nothing() -> None:
 def test_where_nothing_has_physics_all_is_touched_and_the_ground_by_its_faces() -> None:
     open_water = scene(replace(TANK, physics=None), replace(wall(4.0), physics=None))
     assert (
-        open_water.world.contacts("girona500") == []
+        open_water.world.contacts.find("girona500") == []
     )  # though it is within the box around the tank
     drive(open_water, 1.0, 3.0)
-    assert {contact.other for contact in open_water.world.contacts("girona500")} == {"wall"}
-    assert CollisionSpec(name="hits", target="wall").bind(open_water.world)
+    assert {contact.other for contact in open_water.world.contacts.find("girona500")} == {"wall"}
+    assert CollisionSpec(name="hits", target="wall").bind(open_water.world.measure_view)
 
 
 def test_what_cannot_be_touched_is_reported_with_the_reason() -> None:
     both = scene(BLACKBOX, wall(4.0))
-    assert both.world.contacts("girona500") == []
+    assert both.world.contacts.find("girona500") == []
     with pytest.raises(UwsimError, match="it has no <physics>, nor <u:solid> 1; solid are: wall"):
-        both.world.contacts("blackbox")
+        both.world.contacts.find("blackbox")
     with pytest.raises(UwsimError, match="<u:solid> is 0; solid are: wall"):
-        scene(replace(BLACKBOX, is_solid=False), wall(4.0)).world.contacts("blackbox")
+        scene(replace(BLACKBOX, is_solid=False), wall(4.0)).world.contacts.find("blackbox")
     with pytest.raises(UnknownName, match="Did you mean 'wall'"):
-        both.world.contacts("wal")
+        both.world.contacts.find("wal")

@@ -42,7 +42,7 @@ def night(*lamps: LampSpec, vr: bool = False) -> SceneSpec:
 
 
 def brightness(simulation: Simulation) -> np.ndarray:
-    camera = simulation.world.camera("bowtech1")
+    camera = simulation.world.sensors.camera("bowtech1")
     colour = simulation.world.scenery.render_clean(
         camera.world_from_camera, camera.intrinsics
     ).colour
@@ -76,7 +76,7 @@ def test_the_light_goes_with_the_vehicle() -> None:
 def test_the_light_of_the_scene_does_not_dim_a_lamp() -> None:
     simulation = open_scene(night(LAMP))
     at_night = brightness(simulation)
-    simulation.world.set_light_rate(0.3)
+    simulation.world.scenery.set_light_rate(0.3)
     assert (brightness(simulation) >= at_night).all()
     simulation.close()
 

@@ -47,13 +47,13 @@ def track(scene: SceneSpec) -> str:
     sunk = replace(scene.vehicles[0], position=(0.0, 0.0, -3.9), accepts=("start",))
     digest = hashlib.sha256()
     with open_scene(replace(scene, vehicles=(sunk,))) as simulation:
-        row = np.zeros(simulation.motion.size)
+        row = np.zeros(simulation.world.engine.motion.size)
         n_contacts = 0
         for _ in range(20):
             simulation.advance(0.05)
-            simulation.motion.read(row)
+            simulation.world.engine.motion.read(row)
             digest.update(row.tobytes())
-            n_contacts += len(simulation.world.contacts("v0"))
+            n_contacts += len(simulation.world.contacts.find("v0"))
         assert simulation.world.engine._model.ngeom < MAX_SHAPES
     assert n_contacts > 0
     return digest.hexdigest()
@@ -119,7 +119,7 @@ def test_what_is_set_on_the_floor_stands_on_what_is_touched(scene: SceneSpec) ->
     rock = scene.objects[1]
     cap = replace(rock, name="cap", is_solid=False, on_floor=OnFloorSpec())
     with open_scene(replace(scene, objects=(*scene.objects, cap))) as simulation:
-        bodies = [simulation.world.body(name) for name in (rock.name, "cap")]
+        bodies = [simulation.world.bodies.find(name) for name in (rock.name, "cap")]
         rise = float(np.subtract(*(body.world_from_body.position[2] for body in bodies)))
         box = bodies[0].box
     assert box is not None

@@ -42,7 +42,7 @@ class Pilot:
 
 
 def swell(simulation: Simulation) -> None:
-    simulation.world.set_current(SWELL.bind(Place(stream=simulation.world.stream)))
+    simulation.world.water.set(SWELL.bind(Place(stream=simulation.world.stream)))
 
 
 def with_pilot(simulation: Simulation) -> None:
@@ -78,8 +78,8 @@ def played(prepare: Callable[[Simulation], None], *, at_once: bool) -> tuple[byt
     else:
         for _ in range(round(SECONDS / simulation.timestep)):
             simulation.advance()
-    motion = np.zeros(simulation.motion.size)
-    simulation.motion.read(motion)
+    motion = np.zeros(simulation.world.engine.motion.size)
+    simulation.world.engine.motion.read(motion)
     assert simulation.step == round(SECONDS / simulation.timestep)
     return motion.tobytes(), heard
 
@@ -134,7 +134,7 @@ class Gyre:
 
 def test_water_that_differs_from_place_to_place_is_asked_in_every_step() -> None:
     simulation, gyre = make(), Gyre()
-    simulation.world.set_current(gyre)
+    simulation.world.water.set(gyre)
     simulation.advance(0.02)
     assert len(gyre.times) == 10
 
@@ -143,11 +143,11 @@ def test_water_that_comes_to_rest_is_still() -> None:
     ends = []
     for at_once in (True, False):
         simulation = make()
-        simulation.world.set_current(
+        simulation.world.water.set(
             ConstantSpec(velocity=(0.4, 0.0, 0.0)).bind(Place(stream=simulation.world.stream))
         )
         simulation.advance(0.1)
-        simulation.world.set_current(None)
+        simulation.world.water.set(None)
         for _ in range(1 if at_once else 50):
             simulation.advance(0.1 if at_once else None)
         ends.append(simulation.velocity("girona500").tolist())

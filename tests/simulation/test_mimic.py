@@ -35,8 +35,8 @@ def test_a_vehicle_whose_joint_mimics_what_cannot_move_is_simulated(
     simulation = begin(scene, is_blind=True)
     for _ in range(200):
         simulation.advance()
-    base = simulation.world.body("r/base").world_from_body
-    jaw = base.inverse() @ simulation.world.body("r/b").world_from_body
+    base = simulation.world.bodies.find("r/base").world_from_body
+    jaw = base.inverse() @ simulation.world.bodies.find("r/b").world_from_body
     assert jaw.rotation[0, 0] == pytest.approx(math.cos(held_at), abs=0.01)
 
 
@@ -59,7 +59,7 @@ def test_a_geared_joint_follows_its_leader_while_it_moves(
     file = write_robot(tmp_path, links + leads + follows)
     vehicle = VehicleSpec(name="r", file=str(file), dynamics="mine", position=(0.0, 0.0, -5.0))
     simulation = begin(replace(scene_of(vehicle), path=str(tmp_path / "scene.xml")), is_blind=True)
-    servos = simulation.world.vehicle("r").servos
+    servos = simulation.world.vehicles.find("r").servos
     assert servos is not None
     servos.aim({0: 0.8})
     for _ in range(15):

@@ -93,7 +93,7 @@ def measured(
 
     The commands come after `periods` of steps, in turn; the imu samples at `rate` [Hz].
     """
-    unit = simulation.world.sensor("imu", ("imu",))
+    unit = simulation.world.sensors.sensor("imu", ("imu",))
     found, due, k = [], 0, 0
     for step in range(round(seconds / simulation.timestep)):
         if step == due:
@@ -134,18 +134,18 @@ def test_a_current_and_commands_add_up() -> None:
     turns, forces = measured(simulation, by_twist, [50], 50)
     assert np.abs(turns[:, 2]) == pytest.approx(TURN, rel=1e-3)
     assert np.hypot(forces[:, 0], forces[:, 1]).max() < 0.5
-    before = simulation.world.vehicle(NAME).world_from_base
+    before = simulation.world.vehicles.find(NAME).world_from_base
     simulation.advance(0.1)
     by_twist(simulation, 0.0)
     simulation.advance()
-    apart = simulation.world.vehicle(NAME).world_from_base.position - before.position
-    motion = simulation.world.vehicle(NAME).moving_mount(IMU).motion()
+    apart = simulation.world.vehicles.find(NAME).world_from_base.position - before.position
+    motion = simulation.world.vehicles.find(NAME).moving_mount(IMU).motion()
     assert motion.velocity == pytest.approx(apart / 0.1, abs=0.02)
 
 
 def test_a_vehicle_whose_commands_stop_stands_still_after_half_a_period_more() -> None:
     simulation = kinematic(IMU)
-    unit = simulation.world.sensor("imu", ("imu",))
+    unit = simulation.world.sensors.sensor("imu", ("imu",))
     for _ in range(20):
         by_twist(simulation, 0.0)
         simulation.advance(0.1)
@@ -164,13 +164,13 @@ def test_a_vehicle_whose_commands_stop_stands_still_after_half_a_period_more() -
 def test_speed_and_turn_of_a_swaying_vehicle_are_the_derivatives_of_its_sway() -> None:
     sway = SwaySpec(axis="x", amplitude=0.2, period=2.0)
     simulation = kinematic(IMU, sway)
-    body = simulation.world.vehicle(NAME).moving_mount(IMU)
+    body = simulation.world.vehicles.find(NAME).moving_mount(IMU)
     simulation.advance(1.1)
     pace, time = np.pi, simulation.time
     for _ in range(5):
         simulation.advance()
         time = simulation.time
-        axis = simulation.world.world_from_localized.rotation[:, 0]
+        axis = simulation.world.model.scene.world_from_localized.rotation[:, 0]
         motion = body.motion()
         assert axis @ motion.velocity == pytest.approx(
             0.2 * pace * np.cos(pace * (time - 0.001)), abs=1e-5
@@ -184,8 +184,8 @@ def test_a_sensor_on_an_arm_moves_with_the_joints_too() -> None:
     link, joint = "part2", 1
     wrist = replace(IMU, relative_to=link, position=(0.1, 0.2, 0.0))
     simulation = kinematic(wrist)
-    mount = simulation.world.vehicle(NAME).moving_mount(wrist)
-    names = list(simulation.world.vehicle(NAME).joint_names)
+    mount = simulation.world.vehicles.find(NAME).moving_mount(wrist)
+    names = list(simulation.world.vehicles.find(NAME).joint_names)
     speeds = np.zeros(len(names))
     speeds[joint] = 0.3
     start = mount.world_from_body
@@ -211,15 +211,15 @@ def test_a_vehicle_that_is_put_back_is_at_rest() -> None:
     for _ in range(8):
         by_twist(simulation, 0.0)
         simulation.advance(0.1)
-    simulation.world.put_back(NAME)
-    motion = simulation.world.vehicle(NAME).moving_mount(IMU).motion()
+    simulation.world.vehicles.find(NAME).put_back()
+    motion = simulation.world.vehicles.find(NAME).moving_mount(IMU).motion()
     assert not motion.velocity.any()
     assert not motion.acceleration.any()
 
 
 def test_a_saved_simulation_goes_on_with_the_same_motion() -> None:
     simulation = kinematic(IMU)
-    body = simulation.world.vehicle(NAME).moving_mount(IMU)
+    body = simulation.world.vehicles.find(NAME).moving_mount(IMU)
     ends = []
     for _ in range(8):
         by_twist(simulation, 0.0)

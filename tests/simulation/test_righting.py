@@ -42,7 +42,7 @@ def afloat(kind: str, *, roll: float = 0.0, pitch: float = 0.0) -> Simulation:
 
 def tilt_deg(simulation: Simulation) -> float:
     """Angle between the vehicle's z and the vertical [deg]."""
-    rotation = simulation.world.body(NAME).world_from_body.rotation
+    rotation = simulation.world.bodies.find(NAME).world_from_body.rotation
     return math.degrees(math.acos(min(abs(float(rotation[2, 2])), 1.0)))
 
 

@@ -14,8 +14,10 @@ DISTANCE = 2.2  # what the controller takes for that of the box [m]
 def rolls(kp: float, seconds: float) -> np.ndarray:
     """Roll every 0.1 s [deg] of a vehicle that keeps over the box, from a start 0.3 m beside it."""
     simulation = open_scene(read_scene(SCENE).nominal)
-    camera = simulation.world.camera("bowtech1")
-    box = simulation.world.body("blackbox").world_from_body.position + np.array([0.0, 0.3, 0.0])
+    camera = simulation.world.sensors.camera("bowtech1")
+    box = simulation.world.bodies.find("blackbox").world_from_body.position + np.array(
+        [0.0, 0.3, 0.0]
+    )
     say = simulation.bus.publisher("/dataNavigator", TwistStamped)
     found = []
 
@@ -24,13 +26,13 @@ def rolls(kp: float, seconds: float) -> np.ndarray:
         surge, sway = kp * DISTANCE * np.array([up, right]) / -back
         twist = Twist(linear=vector(surge, sway, 0.0), angular=vector(0.0, 0.0, 0.0))
         say(TwistStamped(header=header(simulation.time), twist=twist))
-        base = simulation.world.world_from_localized.inverse() @ (
-            simulation.world.body("girona500").world_from_body
+        base = simulation.world.model.scene.world_from_localized.inverse() @ (
+            simulation.world.bodies.find("girona500").world_from_body
         )
         found.append(np.degrees(np.arctan2(base.rotation[2, 1], base.rotation[2, 2])))
 
-    simulation.world.every(10.0, steer)
-    simulation.start()
+    simulation.world.schedule.every(10.0, steer)
+    simulation.advance(0.0)
     for _ in range(round(seconds / simulation.timestep)):
         simulation.advance()
     return np.array(found)

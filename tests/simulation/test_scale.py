@@ -59,23 +59,23 @@ def test_links_cameras_and_routes_stand_where_the_scale_puts_them(
     scale: tuple[float, float, float], values: tuple[float, float], tmp_path: Path
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
-    simulation.world.set_joints("arm", dict(enumerate(values)))
-    robot = simulation.world.robots[0]
+    simulation.world.stage_view.set_joints("arm", dict(enumerate(values)))
+    robot = simulation.world.model.robots[0]
     poses = link_poses(robot, values)
     for link, pose in poses.items():
-        found = simulation.world.body(f"arm/{link}").world_from_body
+        found = simulation.world.bodies.find(f"arm/{link}").world_from_body
         assert found.position == pytest.approx(placed(scale, pose.position)), link
         turn = rotation_from_xyz(0.3, -0.2, 0.5) @ pose.rotation
         assert found.rotation == pytest.approx(turn, abs=1e-9), link  # a frame has no shear
     eye = poses["rail"].transform(np.array([CAMERA.position]))[0]
-    camera = simulation.world.camera("eye").world_from_camera
+    camera = simulation.world.sensors.camera("eye").world_from_camera
     assert camera.position == pytest.approx(placed(scale, eye))
     turn = rotation_from_xyz(0.3, -0.2, 0.5) @ poses["rail"].rotation
     assert camera.rotation == pytest.approx(turn @ rotation_from_rpy(*CAMERA.orientation))
     visual = poses["upper"].transform(np.array([[0.25, 0.0, 0.0]]))[0]
-    found = simulation.world.body("upper@visual").world_from_body
+    found = simulation.world.bodies.find("upper@visual").world_from_body
     assert found.position == pytest.approx(placed(scale, visual))
-    assert simulation.world.joints("arm") == pytest.approx(values)
+    assert simulation.world.vehicles.find("arm").joints == pytest.approx(values)
 
 
 @pytest.mark.parametrize("scale", [EVEN, UNEVEN])
@@ -83,7 +83,7 @@ def test_meshes_are_stretched_along_the_axes_of_the_base(
     scale: tuple[float, float, float], tmp_path: Path
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
-    poses = link_poses(simulation.world.robots[0], VALUES)
+    poses = link_poses(simulation.world.model.robots[0], VALUES)
     part = next(p for p in simulation.world.scenery.parts if p.link == "upper")
     corner = np.array([0.25, 0.05, -0.05])  # of the box in its own frame
     link_from_mesh = Pose.from_rpy((0.25, 0.0, 0.0), (0.0, 0.0, 0.3))
@@ -98,7 +98,7 @@ def test_a_lamp_hangs_where_the_scale_puts_it(
 ) -> None:
     simulation = begin(arm(tmp_path, scale), is_blind=True)
     (lamp,) = simulation.world.scenery.mounted_lamps
-    base_from_rail = link_poses(simulation.world.robots[0], VALUES)["rail"]
+    base_from_rail = link_poses(simulation.world.model.robots[0], VALUES)["rail"]
     place = base_from_rail.transform(np.array([[0.1, 0.2, 0.3]]))[0]
     assert lamp.world_from_lamp.position == pytest.approx(placed(scale, place))
 
@@ -145,7 +145,7 @@ def test_contacts_know_how_large_a_vehicle_is(
     simulation = begin(scene, is_blind=True)
     for _ in range(3):
         simulation.advance()
-    assert bool(simulation.world.contacts("arm")) is touches
+    assert bool(simulation.world.contacts.find("arm")) is touches
 
 
 def test_a_simulated_vehicle_with_a_scale_is_refused_with_the_way_out(tmp_path: Path) -> None:

@@ -24,7 +24,7 @@ def make(timestep: float = 0.002) -> Simulation:
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(TWIST, ARM)),
         timestep=timestep,
     )
-    simulation.start()
+    simulation.advance(0.0)
     return simulation
 
 
@@ -35,7 +35,7 @@ def command(simulation: Simulation, **given: list[float]) -> None:
 
 
 def joints(simulation: Simulation) -> np.ndarray:
-    return simulation.world.joints("girona500")
+    return simulation.world.vehicles.find("girona500").joints
 
 
 def pull(simulation: Simulation, link: str, force: float) -> None:

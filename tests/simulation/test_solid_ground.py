@@ -68,7 +68,9 @@ def test_scenery_that_is_declared_solid_stops_a_vehicle() -> None:
     assert stopped < 2.6
     simulation = make(objects=(box_scenery(is_solid=True),))
     dive(simulation, 6.0)
-    assert {contact.other for contact in simulation.world.contacts("girona500")} == {"seabed_west"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {
+        "seabed_west"
+    }
 
 
 def test_something_with_physics_that_is_no_solid_is_passed_through_and_hangs_where_it_is() -> None:
@@ -86,7 +88,7 @@ def test_two_simulated_vehicles_meet_in_open_water() -> None:
     simulation = open_scene(
         replace(scene, vehicles=(one, other), objects=(), ros_interfaces=(TWIST,))
     )
-    simulation.start()
+    simulation.advance(0.0)
     twist = TWIST.topic
     from tests.simulation.girona500 import vector
 
@@ -123,7 +125,7 @@ def test_every_bundled_sea_floor_stops_a_vehicle(scenery: ObjectSpec) -> None:
     simulation = make(objects=(scenery,))
     deep = dive(simulation, 12.0)
     assert 0.8 < deep < 4.2  # where it begins in the sand it is lifted, and stands on its arm
-    assert {contact.other for contact in simulation.world.contacts("girona500")} == {"terrain"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {"terrain"}
     run(simulation, 2.0)
     assert position(simulation)[2] == pytest.approx(deep, abs=0.1)
 
@@ -169,4 +171,6 @@ def kinematic(vehicle: VehicleSpec) -> VehicleSpec:
 def test_solid_scenery_is_touched_by_a_vehicle_that_is_not_simulated_too() -> None:
     wall = box_scenery(is_solid=True, position=(3.0, 1.5, 1.9))
     simulation = make(objects=(wall, GHOST), change=kinematic)
-    assert {contact.other for contact in simulation.world.contacts("girona500")} == {"seabed_west"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {
+        "seabed_west"
+    }

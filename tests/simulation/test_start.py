@@ -49,23 +49,25 @@ def check_joints(scene: SceneSpec, n_steps: int = 0) -> None:
         inboxes = [
             simulation.bus.inbox(STATES.format(i), JointState) for i in range(len(scene.vehicles))
         ]
-        simulation.start()
+        simulation.advance(0.0)
         for _ in range(n_steps):
             simulation.advance()
         for index, vehicle in enumerate(scene.vehicles):
-            robot = simulation.world.robots[index]
+            robot = simulation.world.model.robots[index]
             expected = [
                 min(max(value, joint.lower), joint.upper)
                 for joint, value in zip(
                     robot.movable, [*vehicle.joint_values, *[0.0] * 99], strict=False
                 )
             ]
-            assert simulation.world.joints(vehicle.name) == pytest.approx(expected, abs=1e-12)
+            assert simulation.world.vehicles.find(vehicle.name).joints == pytest.approx(
+                expected, abs=1e-12
+            )
             (message, *_) = inboxes[index].take()
             assert message.position == pytest.approx(expected, abs=1e-12)
-            base = simulation.world.body(vehicle.name).world_from_body
+            base = simulation.world.bodies.find(vehicle.name).world_from_body
             for link, base_from_link in link_poses(robot, expected).items():
-                there = simulation.world.body(f"{vehicle.name}/{link}").world_from_body
+                there = simulation.world.bodies.find(f"{vehicle.name}/{link}").world_from_body
                 found = base.inverse() @ there
                 assert np.allclose(found.position, base_from_link.position, atol=1e-9), link
                 assert np.allclose(found.rotation, base_from_link.rotation, atol=1e-9), link
@@ -90,10 +92,10 @@ def test_beside_a_simulated_vehicle_the_joints_of_a_kinematic_one_stay() -> None
     simulated = scene.vehicles[0]
     plain = replace(simulated, name="other", position=(6.0, 1.5, 2.0), dynamics=None)
     with begun(replace(scene, vehicles=(simulated, plain))) as simulation:
-        simulation.start()
-        before = simulation.world.body("other/part4_jaw1").world_from_body
+        simulation.advance(0.0)
+        before = simulation.world.bodies.find("other/part4_jaw1").world_from_body
         for _ in range(500):
             simulation.advance()
-        after = simulation.world.body("other/part4_jaw1").world_from_body
+        after = simulation.world.bodies.find("other/part4_jaw1").world_from_body
         assert np.array_equal(before.position, after.position)
         assert np.array_equal(before.rotation, after.rotation)

@@ -155,12 +155,12 @@ def test_a_pose_is_gone_to_and_held_in_a_current(simulation: Simulation) -> None
 
 
 def test_a_joint_position_is_reached_by_its_servo_and_not_at_once(simulation: Simulation) -> None:
-    before = simulation.world.joints(NAME)
+    before = simulation.world.vehicles.find(NAME).joints
     bend(simulation, ["Slew"], position=[-0.5])
     run(simulation, 0.01)
-    assert abs(simulation.world.joints(NAME)[0] - before[0]) < 0.2
+    assert abs(simulation.world.vehicles.find(NAME).joints[0] - before[0]) < 0.2
     run(simulation, 3.0)
-    after = simulation.world.joints(NAME)
+    after = simulation.world.vehicles.find(NAME).joints
     assert after[0] == pytest.approx(-0.5, abs=0.03)
     assert after[1:] == pytest.approx(before[1:], abs=0.1)  # the servos give
 
@@ -169,19 +169,19 @@ def test_a_joint_velocity_is_held_and_ends_at_the_limit(simulation: Simulation) 
     run(simulation, 1.0)
     bend(simulation, ["Slew"], velocity=[-0.2])
     run(simulation, 3.0)
-    assert simulation.world.joints(NAME)[0] == pytest.approx(-0.6, abs=0.05)
+    assert simulation.world.vehicles.find(NAME).joints[0] == pytest.approx(-0.6, abs=0.05)
     run(simulation, 7.0)
-    assert simulation.world.joints(NAME)[0] == pytest.approx(-np.pi / 2, abs=0.05)
+    assert simulation.world.vehicles.find(NAME).joints[0] == pytest.approx(-np.pi / 2, abs=0.05)
 
 
 def test_an_effort_lets_the_joint_go_as_far_as_its_stop(simulation: Simulation) -> None:
     run(simulation, 1.0)
     bend(simulation, ["Slew"], effort=[-3.0])
     run(simulation, 8.0)
-    assert simulation.world.joints(NAME)[0] == pytest.approx(-np.pi / 2, abs=0.05)
+    assert simulation.world.vehicles.find(NAME).joints[0] == pytest.approx(-np.pi / 2, abs=0.05)
     bend(simulation, ["Slew"], position=[0.0])
     run(simulation, 3.0)
-    assert simulation.world.joints(NAME)[0] == pytest.approx(0.0, abs=0.03)
+    assert simulation.world.vehicles.find(NAME).joints[0] == pytest.approx(0.0, abs=0.03)
 
 
 def test_the_odometry_publishes_pose_and_twist_over_ground(simulation: Simulation) -> None:
@@ -203,7 +203,7 @@ def test_the_joints_are_published_with_velocities_and_efforts(simulation: Simula
     run(simulation, 3.0)
     last = inbox.take()[-1]
     assert last.name[:3] == ["Slew", "Shoulder", "Elbow"]
-    assert last.position == pytest.approx(simulation.world.joints(NAME))
+    assert last.position == pytest.approx(simulation.world.vehicles.find(NAME).joints)
     assert last.velocity[0] == pytest.approx(-0.2, abs=0.02)
     assert last.effort.shape == (5,)
 

@@ -86,14 +86,14 @@ def drive(simulation: Simulation, surge: float, seconds: float) -> np.ndarray:
     """Depth and lean of each second, (n, 2) [m, deg]."""
     zero = Vector3(x=0.0, y=0.0, z=0.0)
     twist = Twist(linear=Vector3(x=surge, y=0.0, z=0.0), angular=zero)
-    simulation.start()
+    simulation.advance(0.0)
     simulation.bus.publisher("/twist", TwistStamped)(TwistStamped(header=header(0.0), twist=twist))
     seen = []
-    localized_from_world = simulation.world.world_from_localized.inverse()
+    localized_from_world = simulation.world.model.scene.world_from_localized.inverse()
     for step in range(round(seconds / simulation.timestep)):
         simulation.advance()
         if step % 500 == 0:
-            pose = localized_from_world @ simulation.world.body("torpedo").world_from_body
+            pose = localized_from_world @ simulation.world.bodies.find("torpedo").world_from_body
             lean = np.degrees(np.arcsin(-pose.rotation[2, 0]))
             seen.append((pose.position[2], lean))
     return np.array(seen)
@@ -218,7 +218,7 @@ def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() 
     simulation = open_scene(scene)
     model, data = simulation.world.engine._model, simulation.world.engine._data
     vehicle = read_vehicle(find_vehicle("g500_physical"))
-    balance = balance_of(simulation.world.robots[0], vehicle, scene.vehicles[0].joint_values)
+    balance = balance_of(simulation.world.model.robots[0], vehicle, scene.vehicles[0].joint_values)
     mujoco.mj_forward(model, data)
     base = simulation.world.engine.poses.base(0)
     rotation = data.xmat[base].reshape(3, 3).copy()
@@ -244,7 +244,7 @@ def said_of(folder: Path, *thrusters: str) -> list[str]:
         for diagnostic in check_file(folder / "scene.xml")
         if "drive" in diagnostic.message
     ]
-    assert checked == model_warnings(simulation.model)
+    assert checked == model_warnings(simulation.world.model)
     assert all((diagnostic.severity, diagnostic.line) == ("warning", 5) for diagnostic in checked)
     return [diagnostic.message for diagnostic in checked]
 
@@ -265,11 +265,13 @@ def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_pa
         scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>thrust</u:accept>")
     )
     assert [f for f in check_file(tmp_path / "scene.xml") if "drive" in f.message] == []
-    assert model_warnings(open_scene(read_scene(tmp_path / "scene.xml")).model) == []
+    assert model_warnings(open_scene(read_scene(tmp_path / "scene.xml")).world.model) == []
 
 
 def test_nothing_is_reported_of_the_bundled_scene() -> None:
     assert (
-        model_warnings(open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).model)
+        model_warnings(
+            open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.model
+        )
         == []
     )

@@ -45,7 +45,7 @@ def play(*objects: ObjectSpec, vehicle: bool = True, **params: object) -> Simula
             ros_interfaces=(TWIST,) if vehicle else (),
         )
     )
-    simulation.start()
+    simulation.advance(0.0)
     return simulation
 
 
@@ -75,13 +75,13 @@ def test_damping_takes_its_share_of_the_velocity_every_second() -> None:
 
 def test_a_thing_lands_on_the_floor_and_lies_there() -> None:
     simulation = play(FLOOR, box(3.0, 1.0, 4.5, mass=15.0))
-    measure = CollisionSpec(name="hits", target="blackbox").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="blackbox").bind(simulation.world.measure_view)
     measure.start()
     for _ in range(1500):
         simulation.advance()
         measure.update()
     assert position(simulation, "blackbox")[2] == pytest.approx(FLOOR_DEPTH - HEIGHT / 2, abs=0.003)
-    assert {contact.other for contact in simulation.world.contacts("blackbox")} == {"terrain"}
+    assert {contact.other for contact in simulation.world.contacts.find("blackbox")} == {"terrain"}
     speed = math.sqrt(2.0 * (FLOOR_DEPTH - HEIGHT / 2 - 4.5))  # v^2 = 2 g h, g = 1
     assert measure.details["max_speed"] == pytest.approx(speed, rel=0.05)
 
@@ -105,15 +105,15 @@ def test_what_is_fixed_stays(physics: dict[str, object]) -> None:
 
 def test_the_ground_is_not_dropped_where_nobody_gave_it_physics() -> None:
     simulation = play(TANK, box(3.0, 1.0, 4.5, mass=15.0))
-    before = simulation.world.body("terrain").world_from_body.position
+    before = simulation.world.bodies.find("terrain").world_from_body.position
     run(simulation, 3.0)
-    assert np.array_equal(simulation.world.body("terrain").world_from_body.position, before)
+    assert np.array_equal(simulation.world.bodies.find("terrain").world_from_body.position, before)
     assert position(simulation, "blackbox")[2] == pytest.approx(FLOOR_DEPTH - HEIGHT / 2, abs=0.003)
 
 
 def test_a_vehicle_moves_as_commanded_and_pushes_what_is_in_its_way() -> None:
     simulation = play(box(3.0, 3.5, 1.9, mass=15.0), gravity=(0.0, 0.0, 1e-9))
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     for step in range(2000):
         if step % 50 == 0:
@@ -132,17 +132,21 @@ def test_where_nothing_is_loose_a_vehicle_touches_all_the_same() -> None:
         if step % 50 == 0:
             command(simulation, 1.0, 0.0)
         simulation.advance()
-    assert {contact.other for contact in simulation.world.contacts("girona500")} == {"blackbox"}
+    assert {contact.other for contact in simulation.world.contacts.find("girona500")} == {
+        "blackbox"
+    }
 
 
 def test_an_arm_that_is_commanded_to_jump_pushes_and_stays_where_it_was_commanded() -> None:
     simulation = play(box(3.0, 3.5, 1.9, mass=15.0))
     before = [
-        simulation.world.body(f"girona500/{link}").world_from_body for link in ("part2", "part3")
+        simulation.world.bodies.find(f"girona500/{link}").world_from_body
+        for link in ("part2", "part3")
     ]
     run(simulation, 1.0)
     after = [
-        simulation.world.body(f"girona500/{link}").world_from_body for link in ("part2", "part3")
+        simulation.world.bodies.find(f"girona500/{link}").world_from_body
+        for link in ("part2", "part3")
     ]
     for one, other in zip(before, after, strict=True):
         assert isinstance(one, Pose)
@@ -154,7 +158,7 @@ def test_the_same_scene_falls_to_the_same_bits() -> None:
     for _ in range(2):
         simulation = play(FLOOR, box(3.0, 1.0, 4.5, mass=15.0), box(3.05, 1.1, 4.2, mass=2.0))
         run(simulation, 2.0)
-        places.append(simulation.world.body("blackbox").world_from_body.matrix.tobytes())
+        places.append(simulation.world.bodies.find("blackbox").world_from_body.matrix.tobytes())
     assert places[0] == places[1]
 
 
@@ -164,7 +168,7 @@ def test_without_enable_physics_everything_stands_still() -> None:
     simulation = open_scene(
         replace(scene, vehicles=(plain,), objects=(box(7.0, 1.5, 1.0, mass=2.0),))
     )
-    simulation.start()
-    before = simulation.world.body("blackbox").world_from_body.position
+    simulation.advance(0.0)
+    before = simulation.world.bodies.find("blackbox").world_from_body.position
     run(simulation, 0.5)
-    assert np.array_equal(simulation.world.body("blackbox").world_from_body.position, before)
+    assert np.array_equal(simulation.world.bodies.find("blackbox").world_from_body.position, before)

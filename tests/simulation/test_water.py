@@ -162,13 +162,13 @@ def test_what_floats_goes_where_the_water_goes(
     scene = tmp_path / "scene.xml"
     scene.write_text(SCENE.format(current=write(tmp_path), dynamics=dynamics))
     simulation = open_scene(replace(read_scene(scene), ros_interfaces=()))
-    simulation.start()
-    localized_from_world = simulation.world.world_from_localized.inverse()
+    simulation.advance(0.0)
+    localized_from_world = simulation.world.model.scene.world_from_localized.inverse()
     dt, travelled, places = simulation.timestep, np.zeros(3), [START]
     for step in range(round(8.0 / dt)):
         travelled += law(places[-1], step * dt) * dt
         simulation.advance()
-        world = simulation.world.body("float").world_from_body
+        world = simulation.world.bodies.find("float").world_from_body
         places.append((localized_from_world @ world).position)
     assert np.linalg.norm(travelled) > 0.5
     velocity = (places[-1] - places[-101]) / (100 * dt)

@@ -85,7 +85,7 @@ class FakeActuators:
 
 
 class FakeWorld:
-    """A `uwsim.world.Stage`: bodies, cameras and a bus; time moves only by `advance`.
+    """A `uwsim.world.World` and its `uwsim.world.Stage`; time moves only by `advance`.
 
     What updaters do to it is kept in ``fog``, ``light_rate``, ``camera_noise``, ``joints``,
     ``current`` and ``put_backs``; what touches what stands in ``touching``, with which force in
@@ -121,6 +121,10 @@ class FakeWorld:
         self.driven: dict[str, Actuators] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
+
+    @property
+    def world(self) -> FakeWorld:
+        return self
 
     @property
     def step(self) -> int:

@@ -108,7 +108,7 @@ def test_a_sensor_is_published_as_soon_as_its_spec_has_a_bind(
     with open_scene(scene, is_blind=True) as simulation:
         simulation.latest("/depth")
         simulation.advance(0.01)
-        expected = -simulation.world.body("girona500/base_link").world_from_body.position[2]
+        expected = -simulation.world.bodies.find("girona500/base_link").world_from_body.position[2]
         assert simulation.latest("/depth").data == pytest.approx(expected)
         assert "other" not in simulation.topics
         saved = simulation.save()

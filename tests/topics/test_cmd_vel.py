@@ -121,7 +121,7 @@ def test_the_cloud_has_the_points_of_the_scan_that_hit(tmp_path: Path) -> None:
         is_hit = scan.ranges < np.float32(scan.range_max)
         assert 5 < is_hit.sum() < len(scan.ranges)  # some beams miss
         assert np.linalg.norm(found, axis=1) == pytest.approx(scan.ranges[is_hit], rel=1e-6)
-        frame = simulation.world.sensor("beams", ("multibeamSensor",))
+        frame = simulation.world.sensors.sensor("beams", ("multibeamSensor",))
         assert frame is not None
         bearings = np.arctan2(found[:, 1], found[:, 0])
         angles = scan.angle_min + scan.angle_increment * np.arange(len(scan.ranges))

@@ -45,7 +45,7 @@ def test_a_topic_carries_the_sensor_of_the_last_vehicle(tmp_path: Path) -> None:
         )
         simulation.advance(0.1)
         assert depths == pytest.approx([5.0, 5.0])
-        assert simulation.world.camera("eye").world_from_camera.position[0] > 2.0
+        assert simulation.world.sensors.camera("eye").world_from_camera.position[0] > 2.0
         (camera,) = scene_head(simulation, "", Blob())["cameras"]
         assert camera["body"].startswith("two/")
 
@@ -59,7 +59,7 @@ def test_a_camera_that_is_left_out_hides_no_other(
     assert [each["topics"] for each in found["cameras"]] == [["/eye"], []]
     assert not any("2 cameras" in warning for warning in found["warnings"])
     with open_scene(read_scene(file), is_blind=True) as simulation:
-        assert simulation.world.camera("eye").world_from_camera.position[0] < 2.0
+        assert simulation.world.sensors.camera("eye").world_from_camera.position[0] < 2.0
         (camera,) = scene_head(simulation, "", Blob())["cameras"]
         assert camera["body"].startswith("one/")
 

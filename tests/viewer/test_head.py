@@ -64,7 +64,7 @@ def test_a_camera_is_where_the_simulation_has_it(described: Any) -> None:
     (camera,) = head["cameras"]
     body = next(body for body in head["bodies"] if body["name"] == camera["body"])
     found = pose(body["pose"]) @ pose(camera["pose"])
-    wanted = simulation.world.camera(camera["name"]).world_from_camera
+    wanted = simulation.world.sensors.camera(camera["name"]).world_from_camera
     assert np.abs(found.matrix - wanted.matrix).max() < 1e-6
     assert (camera["width"], camera["height"]) == (640, 480)
 
@@ -85,7 +85,7 @@ def test_lamps_projectors_and_vehicles_are_described(scene: str, key: str, n: in
 
 def test_the_view_of_the_file_is_that_of_its_camera(described: Any) -> None:
     head, _, simulation = described
-    camera, view = simulation.world.scene.camera, head["file_view"]
+    camera, view = simulation.world.model.scene.camera, head["file_view"]
     first = pose(view["pose"])
     assert view["fovy"] == pytest.approx(np.radians(camera.fov))
     assert first.position == pytest.approx(camera.position)
@@ -119,6 +119,6 @@ def test_the_first_view_is_the_orbit_of_a_render_and_has_vehicle_and_task_in_it(
 
 def test_a_scene_without_a_camera_has_no_view_of_the_file(described: Any) -> None:
     _, _, simulation = described
-    scene = dataclasses.replace(simulation.world.scene, camera=None)
+    scene = dataclasses.replace(simulation.world.model.scene, camera=None)
     with open_scene(scene) as plain:
         assert scene_head(plain, "scene", Blob())["file_view"] is None

@@ -137,7 +137,7 @@ def test_a_grey_camera_is_grey_in_the_page(tab: Any, tmp_path: Path) -> None:
         path.write_text(document("grey", packed(head, blob)), encoding="utf-8")
         tab.goto(path.as_uri())
         tab.wait_for_function(EVERY)
-        view = simulation.world.camera(camera["name"])
+        view = simulation.world.sensors.camera(camera["name"])
         colour = simulation.world.scenery.render_clean(
             view.world_from_camera, view.intrinsics, fog=0.1
         ).colour
@@ -159,7 +159,7 @@ def test_cameras_see_what_the_renderer_draws(tab: Any, scene: str, tmp_path: Pat
         tab.goto(path.as_uri())
         tab.wait_for_function(EVERY)
         for camera in head["cameras"]:
-            view = simulation.world.camera(camera["name"])
+            view = simulation.world.sensors.camera(camera["name"])
             for fog in (0.0, 0.4):
                 drawn = simulation.world.scenery.render_clean(
                     view.world_from_camera, view.intrinsics, fog=fog

@@ -19,7 +19,7 @@ from uwsim.simulation import Simulation
 from uwsim.viewer.document import document
 from uwsim.viewer.film.puppets import Puppets
 from uwsim.viewer.head import scene_head
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 from uwsim.viewer.pack import Blob, packed
 from uwsim.viewer.recorded import RecordedTrial
 
@@ -81,10 +81,10 @@ def test_a_live_view_sends_a_heap_when_it_has_changed(tmp_path: Path) -> None:
         now[0] += 0.1
         return now[0]
 
-    view = LiveView(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
     spec = scene(tmp_path, 1.0)
     with open_scene(spec, is_blind=True) as simulation:
-        view.open(simulation, "scene")
+        session.open(simulation, "scene")
         simulation.advance(0.1)
         assert desk.on("sand/0") == []
         (heap,) = simulation.world.scenery.heaps

@@ -103,7 +103,7 @@ def test_shapes_are_where_the_renderer_has_them(tmp_path: Path) -> None:
         return world_from[frame]
 
     with uwsim.load("shapes-scene") as simulation:
-        simulation.start()
+        simulation.advance(0.0)
         scenery = simulation.world.scenery
         meshes = [(part, mesh) for part in scenery.parts for mesh in part.model.meshes]
         (shapes,) = found["/scene"]

@@ -46,7 +46,7 @@ def test_of_things_of_one_name_each_is_drawn_where_it_is(tmp_path: Path) -> None
         assert len({signal.name for signal in state.signals}) == len(state.signals)
         assert [vehicle["name"] for vehicle in head["vehicles"]] == ["rov", "rov#2"]
         assert [heap["body"] for heap in head["sand"]] == ["sand/box", "sand/box#2"]
-        world.every_vehicle[1].place(Pose(np.array([5.0, -4.0, 3.0]), np.eye(3)))
+        world.vehicles[1].place(Pose(np.array([5.0, -4.0, 3.0]), np.eye(3)))
         rows = state.row()[: 7 * len(state.bodies)].reshape(-1, 7)
         found = {body["name"]: body["pose"] for body in head["bodies"]}
         found |= dict(zip(state.bodies, rows.tolist(), strict=True))
@@ -68,7 +68,7 @@ def test_of_things_of_one_name_each_is_drawn_where_it_is(tmp_path: Path) -> None
 def test_things_of_one_name_have_boxes_and_ids_of_their_own(tmp_path: Path) -> None:
     scene = twins(tmp_path)
     with open_scene(scene, is_blind=True) as simulation:
-        names, boxes = simulation.world.part_names, simulation.boxes()
+        names, boxes = simulation.world.scenery.part_names, simulation.boxes()
         links = [name for name in names.values() if not name.startswith("sand/")]
         assert links == ["rov/base_link", "rov#2/base_link", "box", "box#2", "rov/base_link#2"]
         assert set(links) == set(boxes)

@@ -108,8 +108,8 @@ class Lazy(Live, Generic[P]):
         assign(self.made().state, _checked(value, Record))
 
 
-@dataclasses.dataclass(frozen=True, slots=True)
-class Drawn:
+@dataclasses.dataclass(slots=True)
+class Drawn(Item):
     """How far a random generator has drawn."""
 
     words: bytes
@@ -148,8 +148,17 @@ def copied(value: Any) -> Any:
 
 def copied_record(record: R) -> R:
     """Return a record of values alone."""
-    kind, copies = type(record), _COPIES
-    return kind(*[copies[type(each)](each) for each in _FIELDS[kind](record)])
+    copy: R = _COPIES[type(record)](record)
+    return copy
+
+
+def changing_fields(kind: type) -> tuple[int, ...]:
+    """Return the places of the fields of a dataclass that may hold more than a number or a text."""
+    return tuple(
+        place
+        for place, each in enumerate(dataclasses.fields(kind))
+        if not _PLAIN.issuperset(str(each.type).split(" | "))
+    )
 
 
 def fields_of(record: object) -> tuple[Any, ...]:
@@ -163,8 +172,9 @@ class _Fields(dict[type, Callable[[Any], Any]]):
 
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
         names = [each.name for each in dataclasses.fields(kind)]
-        several = attrgetter(*names) if len(names) > 1 else None
-        self[kind] = several or (lambda one: tuple(getattr(one, name) for name in names))
+        self[kind] = read = attrgetter(*names) if names else lambda record: ()
+        if len(names) == 1:
+            self[kind] = lambda record: (read(record),)
         return self[kind]
 
 
@@ -174,10 +184,26 @@ class _Copies(dict[type, Callable[[Any], Any]]):
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
         self[kind] = _itself
         if issubclass(kind, Record):
-            self[kind] = copied_record
+            self[kind] = _record_copier(kind)
         elif issubclass(kind, Live):
             self[kind] = kind.value
         return self[kind]
+
+
+def _record_copier(kind: type[Any]) -> Callable[[Any], Any]:
+    """Return what copies the records of a class: of most fields there is nothing to copy."""
+    fields, places, copies = _FIELDS[kind], changing_fields(kind), _COPIES
+    if not places:
+        return lambda record: kind(*fields(record))
+
+    def copy(record: Any) -> Any:
+        values = [*fields(record)]
+        for place in places:
+            value = values[place]
+            values[place] = copies[type(value)](value)
+        return kind(*values)
+
+    return copy
 
 
 def _itself(value: Any) -> Any:
@@ -188,9 +214,11 @@ def _copied_array(value: Any) -> Any:
     return value.copy() if value.flags.writeable else value
 
 
+_PLAIN = {"int", "float", "bool", "str", "bytes", "None"}
 _FIELDS = _Fields()
 _COPIES: _Copies = _Copies(
     {
+        NoState: _itself,
         np.ndarray: _copied_array,
         np.random.Generator: Drawn.by,
         list: lambda value: [_COPIES[type(each)](each) for each in value],

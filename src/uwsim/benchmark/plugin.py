@@ -40,6 +40,7 @@ from ..errors import (
     type_and_text,
 )
 from ..world import Stage
+from .bind_part import Part, bind_part
 from .measures import Measure, MeasureSpec
 from .plugin_checks import ContractViolation
 from .triggers import Trigger, TriggerSpec
@@ -198,7 +199,7 @@ def attribute_errors_to(
 
 def check_bound(
     plugins: Sequence[Plugin],
-    parts: Sequence[MeasureSpec | TriggerSpec | SceneUpdaterSpec],
+    parts: Sequence[Part],
     stage: Stage,
 ) -> None:
     """Bind all measures, triggers and updaters of plugins, and check the results.
@@ -211,7 +212,7 @@ def check_bound(
         plugin = own.get(type(part).__module__)
         if plugin is None:
             continue
-        live: object = part.bind(stage)
+        live: object = bind_part(part, stage)
         for spec, kind in LIVE:
             if isinstance(part, spec) and not isinstance(live, kind):
                 gives = "None" if live is None else type(live).__name__

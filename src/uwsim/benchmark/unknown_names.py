@@ -7,12 +7,9 @@ from collections.abc import Callable, Iterator
 from ..errors import Diagnostic, UnknownName, UwsimError
 from ..schema import Diagnostics, Spec, fields_of, line_of
 from ..world import Stage
-from .measures import MeasureSpec
+from .bind_part import Part, bind_part
 from .spec import BenchmarkSpec
-from .triggers import TriggerSpec
-from .updaters import SceneUpdaterSpec, chain
-
-Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
+from .updaters import chain
 
 
 def unknown_names(
@@ -63,7 +60,7 @@ def _wrong(part: Part, stage: Stage) -> Iterator[tuple[int | None, str]]:
         yield from unknown
         return
     try:
-        part.bind(stage).close()
+        bind_part(part, stage).close()
     except UwsimError as error:
         yield _line(part, error.name), str(error)
 
@@ -89,10 +86,10 @@ def _vehicle(stage: Stage, name: str) -> None:
 
 
 LOOK_UP: dict[str, Callable[[Stage, str], object]] = {
-    "actuators": lambda stage, name: stage.actuators(name),
-    "body": lambda stage, name: stage.body(name),
-    "camera": lambda stage, name: stage.camera(name),
-    "contacts": lambda stage, name: stage.contacts(name),
+    "actuators": lambda stage, name: stage.world.actuators(name),
+    "body": lambda stage, name: stage.world.body(name),
+    "camera": lambda stage, name: stage.world.camera(name),
+    "contacts": lambda stage, name: stage.world.contacts(name),
     "vehicle": _vehicle,
 }
 """What a field refers to (`element`) -> the look-up, which raises UnknownName."""

@@ -248,7 +248,7 @@ def _apply_in_scene(
     except UwsimError as error:
         return [*found, benchmark.error(spec if scene is None else None, str(error))]
     try:
-        benchmark.model, benchmark.stage = model, simulation.world
+        benchmark.model, benchmark.stage = model, simulation.world.stage_view
         return [*found, *apply(Need.MODEL)]
     finally:
         simulation.close()

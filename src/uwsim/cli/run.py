@@ -132,18 +132,18 @@ def viewed(
 
     title, is_piloted = Path(spec.path).stem, wanted.program is None
     speed = 1.0 if connections.speed is None else connections.speed
-    with live.opened(title, speed=speed, is_piloted=is_piloted, resets=is_piloted) as view:
-        if view is not None:
+    with live.opened(title, speed=speed, is_piloted=is_piloted, resets=is_piloted) as session:
+        if session is not None:
             pilot = pilot_topics(simulation) if is_piloted else None
             if pilot is not None:
                 from ..algorithms.pilot import Pilot
 
-                PilotInputs(simulation, view.pilot)
+                PilotInputs(simulation, session.pilot)
                 simulation.attach(Pilot(), parameters={**pilot, "start": ""})
-            view.open(simulation, title, pilot)
+            session.open(simulation, title, pilot)
         yield
-        if view is not None:
-            view.close()
+        if session is not None:
+            session.close()
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -85,7 +85,7 @@ class Wanted:
         from ..simulation import views
 
         is_view = self.line is not None or self.view is not None
-        cameras = simulation.world.cameras if self.camera is None else (self.camera,)
+        cameras = simulation.world.sensors.cameras if self.camera is None else (self.camera,)
         if len(cameras) > 1 and not is_view:
             raise BadSetting(
                 f"The scene has {len(cameras)} virtual cameras; choose one with --camera: "
@@ -120,7 +120,7 @@ class Wanted:
         return RenderedView(what, pixels.view(np.uint8), draw)
 
     def _seen(self, simulation: Simulation, name: str) -> RenderedView:
-        camera = simulation.world.camera(name)
+        camera = simulation.world.sensors.camera(name)
         if self.size is not None:
             camera.resize(camera.intrinsics.resized(*self.size))
         return RenderedView(

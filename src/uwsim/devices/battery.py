@@ -35,7 +35,7 @@ from typing import ClassVar
 from ..base.record import Record
 from ..messages import BatteryState, header
 from ..schema import element
-from ..world import Actuators, Stage
+from ..world import Actuators, DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 RATE = 50.0
@@ -73,14 +73,14 @@ class BatterySpec(DeviceSpec):
         """The greatest power that it can feed [W]."""
         return self.voltage**2 / (4.0 * self.resistance) if self.resistance > 0.0 else math.inf
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Battery:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Battery:
         """Find the consumers; of a vehicle that is not simulated there is the constant load."""
-        actuators = stage.actuators(vehicle.name)
+        actuators = world.actuators(vehicle.name)
         limited = self.stops_thrusters or self.greatest_load < math.inf
         reduced = actuators.thrusters if actuators is not None and limited else ()
         cuts = tuple(vehicle.loss_setter(name) for name in reduced)
-        battery = Battery(self, stage, actuators, cuts)
-        stage.every(RATE, battery.drain)
+        battery = Battery(self, world, actuators, cuts)
+        world.every(RATE, battery.drain)
         return battery
 
 
@@ -104,13 +104,13 @@ class Battery(Device):
     def __init__(
         self,
         spec: BatterySpec,
-        stage: Stage,
+        world: DeviceWorld,
         actuators: Actuators | None,
         cuts: tuple[Callable[[float], None], ...],
     ) -> None:
-        self._spec, self._stage, self._actuators, self._cuts = spec, stage, actuators, cuts
+        self._spec, self._world, self._actuators, self._cuts = spec, world, actuators, cuts
         drawn = (1.0 - spec.charge) * self._full
-        self.state: BatteryRecord = BatteryRecord(drawn, 0.0, stage.time)
+        self.state: BatteryRecord = BatteryRecord(drawn, 0.0, world.time)
         greatest = 0.0 if actuators is None else actuators.greatest_power
         self._can_overload = bool(cuts) and spec.hotel_load + greatest > spec.greatest_load
 
@@ -121,7 +121,7 @@ class Battery(Device):
 
     def drain(self) -> None:
         """Take what was drawn since the last time, by the trapezoidal rule."""
-        now, current = self._stage.time, self._current_of(self._load())
+        now, current = self._world.time, self._current_of(self._load())
         state = self.state
         state.drawn += 0.5 * (state.current + current) * (now - state.time)
         state.drawn = min(state.drawn, self._full)

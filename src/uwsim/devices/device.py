@@ -16,7 +16,7 @@ from ..base.record import NoState, Record
 from ..schema import Spec
 from ..sensors.sensor import Carrier
 from ..vehicle import Vehicle
-from ..world import Stage
+from ..world import DeviceWorld
 
 
 class DeviceVehicle(Vehicle, Carrier, Protocol):
@@ -56,7 +56,7 @@ class DeviceSpec(Spec, abc.ABC):
         return ()
 
     @abc.abstractmethod
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Device:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Device:
         """Find what the device acts on; raises UnknownName if there is none."""
 
 

@@ -16,7 +16,7 @@ from typing import ClassVar
 
 from ..base.record import Record
 from ..schema import REQUIRED, element
-from ..world import Body, Stage
+from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 RATE = 60.0
@@ -38,10 +38,10 @@ class DredgeToolSpec(DeviceSpec):
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
     """Read and not used, as in the original [rad]."""
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> DredgeTool:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> DredgeTool:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        tool = DredgeTool(stage, vehicle.mount(_Place(relative_to=self.target), visual=True))
-        stage.every(RATE, tool.dig)
+        tool = DredgeTool(world, vehicle.mount(_Place(relative_to=self.target), visual=True))
+        world.every(RATE, tool.dig)
         return tool
 
 
@@ -65,10 +65,10 @@ class DredgeState(Record):
 class DredgeTool(Device):
     """A tool that takes sand where it is."""
 
-    def __init__(self, stage: Stage, mount: Body) -> None:
-        self._stage, self._mount = stage, mount
+    def __init__(self, world: DeviceWorld, mount: Body) -> None:
+        self._world, self._mount = world, mount
         self.state: DredgeState = DredgeState()
 
     def dig(self) -> None:
         """Take 0.01 m of each column of sand whose top is within 0.1 m."""
-        self.state.n_taken += self._stage.dig(self._mount.world_from_body.position)
+        self.state.n_taken += self._world.dig(self._mount.world_from_body.position)

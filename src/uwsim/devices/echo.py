@@ -13,7 +13,7 @@ from typing import ClassVar
 from ..errors import UnknownName
 from ..messages import String
 from ..schema import REQUIRED, Spec, element
-from ..world import Stage
+from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 
@@ -29,7 +29,7 @@ class EchoSpec(DeviceSpec):
     info: str = element(default="", original=REQUIRED)
     """The text; an empty one switches the device off."""
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Echo:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Echo:
         """Have the text published; raises UnknownName if it is empty."""
         if not self.info:
             raise UnknownName("echo with a text", self.name, ())

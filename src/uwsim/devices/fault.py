@@ -26,7 +26,7 @@ from typing import ClassVar, Literal
 
 from ..errors import UnknownName
 from ..schema import element
-from ..world import Stage
+from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 from .fault_times import FaultState, FaultTimes
 
@@ -93,11 +93,11 @@ class FaultSpec(DeviceSpec):
             )
         return found
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Device:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Device:
         """Find the thruster; raises UnknownName if the vehicle has none of that name."""
         if self.thruster is None:
             return IDLE
-        random = stage.stream(f"{vehicle.name}/{self.thruster}/{self.STREAM}")
+        random = world.stream(f"{vehicle.name}/{self.thruster}/{self.STREAM}")
         return ThrusterFault(self, vehicle.loss_setter(self.thruster), FaultTimes(self, random))
 
 

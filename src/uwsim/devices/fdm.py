@@ -36,7 +36,7 @@ from ..base.geodesy import Geodetic
 from ..base.geometry import Pose, rotation_from_rpy
 from ..base.record import Record
 from ..vehicle import Vehicle, go_or_place
-from ..world import Stage
+from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 from .tf import HeardFrames, HeardState
 
@@ -56,14 +56,14 @@ class FdmSpec(DeviceSpec):
     port: int
     """Of the packets."""
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> FdmInput:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> FdmInput:
         """Take packets from now on, where the simulation takes any."""
         return FdmInput(
             vehicle,
-            stage.datagrams(self.port),
-            stage.ned_origin,
-            HeardFrames(stage.bus),
-            stage.world_from_localized,
+            world.datagrams(self.port),
+            world.ned_origin,
+            HeardFrames(world.bus),
+            world.world_from_localized,
         )
 
 

@@ -25,7 +25,7 @@ from typing import ClassVar, Literal
 
 from ..messages import Vector3, Wrench, WrenchStamped, header
 from ..schema import REQUIRED, element
-from ..world import MovingBody, Stage
+from ..world import DeviceWorld, MovingBody
 from .device import Device, DeviceSpec, DeviceVehicle
 
 
@@ -67,7 +67,7 @@ class ForceSensorSpec(DeviceSpec):
         """Fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
         return self.offsetr
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ForceSensor:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ForceSensor:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
         return ForceSensor(self, vehicle.moving_mount(self, visual=True))
 

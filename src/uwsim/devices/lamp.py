@@ -21,7 +21,7 @@ from ..bus import Remark
 from ..messages import Float64
 from ..schema import element
 from ..sensors.sensor import LookAt
-from ..world import Body, Stage
+from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 
 MAX_LAMPS = 4
@@ -73,10 +73,10 @@ class LampSpec(DeviceSpec):
         """The topic of its brightness."""
         return (DeviceTopic(name=self.brightness_topic, is_heard=True),)
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MountedLamp:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MountedLamp:
         """Mount the lamp on its link; raises UnknownName if the vehicle has no such link."""
         lamp = MountedLamp(self, vehicle.mount(self))
-        stage.bus.subscribe(self.brightness_topic, Float64, lamp.command, remark=odd_brightness)
+        world.bus.subscribe(self.brightness_topic, Float64, lamp.command, remark=odd_brightness)
         return lamp
 
 

@@ -22,7 +22,7 @@ from ..base.geometry import Pose
 from ..base.record import Record
 from ..messages import LedLight
 from ..schema import REQUIRED, element
-from ..world import Body, Stage
+from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .lamp import LampSpec
 
@@ -71,7 +71,7 @@ class LedArraySpec(DeviceSpec):
         red, green = link_from_array.transform(ends).tolist()
         return {"red": tuple(red), "green": tuple(green)}
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> LedArray:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> LedArray:
         """Mount the lamps on their link; raises UnknownName if the vehicle has no such link."""
         leds = []
         for colour, place in self.places.items():
@@ -85,8 +85,8 @@ class LedArraySpec(DeviceSpec):
                 color=COLOURS[colour],
                 shadow=False,
             )
-            led = Led(spec, mount, lambda: stage.time)
-            stage.bus.subscribe(spec.name, LedLight, led.command)
+            led = Led(spec, mount, lambda: world.time)
+            world.bus.subscribe(spec.name, LedLight, led.command)
             leds.append(led)
         return LedArray(tuple(leds))
 

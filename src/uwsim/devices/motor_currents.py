@@ -20,7 +20,7 @@ import numpy as np
 from ..base.record import RandomState
 from ..messages import JointState, header
 from ..schema import element
-from ..world import Actuators, Stage
+from ..world import Actuators, DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 
@@ -37,10 +37,10 @@ class MotorCurrentsSpec(DeviceSpec):
     std: float = element(default=0.0, minimum=0.0, maximum=1e6)
     """Noise of each current, standard deviation [A]."""
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MotorCurrents:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MotorCurrents:
         """Find the motors; a vehicle that is not simulated has none."""
-        random = stage.stream(f"{vehicle.name}/{self.name}/noise")
-        return MotorCurrents(self, stage.actuators(vehicle.name), random)
+        random = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return MotorCurrents(self, world.actuators(vehicle.name), random)
 
 
 class MotorCurrents(Device):

@@ -18,7 +18,7 @@ from ..base.record import Record
 from ..messages import Bool, Range, header
 from ..schema import element
 from ..sensors.sensor import LookAt
-from ..world import Body, Stage
+from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 
 RATE = 60.0
@@ -64,12 +64,12 @@ class ObjectPickerSpec(DeviceSpec):
         """The topic of its release."""
         return (DeviceTopic(name=self.release_topic, is_heard=True),)
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> ObjectPicker:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ObjectPicker:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual=True)
-        picker = ObjectPicker(self, mount, stage, vehicle)
-        stage.bus.subscribe(self.release_topic, Bool, picker.command)
-        stage.every(RATE, picker.look)
+        picker = ObjectPicker(self, mount, world, vehicle)
+        world.bus.subscribe(self.release_topic, Bool, picker.command)
+        world.every(RATE, picker.look)
         return picker
 
 
@@ -92,9 +92,9 @@ class ObjectPicker(Device):
     """
 
     def __init__(
-        self, spec: ObjectPickerSpec, mount: Body, stage: Stage, vehicle: DeviceVehicle
+        self, spec: ObjectPickerSpec, mount: Body, world: DeviceWorld, vehicle: DeviceVehicle
     ) -> None:
-        self._spec, self._mount, self._stage, self._vehicle = spec, mount, stage, vehicle
+        self._spec, self._mount, self._world, self._vehicle = spec, mount, world, vehicle
         self.state: PickerState = PickerState(spec.range)
 
     def command(self, message: Bool) -> None:
@@ -109,7 +109,7 @@ class ObjectPicker(Device):
         if self.state.held is not None or self.state.is_released:
             return
         distance, surface = self._cast()
-        thing = self._stage.catchable(surface)
+        thing = self._world.catchable(surface)
         if thing is not None and distance <= self._spec.range:
             self._vehicle.hold(thing, self._spec.relative_to)
             self.state.held, self.state.distance = thing, distance
@@ -129,5 +129,5 @@ class ObjectPicker(Device):
 
     def _cast(self) -> tuple[float, int]:
         """Distance to the first surface [m], and its number."""
-        hits = self._stage.rays.cast(self._mount.world_from_body, AHEAD, self._spec.range)
+        hits = self._world.rays.cast(self._mount.world_from_body, AHEAD, self._spec.range)
         return float(hits.distance[0]), int(hits.surface[0])

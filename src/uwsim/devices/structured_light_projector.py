@@ -16,7 +16,7 @@ from typing import ClassVar
 from ..base.geometry import Pose
 from ..schema import MAX_DISTANCE, element
 from ..sensors.sensor import OPTICAL_AXES, LookAt
-from ..world import Body, Stage
+from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 
@@ -50,9 +50,9 @@ class StructuredLightProjectorSpec(DeviceSpec):
     """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. It stays fixed to its link."""
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> MountedProjector:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MountedProjector:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        mount = vehicle.mount(self, visual="visual-frames" in stage.compatibility)
+        mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return MountedProjector(self, mount)
 
 

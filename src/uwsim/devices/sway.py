@@ -18,7 +18,7 @@ import numpy as np
 
 from ..base.geometry import Pose, rotation_from_xyz, xyz_from_rotation
 from ..schema import element
-from ..world import Stage
+from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 AXES = ("x", "y", "z", "roll", "pitch", "yaw")
@@ -45,7 +45,7 @@ class SwaySpec(DeviceSpec):
         """Return ``amplitude * sin(2 pi time / period + phase)`` [m or rad]."""
         return self.amplitude * math.sin(2.0 * math.pi * time / self.period + self.phase)
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> Sway:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Sway:
         """Sway the vehicle about its place."""
         return Sway(self, vehicle.displacer(AXES.index(self.axis)))
 

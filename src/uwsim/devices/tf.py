@@ -21,7 +21,7 @@ from ..bus import Bus, Remark
 from ..messages import TFMessage, TransformStamped
 from ..schema import MAX_DISTANCE, element
 from ..vehicle import Vehicle, go_or_place
-from ..world import Stage
+from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 WORLD = "world"
@@ -45,12 +45,12 @@ class TfSpec(DeviceSpec):
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """Orientation of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> TfFollower:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> TfFollower:
         """Listen to ``/tf`` from now on."""
         frame_from_vehicle = Pose.from_rpy(self.position, self.orientation)
-        frames = HeardFrames(stage.bus)
+        frames = HeardFrames(world.bus)
         return TfFollower(
-            vehicle, frames, self.tf_id, frame_from_vehicle, stage.world_from_localized
+            vehicle, frames, self.tf_id, frame_from_vehicle, world.world_from_localized
         )
 
 

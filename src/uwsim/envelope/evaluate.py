@@ -57,7 +57,9 @@ class Evaluations:
     def __init__(self, main_run: Run, *, at: Level, over: str, criterion: Criterion) -> None:
         self.main_run = main_run
         """Where they are kept."""
-        self._at, self._over, self._criterion = at, over, criterion
+        self._at, self._criterion = at, criterion
+        self.over = over
+        """The column of the value that is searched."""
         self._trials: dict[tuple[int, tuple[float, ...]], Trial] = {}
         self._taken: set[int] = set()  # indices of trial files
         self.made: dict[tuple[int, float], Evaluation] = {}
@@ -96,7 +98,7 @@ class Evaluations:
     def trial(self, seed: int, value: float) -> Trial:
         """Return the trial of a run. Its number follows from its seed and its level."""
         level = Level(
-            tuple((name, value if name == self._over else v) for name, v in self._at.values)
+            tuple((name, value if name == self.over else v) for name, v in self._at.values)
         )
         key = (seed, tuple(v for _, v in level.values))
         if key not in self._trials:
@@ -135,7 +137,7 @@ class _JobQueue(JobQueue):
         """Resume the task that waits for the run."""
         super().done(job)
         values = dict(job.trial.levels[0].values)
-        key = (job.trial.seed, values[self._runs._over])
+        key = (job.trial.seed, values[self._runs.over])
         answer = self._runs.stored(*key)
         assert answer is not None
         for task in self._awaited.pop(key):

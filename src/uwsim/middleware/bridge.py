@@ -50,10 +50,11 @@ from typing import ClassVar
 
 from ..base.message_fields import size_of
 from ..bus import Bus, TopicEnds
-from ..errors import BadMessage, RunFailed, UwsimError
+from ..errors import RunFailed, UwsimError
 from ..messages.services import Service
 from .admission import Admission
 from .clock_topic import COARSE_PERIOD, ClockTopic
+from .entrance import Entrance
 from .later_answers import LaterAnswers, pass_on
 from .log import Log
 from .queues import LatestQueue
@@ -125,9 +126,7 @@ class Bridge(ABC):
         """Who may publish and call; None: everybody."""
         self._n_wanted: Counter[str] = Counter()
         self._stops: dict[str, Callable[[], None]] = {}
-        self._publishers: dict[str, Callable[[object], None]] = {}
-        self._own: set[int] = set()
-        self._sender = ""  # of the message that is being published
+        self._entrance = Entrance(bus, log, owner=self, publisher_of=self._publisher_of)
         self._revision = -1
         self._topics: dict[str, TopicEnds] = {}
         self._services: dict[str, Service] = {}
@@ -353,9 +352,9 @@ class Bridge(ABC):
             incoming, self._incoming = self._incoming, {}
         for topic in sorted(incoming):
             for message, by in incoming[topic].take():
-                self._publish(topic, message, by)
+                self._entrance.publish(topic, message, by)
         self.bus.deliver()
-        self._own.clear()
+        self._entrance.forget_messages()
 
     def _serve(self, limit: int | None) -> None:
         """Follow those outside who read or offer services, and answer calls (`WaitingCalls`)."""
@@ -412,7 +411,7 @@ class Bridge(ABC):
             self._stops.pop(topic)()
 
     def _pass(self, topic: str, message: object) -> None:
-        if self.SENDS_BACK or id(message) not in self._own:
+        if self.SENDS_BACK or not self._entrance.has_published(message):
             self.n_sent += 1
             self.send(topic, message)
 
@@ -433,31 +432,6 @@ class Bridge(ABC):
             text = f"The service failed: {type(error).__name__}: {error}"
             self.log.say(f"/{name}: {text}", kind=f"failed {name}")
             future.set_exception(UwsimError(text))
-
-    def _publish(self, topic: str, message: object, by: str) -> None:
-        """Put a message from outside on the bus; one that does not fit is reported."""
-        self._sender = by
-        try:
-            if self.bus.is_withheld(topic):
-                raise BadMessage(f"Topic {topic!r} is not for the outside.")
-            if topic not in self._publishers:
-                self._publishers[topic] = self.bus.publisher(
-                    topic, type(message), owner=self, say=self._remark
-                )
-            self._own.add(id(message))
-            self._publishers[topic](message)
-        except UwsimError as error:
-            text = f"a message{self._from(topic)} was refused: {error}"
-            self.log.say(f"/{topic}: {text}", kind=f"refused {topic}")
-
-    def _remark(self, topic: str, text: str) -> None:
-        """Report what is odd about the message that is being published."""
-        self.log.say(f"/{topic}: in a message{self._from(topic)}, {text}")
-
-    def _from(self, topic: str) -> str:
-        """`` of `` and who has published the message that is being published, where it is known."""
-        who = self._sender or self._publisher_of(topic)
-        return f" of {who}" if who else ""
 
     def _publisher_of(self, topic: str) -> str:
         """Name who publishes a topic outside, where a message does not say it; may be empty."""

@@ -6,10 +6,10 @@ import asyncio
 import time
 from collections.abc import Callable
 from functools import partial
-from typing import Any
 
-from websockets.asyncio.server import ServerConnection
+from websockets.asyncio.server import Server, ServerConnection
 from websockets.protocol import State
+from websockets.server import ServerProtocol
 
 from .work_budget import WorkBudget
 
@@ -75,13 +75,37 @@ class LimitedConnection(ServerConnection):
     All that arrives counts: the library answers control frames itself.
 
     Args:
-        arguments: those of `ServerConnection`.
+        protocol: of the connection.
+        server: that serves it.
         limits: those of the server.
-        options: those of `ServerConnection`.
+        ping_interval: time between two pings [s]; None: none are sent.
+        ping_timeout: how long an answer to a ping may take [s]; None: for ever.
+        close_timeout: how long closing may take [s]; None: for ever.
+        max_queue: frames that wait to be read.
+        write_limit: of what is on its way [byte].
     """
 
-    def __init__(self, *arguments: Any, limits: ConnectionLimits, **options: Any) -> None:
-        super().__init__(*arguments, **options)
+    def __init__(
+        self,
+        protocol: ServerProtocol,
+        server: Server,
+        *,
+        limits: ConnectionLimits,
+        ping_interval: float | None = 20.0,
+        ping_timeout: float | None = 20.0,
+        close_timeout: float | None = 10.0,
+        max_queue: int | tuple[int | None, int | None] | None = 16,
+        write_limit: int | tuple[int, int | None] = 2**15,
+    ) -> None:
+        super().__init__(
+            protocol,
+            server,
+            ping_interval=ping_interval,
+            ping_timeout=ping_timeout,
+            close_timeout=close_timeout,
+            max_queue=max_queue,
+            write_limit=write_limit,
+        )
         self._limits = limits
         self._own = WorkBudget(limits.share, limits.burst)
         self.is_spared: Callable[[], bool] = lambda: False

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -13,10 +14,13 @@ import numpy.typing as npt
 from ..base.digest import digest_of
 from ..base.engine import mujoco
 from ..base.geometry import Pose, quaternion_from_rotation
+from ..devices.device import DeviceSpec
 from ..devices.object_picker import ObjectPickerSpec
 from ..scene.hydrodynamics import VehicleHydrodynamics
+from ..scene.mounts import MountFrames
 from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
+from ..sensors.sensor import BindsSensor, MountedSensor
 from .body_names import object_body, owner_of
 from .collision.scene_shapes import collision_shapes
 from .collision.shapes import CollisionShape
@@ -24,6 +28,8 @@ from .collision.solid_grounds import SolidGround, solid_grounds
 from .parts import Part, parts_of
 from .ray_bodies import RayBodies
 from .water_density import density_levels
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -55,6 +61,19 @@ class SceneModel:
     """The collision shapes of what is simulated, by the name of its body."""
     engine_model: mujoco.MjModel
     """The model of the physics engine; each engine steps a copy."""
+    _computed: dict[Callable[[SceneModel], Any], Any] = field(
+        default_factory=dict, init=False, repr=False
+    )
+
+    def compute_once(self, compute: Callable[[SceneModel], T]) -> T:
+        """Return what a function of a higher package computes from the model alone.
+
+        It is computed at the first request. Nobody writes to it: all simulations share it.
+        """
+        if compute not in self._computed:
+            self._computed[compute] = compute(self)
+        value: T = self._computed[compute]
+        return value
 
     @cached_property
     def digest(self) -> str:
@@ -74,6 +93,33 @@ class SceneModel:
     def parts(self) -> tuple[Part, ...]:
         """The visible models and whose they are; loaded when they are first asked for."""
         return tuple(parts_of(self.scene, self.robots, self.data_path))
+
+    @cached_property
+    def mount_frames(self) -> tuple[MountFrames, ...]:
+        """Each vehicle at its pose in the file, from which its mounts are computed."""
+        place = self.scene.world_from_localized
+        vehicles = enumerate(self.scene.vehicles)
+        return tuple(MountFrames(spec, self.robots[index], place) for index, spec in vehicles)
+
+    @cached_property
+    def sensor_specs(self) -> tuple[tuple[int, str, BindsSensor], ...]:
+        """The sensors that are simulated and no devices: number of the vehicle, element, spec."""
+        return tuple(
+            (index, element, part)
+            for index, vehicle in enumerate(self.scene.vehicles)
+            for element, part in vehicle.all_parts()
+            if not isinstance(part, DeviceSpec) and isinstance(part, BindsSensor)
+        )
+
+    @cached_property
+    def mounted_sensors(self) -> tuple[tuple[int, MountedSensor], ...]:
+        """The sensors and devices with a frame: number of the vehicle, spec."""
+        return tuple(
+            (index, part)
+            for index, vehicle in enumerate(self.scene.vehicles)
+            for _, part in vehicle.all_parts()
+            if isinstance(part, MountedSensor)
+        )
 
     @cached_property
     def all_shapes(self) -> Mapping[str, tuple[CollisionShape, ...]]:

@@ -17,7 +17,6 @@ from ..model.scene_model import SceneModel
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec
-from ..world import Contact
 from .actuation.vehicle_actuation import actuation_of
 from .bounce_limit import BounceLimit
 from .collision.contacts import EngineContacts, body_name
@@ -58,7 +57,7 @@ class Engine:
         shapes = scene_model.shapes
         self._robots, self._dynamics = robots, dynamics
         # its own: servos, grips and lifts change numbers of it
-        self._model = model = copy.copy(scene_model.engine_model)
+        self._model = model = copy.copy(scene_model.compute_once(_corrected_model))
         self._data = data = mujoco.MjData(model)
         place_fixed_shapes(model, data)
         names = [body_name(scene, model.body(i).name) for i in range(model.nbody)]
@@ -70,7 +69,8 @@ class Engine:
         """How the links of vehicles move."""
         self.grips = Grips(model, data, self.poses, dynamics, shapes)
         """Objects that vehicles hold."""
-        self._contacts = EngineContacts(scene_model, model, data)
+        self.contacts = EngineContacts(scene_model, model, data)
+        """Contacts between what it simulates."""
         self._check = StepCheck(model, data, names)
         free = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
         self._free_places = {i: int(model.jnt_qposadr[joint]) for i, joint in free.items()}
@@ -84,7 +84,7 @@ class Engine:
         self._water: Hydrodynamics | None = _water_of(model) if dynamics else None
         self.joint_wrench = JointWrench(model, data, self.poses, self._water)
         """What links do to the joints that carry them."""
-        self.actuation = actuation_of(scene, robots, dynamics, data, self._water, self.poses)
+        self.actuation = actuation_of(scene_model, data, self._water, self.poses)
         """What moves each simulated vehicle, by its number."""
         self._set_first_joints(scene)
         self._wet, self._felt_at = self._wet_points()
@@ -94,13 +94,13 @@ class Engine:
         """Bodies that begin in the ground, on their way out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
         self.state = EngineState(
-            memory=EngineMemory(data, self._contacts.forget),
+            memory=EngineMemory(data, self.contacts.forget),
             model=ModelState.of(model),
             n_steps=0,
             actuation={i: each.state for i, each in self.actuation.items()},
             poses=self.poses.state,
             grips=self.grips.state,
-            contacts=self._contacts.state,
+            contacts=self.contacts.state,
             lift=self.lift.state,
             bounces=self._bounces.state if self._bounces else None,
             stepper=self._stepper.state if self._stepper else None,
@@ -162,7 +162,7 @@ class Engine:
         finally:
             self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()
-        self._contacts.look_again(hold=True)
+        self.contacts.look_again(hold=True)
         self.poses.moved()
 
     def push(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
@@ -197,12 +197,8 @@ class Engine:
             self._bounces.apply()
         self.state.n_steps += 1
         self._check.end_if_warned(self.state.n_steps)
-        self._contacts.look_again(hold=True)
+        self.contacts.look_again(hold=True)
         self.poses.moved()
-
-    def contacts(self, kind: Kind, index: int) -> list[Contact] | None:
-        """Where a vehicle or object touches others; None if it has no shape to be touched."""
-        return self._contacts.of(kind, index)
 
     def deep_at_start(self, depth: float) -> list[tuple[Kind, int]]:
         """Return the simulated vehicles and loose objects that are in something fixed now.
@@ -229,14 +225,6 @@ class Engine:
         if body is not None:
             self.lift.add(body, rise)
 
-    def contact_forces(self, kind: Kind, index: int) -> dict[str, Array]:
-        """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N]."""
-        return self._contacts.forces(kind, index)
-
-    def contact_wrench(self, index: int, link: str, point: Array) -> Array:
-        """Force and torque about a point of the contacts on a link, in W, (6,) [N, N m]."""
-        return self._contacts.wrench(self.poses.link_body(index, link), point)
-
     def vehicle_velocity(self, index: int) -> Array:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
         first = self._free_dofs[index]
@@ -252,7 +240,7 @@ class Engine:
         if index in self.actuation:
             self._data.qvel[dof : dof + 6] = 0.0
             self.actuation[index].hold(world_from_base)
-            self._contacts.look_again(hold=False)
+            self.contacts.look_again(hold=False)
         self.poses.moved()
 
     def placed_motion(self, index: int) -> PlacedMotion:
@@ -333,8 +321,19 @@ def _bounces_of(scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) ->
     return BounceLimit(model, data, bodies) if bodies else None
 
 
-def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
-    """Install the hydrodynamics of a model."""
+def _corrected_model(scene_model: SceneModel) -> mujoco.MjModel:
+    """Return the model that the engines of a scene copy: with the water in its inverse weights."""
+    if not scene_model.dynamics:
+        return scene_model.engine_model
     from .hydrodynamics.hydrodynamics import install
 
-    return install(model)
+    model = copy.copy(scene_model.engine_model)
+    install(model)
+    return model
+
+
+def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
+    """Return the hydrodynamics of an engine's model."""
+    from .hydrodynamics.hydrodynamics import attach
+
+    return attach(model)

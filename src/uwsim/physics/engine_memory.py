@@ -61,6 +61,7 @@ class EngineMemory(Live):
         self._forget = forget
         fields, size = data_places()
         self._struct = struct = _view(data._address, size)
+        self._bytes = struct.data
         self._counts = _places_of_counts()
         first, end = fields["contact"].start, fields["signature"].start
         self._places = struct[first:end].view(np.uint64)
@@ -70,14 +71,16 @@ class EngineMemory(Live):
             raise MujocoChanged("MuJoCo keeps its arrays elsewhere than its description says.")
         self._arrays = _view(buffer, data.nbuffer)
         self._arena = _view(self._base, data.narena)
+        self._n_counts = sum(each.stop - each.start for each in self._counts)
         self._used = words["parena"]
 
     def value(self) -> EngineNumbers:
         """Return its numbers as they are now."""
-        places, base = self._places, np.uint64(self._base)
-        counted = np.where(places == 0, np.uint64(0), places - base + np.uint64(1))
+        places = self._places
+        counted = places - np.uint64(self._base - 1)
+        counted[places == 0] = 0
         return EngineNumbers(
-            self._struct[self._counts].tobytes(),
+            b"".join([self._bytes[each] for each in self._counts]),
             counted.tobytes(),
             self._arrays.tobytes(),
             self._arena[: int(self._used[0])].tobytes(),
@@ -87,14 +90,17 @@ class EngineMemory(Live):
         """Set its numbers; raises UwsimError where they are of another model."""
         if not isinstance(value, EngineNumbers):
             raise of_another_scene()
-        counts, places = _bytes(value.counts), np.frombuffer(value.places, np.uint64)
-        lengths = len(counts), len(places), len(value.arrays)
-        own = len(self._counts), len(self._places), len(self._arrays)
+        places = np.frombuffer(value.places, np.uint64)
+        lengths = len(value.counts), len(places), len(value.arrays)
+        own = self._n_counts, len(self._places), len(self._arrays)
         if lengths != own or len(value.arena) > len(self._arena):
             raise of_another_scene()
         if places.max(initial=0) > len(value.arena) + 1:  # what is empty may begin at its end
             raise of_another_scene()
-        self._struct[self._counts] = counts
+        first = 0
+        for each in self._counts:
+            end = first + each.stop - each.start
+            self._bytes[each], first = value.counts[first:end], end
         base = np.uint64(self._base)
         self._places[:] = np.where(places == 0, np.uint64(0), places + base - np.uint64(1))
         self._arrays[:] = _bytes(value.arrays)
@@ -103,12 +109,17 @@ class EngineMemory(Live):
 
 
 @cache
-def _places_of_counts() -> npt.NDArray[np.intp]:
-    """The bytes of the struct that are kept."""
+def _places_of_counts() -> tuple[slice, ...]:
+    """The bytes of the struct that are kept: as few slices as there are gaps between them."""
     fields, _ = data_places()
     first, last = fields[FIRST].start, fields[LAST].start
-    kept = [each for name, each in fields.items() if name in COUNTS or first <= each.start <= last]
-    return np.concatenate([np.arange(each.start, each.stop) for each in kept])
+    kept: list[slice] = []
+    for name, each in fields.items():
+        if name not in COUNTS and not first <= each.start <= last:
+            continue
+        begin = kept.pop().start if kept and kept[-1].stop == each.start else each.start
+        kept.append(slice(begin, each.stop))
+    return tuple(kept)
 
 
 def _view(address: int, size: int) -> Bytes:

@@ -18,10 +18,12 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
         BadSetting: an output of a program outside is on no topic.
     """
     benchmark = plan.benchmark
-    bind_updaters(benchmark.scene_updater, simulation.world)
-    measures = [TriggeredMeasure(spec, simulation.world) for spec in benchmark.measures]
+    bind_updaters(benchmark.scene_updater, simulation.world.stage_view)
+    measures = [
+        TriggeredMeasure(spec, simulation.world.measure_view) for spec in benchmark.measures
+    ]
     if plan.algorithm.client is not None:
         check_outputs(plan.algorithm.client.outputs, simulation.bus)
     for triggered in measures:
         triggered.close()
-    LevelTriggers(benchmark, simulation.world).close()
+    LevelTriggers(benchmark, simulation.world.measure_view).close()

@@ -25,7 +25,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     """
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     robots = {
-        Path(simulation.world.robots[i].path): vehicle.file
+        Path(simulation.world.model.robots[i].path): vehicle.file
         for i, vehicle in enumerate(plan.scene.vehicles)
     }
     assets = [
@@ -37,7 +37,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     others = dict(simulation.world.files)
     for updater in chain(plan.benchmark.scene_updater):
         with attribute_errors_to(plan.plugins):
-            others |= files_of(updater, simulation.world)
+            others |= files_of(updater, simulation.world.stage_view)
     assets += _hashed({name: path for name, path in others.items() if path not in known})
     assets += [
         InputFile(name, f"sha256:{digest}")

@@ -70,7 +70,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
         simulation = Simulation(compile_plan(plan, 0), pool=pool)
         try:
             with attribute_errors_to(plan.plugins):
-                check_bound(plan.plugins, plan.benchmark.parts, simulation.world)
+                check_bound(plan.plugins, plan.benchmark.parts, simulation.world.stage_view)
                 _bind_all(plan, simulation)
             return inputs_of(plan, simulation, files), simulation.world.scenery.renderer_name
         finally:
@@ -82,9 +82,9 @@ def _bind_all(plan: Plan, simulation: Simulation) -> None:
     try:
         bind_all(plan, simulation)
     except UwsimError:
-        if errors := unknown_names(plan.benchmark, simulation.world):
+        if errors := unknown_names(plan.benchmark, simulation.world.stage_view):
             raise BenchmarkError(errors) from None
         raise
-    truths = truth_diagnostics(plan.benchmark, simulation.world)
+    truths = truth_diagnostics(plan.benchmark, simulation.world.stage_view)
     if errors := [each for each in truths if each.severity == "error"]:
         raise BenchmarkError(errors)

@@ -7,7 +7,7 @@ joints as in the file, and then moves with its link as ``<orientation>`` would.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -42,6 +42,7 @@ class MountFrames:
     vehicle: VehicleSpec
     robot: RobotSpec
     world_from_localized: Pose
+    _of_parts: dict[tuple[int, bool], Pose] = field(default_factory=dict, init=False)
 
     @cached_property
     def world_from_base(self) -> Pose:
@@ -76,6 +77,30 @@ class MountFrames:
     @cached_property
     def _base_from_links(self) -> dict[str, Pose]:
         return link_poses(self.robot, self.vehicle.joint_values)
+
+    @cached_property
+    def _parts(self) -> frozenset[int]:
+        """The identities of what the vehicle carries: the same as long as there is this object."""
+        return frozenset(map(id, self.vehicle.parts))
+
+    def link_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
+        """Its pose in its link's frame; of a part of the vehicle it is computed once.
+
+        Args:
+            spec: of what is mounted.
+            visual: whether the file gives its place in the visual frame of the link.
+
+        Raises:
+            KeyError: there is no such link.
+        """
+        if (key := (id(spec), visual)) in self._of_parts:
+            return self._of_parts[key]
+        link_from_part = link_from_frame(
+            self.robot, spec.relative_to, visual
+        ) @ self.frame_from_mounted(spec, visual=visual)
+        if id(spec) in self._parts:
+            self._of_parts[key] = link_from_part
+        return link_from_part
 
     def frame_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
         """Its pose in its link's frame, or in the link's visual frame.

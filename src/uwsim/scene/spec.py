@@ -132,6 +132,11 @@ class SceneSpec(Spec):
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)
 
     @property
+    def earth_origin(self) -> Geodetic | None:
+        """Where on Earth the origin of W is: x east, y north; None if the scene does not say."""
+        return None if self.ned_origin is None else self.ned_origin.place
+
+    @property
     def is_dynamic(self) -> bool:
         """Whether a vehicle is simulated."""
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Literal
 
@@ -41,6 +41,34 @@ class SceneBody:
         return self._box
 
 
+class SceneBodies:
+    """The bodies of a scene by name.
+
+    Args:
+        model: of the scene.
+        engine: where everything is.
+    """
+
+    def __init__(self, model: SceneModel, engine: Engine) -> None:
+        self._bodies = name_bodies(model, engine)
+
+    def find(self, name: str) -> SceneBody:
+        """Find what a route ``a/b/c`` names; nodes between the first and the last may be skipped.
+
+        The name of a link may have slashes itself, ``rov/bluerov2/base_link``.
+
+        Raises:
+            UnknownName: nothing matches; lists what there is.
+        """
+        nodes = [node.strip() for node in name.strip().strip("/").split("/")]
+        if nodes[0] == "localizedWorld" and len(nodes) > 1:
+            nodes = nodes[1:]
+        for known in ("/".join(nodes), f"{nodes[0]}/{nodes[-1]}"):
+            if known in self._bodies:
+                return self._bodies[known]
+        raise UnknownName("body", name, self._bodies)
+
+
 def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
     """Give every frame of the scene its routes; where two share a name, the first has it.
 
@@ -55,7 +83,8 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
     bodies = {
         "localizedWorld": SceneBody("localizedWorld", lambda: scene.world_from_localized, None)
     }
-    boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
+    boxes, link_boxes = model.compute_once(_object_boxes), model.compute_once(_link_boxes)
+    engine.poses.refresh()  # the state at the start has the poses of all bodies
 
     def add(names: Sequence[str], pose: Callable[[], Pose], box: Box | None) -> None:
         for name in names:
@@ -73,19 +102,44 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
             pose = partial(engine.poses.mounted, index, link.name, link_from_visual)
-            shown = [
-                part for part in model.parts if (part.vehicle, part.link) == (index, link.name)
-            ]
-            add(seen, pose, _box_of(shown, pose(), engine.poses.link_frame(index, link.name)))
+            add(seen, pose, link_boxes[index, link.name])
     for index, thing in enumerate(scene.objects):
-        mesh, box = thing.object_from_mesh, boxes.get(index)
-        if box is not None and "box-scale" not in model.compatibility:
-            box = scaled_box(box, mesh.rotation, thing.scale_factor)
+        mesh = thing.object_from_mesh
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
         object_from_mesh = Pose(origin, mesh.rotation)
         pose = partial(_attached, partial(engine.poses.object, index), object_from_mesh)
-        add([thing.name], pose().copy if engine.poses.is_fixed(index) else pose, box)
+        add([thing.name], pose().copy if engine.poses.is_fixed(index) else pose, boxes.get(index))
     return bodies
+
+
+def _object_boxes(model: SceneModel) -> dict[int, Box]:
+    """Return the box of each object that is seen, by its number."""
+    boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
+    if "box-scale" in model.compatibility:
+        return boxes
+    things = {index: model.scene.objects[index] for index in boxes}
+    return {
+        index: scaled_box(boxes[index], thing.object_from_mesh.rotation, thing.scale_factor)
+        for index, thing in things.items()
+    }
+
+
+def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
+    """Return the box of each link that is seen, by the number of its vehicle and its name."""
+    engine = Engine(model)
+    boxes = {}
+    for index, robot in model.robots.items():
+        for link in robot.links:
+            if link.visual is None:
+                continue
+            link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
+            world_from_visual = engine.poses.mounted(index, link.name, link_from_visual)
+            parts = [
+                each for each in model.parts if (each.vehicle, each.link) == (index, link.name)
+            ]
+            frame = engine.poses.link_frame(index, link.name)
+            boxes[index, link.name] = _box_of(parts, world_from_visual, frame)
+    return boxes
 
 
 def _box_of(
@@ -127,23 +181,6 @@ def scaled_box(
     corners = product(box.corners(), scaling.T)  # (8, 3) [m]
     lower, upper = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Box(tuple(lower), tuple(upper))
-
-
-def find_body(route: str, bodies: Mapping[str, SceneBody]) -> SceneBody:
-    """Find what a route ``a/b/c`` names; nodes between the first and the last may be skipped.
-
-    The name of a link may have slashes itself, ``rov/bluerov2/base_link``.
-
-    Raises:
-        UnknownName: nothing matches; lists what there is.
-    """
-    nodes = [node.strip() for node in route.strip().strip("/").split("/")]
-    if nodes[0] == "localizedWorld" and len(nodes) > 1:
-        nodes = nodes[1:]
-    for name in ("/".join(nodes), f"{nodes[0]}/{nodes[-1]}"):
-        if name in bodies:
-            return bodies[name]
-    raise UnknownName("body", route, bodies)
 
 
 def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:

@@ -2,30 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from functools import partial
 
 from ..base.geometry import Pose
 from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
 from ..scene.spec import SceneSpec
-from ..scene.vehicle import VehicleSpec
-from ..sensors.sensor import MountedSensor
 from ..topics.frames import Frame
 from ..world import Body
-from .vehicles import SceneVehicle
+from .bodies import SceneBodies
+from .vehicles import SceneVehicles
 
 
-def vehicle_frames(
-    model: SceneModel, vehicles: Sequence[SceneVehicle], engine: Engine
-) -> Iterator[Frame]:
-    """Every vehicle with its links and sensors; a sensor on a missing link is left out.
+def scene_frames(
+    model: SceneModel,
+    engine: Engine,
+    vehicles: SceneVehicles,
+    bodies: SceneBodies,
+    *,
+    with_objects: bool,
+) -> list[Frame]:
+    """List the frames of vehicles, their links and sensors, and those of objects."""
+    frames = [*_vehicle_frames(model, engine, vehicles)]
+    return [*frames, *_object_frames(model.scene, bodies)] if with_objects else frames
 
-    Args:
-        model: of the scene.
-        vehicles: the vehicles of the scene, in the file's order.
-        engine: where their links are.
-    """
+
+def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) -> Iterator[Frame]:
+    """Every vehicle with its links and sensors; a sensor on a missing link is left out."""
     scene = model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
@@ -37,7 +41,7 @@ def vehicle_frames(
             parent, child = f"{spec.name}/{joint.parent}", f"{spec.name}/{joint.child}"
             between = _between(links[joint.parent], links[joint.child])
             yield Frame(parent, child, between, is_fixed=not joint.moves)
-        for sensor in _sensors(spec):
+        for sensor in (part for owner, part in model.mounted_sensors if owner == index):
             if (link := links.get(sensor.relative_to)) is not None:
                 sensor_from_frame = Pose.from_rpy((0.0, 0.0, 0.0), sensor.frame_rpy)
                 frame = _on(vehicle.mount(sensor), sensor_from_frame)
@@ -45,17 +49,11 @@ def vehicle_frames(
                 yield Frame(parent, sensor.name, _between(link, frame), is_fixed=True)
 
 
-def _sensors(vehicle: VehicleSpec) -> Iterator[MountedSensor]:
-    for _, part in vehicle.all_parts():
-        if isinstance(part, MountedSensor):
-            yield part
-
-
-def object_frames(scene: SceneSpec, find: Callable[[str], Body]) -> Iterator[Frame]:
+def _object_frames(scene: SceneSpec, bodies: SceneBodies) -> Iterator[Frame]:
     """The mesh frames of all objects in L; of several of one name the first."""
     localized_from_world = scene.world_from_localized.inverse()
     for name in dict.fromkeys(thing.name for thing in scene.objects):
-        body = find(name)
+        body = bodies.find(name)
         yield Frame("", name, _in(localized_from_world, _on(body, Pose.identity())))
 
 

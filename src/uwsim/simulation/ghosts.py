@@ -60,12 +60,14 @@ def follow_recorded(simulation: Simulation, recorded: Mapping[str, str]) -> tupl
         Names of the vehicles that follow.
     """
     world, ghosts = simulation.world, dict[str, Ghost]()
-    for spec in world.scene.ros_interfaces:
+    for spec in world.model.scene.ros_interfaces:
         if isinstance(spec, PATToROSOdomSpec) and (topic := _of(spec.topic, recorded)):
-            ghost = Ghost(world.vehicle(spec.vehicle_name), world.world_from_localized)
+            ghost = Ghost(
+                world.vehicles.find(spec.vehicle_name), world.model.scene.world_from_localized
+            )
             ghosts[spec.vehicle_name] = ghost
             world.bus.subscribe(topic, Odometry, ghost.see_odometry)
-    for spec in world.scene.ros_interfaces:
+    for spec in world.model.scene.ros_interfaces:
         if isinstance(spec, ArmToROSJointStateSpec) and spec.vehicle_name in ghosts:
             see: Callable[[JointState], None] = ghosts[spec.vehicle_name].see_joints
             if topic := _of(spec.topic, recorded):
@@ -79,7 +81,7 @@ def commanded_topics(simulation: Simulation, vehicles: tuple[str, ...]) -> froze
     """Topics, with a leading slash, by which these vehicles take commands."""
     return frozenset(
         f"/{getattr(spec, field).strip('/')}"
-        for spec in simulation.world.scene.ros_interfaces
+        for spec in simulation.world.model.scene.ros_interfaces
         if spec.subscribes and getattr(spec, "vehicle_name", None) in vehicles
         for field in spec.carries()
     )
@@ -89,7 +91,7 @@ def odometry_vehicles(simulation: Simulation, recorded: frozenset[str]) -> tuple
     """Vehicles whose odometry is among recorded topics (with a leading slash)."""
     return tuple(
         spec.vehicle_name
-        for spec in simulation.world.scene.ros_interfaces
+        for spec in simulation.world.model.scene.ros_interfaces
         if isinstance(spec, PATToROSOdomSpec) and f"/{spec.topic.strip('/')}" in recorded
     )
 

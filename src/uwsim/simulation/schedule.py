@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from ..base.record import Record
 from ..base.sampling import SampleTimer, TimerState
+from ..bus import Bus
 
 M = TypeVar("M")
 
@@ -29,23 +30,24 @@ class Schedule:
     """Timers, and the commands of the next step.
 
     Args:
+        bus: counts the steps.
         timestep: length of a step [s].
     """
 
-    def __init__(self, timestep: float) -> None:
-        self._timestep = timestep
+    def __init__(self, bus: Bus, timestep: float) -> None:
+        self._bus, self._timestep = bus, timestep
         self._timers: list[SampleTimer] = []
         self._appliers: list[Callable[[Any], None]] = []
         self.state = ScheduleState()
         """What is to be done later."""
 
-    def every(self, step: int, rate: float, call: Callable[[], None]) -> Callable[[], None]:
-        """Have ``call`` called at the samples of ``rate`` [Hz] from a step on.
+    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+        """Have ``call`` called at the samples of ``rate`` [Hz] from now on.
 
         Returns:
             How to stop.
         """
-        timer = SampleTimer(step, rate, self._timestep, call)
+        timer = SampleTimer(self._bus.state.step, rate, self._timestep, call)
         self._timers.append(timer)
         self.state.timers.append(timer.state)
         self.state.due = min(self.state.due, timer.due)

@@ -26,18 +26,16 @@ from ..errors import BadSetting, UwsimError
 from ..model.scene_model import SceneModel
 from ..network import nanoseconds
 from ..physics.compile_scene import recompile
-from ..physics.motion import Motion
 from ..rendering.rendered_image import RenderedImage
-from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from ..world import Flow
-from .access import arguments
+from .access import arguments, placing
 from .access.boxes import OrientedBox, oriented_boxes
 from .access.topics import TopicAccess
 from .forces import engine_wrenches
+from .live_scene import LiveScene
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scenery.renderer_pool import RendererPool
-from .stage import SceneStage
 from .state.state import OwnIdentity, State
 
 MAX_RUN = 1000
@@ -73,8 +71,8 @@ class Simulation:
                 f"a {type(model).__name__}: {arguments.shown(model)}."
             )
         self._own_pool = RendererPool()
-        self._make_stage = partial(
-            SceneStage,
+        self._make_scene = partial(
+            LiveScene,
             stream_prefix=stream_prefix,
             pool=pool or self._own_pool,
             is_blind=is_blind,
@@ -87,18 +85,18 @@ class Simulation:
 
     def _open(self, model: SceneModel, read: Iterable[str] = ()) -> None:
         """Open a model at step 0 and read some topics."""
-        self.world = world = self._make_stage(model)
-        """The world of the scene."""
-        scene, engine = world.scene, world.engine
+        self.world = world = self._make_scene(model)
+        """The live parts of the scene."""
+        scene, engine = model.scene, world.engine
+        self._engine, self._water, self._schedule = engine, world.water, world.schedule
+        self._devices, self._forces, self._contacts = world.devices, world.forces, world.contacts
+        self._network, self._below_ground = world.network, world.below_ground
+        self._image_timers = [images.timer for images in world.images.values()]
         placed = [i for i in range(len(scene.vehicles)) if not engine.is_simulated(i)]
-        self._drifting = [world.numbered_vehicle(i) for i in placed]
+        self._drifting = [world.vehicles[i] for i in placed]
         self._wet_names = tuple(
             "" if i is None else scene.vehicles[i].name for i in engine.submerged_vehicles()
         )
-        self.images = {
-            each.image_topic: each for each in world.interfaces if isinstance(each, ImagePublisher)
-        }
-        """What publishes images, by topic."""
         self._access = TopicAccess(self.bus, read)
         self._state = self._make_state()
         self._animate()
@@ -107,18 +105,18 @@ class Simulation:
         """Put together the records of all parts."""
         world = self.world
         return State(
-            identity=OwnIdentity(self.model),
+            identity=OwnIdentity(world.model),
             bus=world.bus.state,
             engine=world.engine.state,
-            vehicles=[vehicle.state for vehicle in world.every_vehicle],
-            sensors=[sensor.state for sensor in world.every_sensor],
+            vehicles=[vehicle.state for vehicle in world.vehicles],
+            sensors=[sensor.state for sensor in world.sensors.bound],
             devices=[device.state for device in world.devices],
             forces=[force.state for force in world.forces],
             interfaces=[interface.state for interface in world.interfaces],
-            faults=[topic.state for topic in world.faulty_topics],
+            faults=[topic.state for topic in world.sensors.faulty_topics],
             scenery=world.scenery.state,
             water=world.water.state,
-            contacts=world.touch.state,
+            contacts=world.contacts.state,
             below_ground=world.below_ground.state,
             schedule=world.schedule.state,
             network=world.network.state,
@@ -144,16 +142,11 @@ class Simulation:
         if self._nodes:
             names = ", ".join(node.name for node in self._nodes)
             raise UwsimError(f"Cannot be reset: {names} is attached, with a state of its own.")
-        model = self.model
+        model = self.world.model
         if seed is not None:
             model = recompile(model, arguments.checked_seed(seed))
         self.world.close()
         self._open(model, self._access.read)
-
-    @property
-    def model(self) -> SceneModel:
-        """What does not change while it runs."""
-        return self.world.model
 
     @property
     def state(self) -> State:
@@ -180,20 +173,18 @@ class Simulation:
         """``step * timestep`` [s]."""
         return self._state.bus.step * self.world.model.timestep
 
-    def start(self) -> None:
-        """Publish the first samples, at step 0; the first `advance` does so, too."""
-        self._access.state.is_started = True
-        self._publish()
-
     def advance(self, seconds: float | None = None) -> None:
         """Take one step, or as many whole steps as there are in some seconds (rounded).
+
+        The first call publishes the samples of step 0 before; ``advance(0.0)`` does this alone.
 
         Raises:
             BadSetting: the time is negative or not finite.
             RunFailed: the engine cannot continue.
         """
         if not self._access.state.is_started:
-            self.start()
+            self._access.state.is_started = True
+            self._publish()
         if seconds is None:
             self._advance()
             return
@@ -204,13 +195,13 @@ class Simulation:
     def _advance(self, wanted: int = 1) -> int:
         """Take a step, and of those wanted after it all that nothing comes between; how many."""
         self._state.bus.step += 1
-        self.world.schedule.apply_commands()
+        self._schedule.apply_commands()
         self._step_devices()
         self._advect_kinematic()
         n = self._n_alone(wanted) if wanted > 1 else 1
         self._step_physics(n)
         self._animate()
-        self.world.touch.update(self.step)
+        self._contacts.update(self.step)
         self._publish()
         for look in self._watchers:
             look()
@@ -223,24 +214,24 @@ class Simulation:
         forces, water that is not the same everywhere and what drifts with it have to do in every
         step.
         """
-        world, now = self.world, self.step
+        engine, water, now = self._engine, self._water, self.step
         delivery = self.bus.next_delivery
         if (
             delivery <= now
             or self._watchers
-            or world.forces
-            or world.touch.is_laid
-            or not world.engine.is_dynamic
-            or world.engine.moves_by_step
-            or not world.water.is_uniform
-            or (self._drifting and not world.water.is_still)
+            or self._forces
+            or self._contacts.is_laid
+            or not engine.is_dynamic
+            or engine.moves_by_step
+            or not water.is_uniform
+            or (self._drifting and not water.is_still)
         ):
             return 1
-        dues = [delivery, world.schedule.state.due if world.network.is_idle else now]
-        dues += [each.timer.due for each in self.images.values()]
-        dues += [world.below_ground.due, *(node.next_tick for node in self._nodes)]
+        dues = [delivery, self._schedule.state.due if self._network.is_idle else now]
+        dues += [timer.due for timer in self._image_timers]
+        dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self.time - self.timestep
-        rests = [math.inf, *(device.rests_until(began) for device in world.devices)]
+        rests = [math.inf, *(device.rests_until(began) for device in self._devices)]
         free = (min(rests) - began) // self.timestep - 1
         n = min(wanted, MAX_RUN, min(dues) - now + 1, free)
         return max(1, int(n))
@@ -296,8 +287,8 @@ class Simulation:
         Raises:
             UnknownName: there is no such body; names the nearest.
         """
-        world_from_body = self.world.body(name).world_from_body
-        return self._world_from_frame(of).inverse() @ world_from_body
+        world_from_body = self.world.bodies.find(name).world_from_body
+        return placing.world_from_frame(self.world, of).inverse() @ world_from_body
 
     def set_pose(self, name: str, pose: Pose, of: str = "L") -> None:
         """Place a vehicle or an object, at rest; afterwards `pose` returns this pose.
@@ -312,12 +303,8 @@ class Simulation:
             BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
             UwsimError: the object is fixed, or a vehicle holds it.
         """
-        self.world.place(name, arguments.checked_pose(name, self._world_from_frame(of), pose))
-
-    def _world_from_frame(self, frame: str) -> Pose:
-        """Return ``world_from_frame`` of ``L``, ``W`` or a body."""
-        frames = {"W": Pose.identity(), "L": self.world.world_from_localized}
-        return frames[frame] if frame in frames else self.world.body(frame).world_from_body
+        world_from_frame = placing.world_from_frame(self.world, of)
+        placing.place(self.world, name, arguments.checked_pose(name, world_from_frame, pose))
 
     def velocity(self, name: str) -> Array:
         """Return the twist of a simulated vehicle over ground, in its base frame, (6,).
@@ -328,8 +315,8 @@ class Simulation:
             UnknownName: there is no such vehicle; names the nearest.
             UwsimError: the vehicle is kinematic.
         """
-        vehicle = self.world.vehicle(name)
-        if not self.world.engine.is_simulated(vehicle.index):
+        vehicle = self.world.vehicles.find(name)
+        if not self._engine.is_simulated(vehicle.index):
             raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
         return vehicle.velocity
 
@@ -340,7 +327,7 @@ class Simulation:
             UnknownName: there is no such camera; names the nearest.
             NoGraphics: there is no OpenGL.
         """
-        view, scenery = self.world.camera(camera), self.world.scenery
+        view, scenery = self.world.sensors.camera(camera), self.world.scenery
         image = scenery.render_clean(view.world_from_camera, view.intrinsics)
         return replace(image, world_from_camera=view.world_from_camera, names=scenery.part_names)
 
@@ -349,20 +336,22 @@ class Simulation:
 
         Args:
             of: the frame of the boxes, as `pose` takes it. The frame of a camera is
-                ``simulation.world.camera(name).world_from_camera`` of ``W``.
+                ``simulation.world.sensors.camera(name).world_from_camera`` of ``W``.
 
         Raises:
             UnknownName: there is no such frame; names the nearest.
         """
-        return oriented_boxes(self.world.scenery, self._world_from_frame(of).inverse())
+        return oriented_boxes(
+            self.world.scenery, placing.world_from_frame(self.world, of).inverse()
+        )
 
     def set_fog(self, density: float) -> None:
         """Set the density of the fog [1/m], 0 for clear water; BadSetting if it is negative."""
-        self.world.set_fog(arguments.checked_number("set_fog", density))
+        self.world.scenery.set_fog(arguments.checked_number("set_fog", density))
 
     def set_light(self, rate: float) -> None:
         """Scale the light of the scene, 1 by default, 0 for night; BadSetting if negative."""
-        self.world.set_light_rate(arguments.checked_number("set_light", rate))
+        self.world.scenery.set_light_rate(arguments.checked_number("set_light", rate))
 
     def set_current(self, velocity: Sequence[float] | Flow | None) -> None:
         """Add a current to those of the scene, in place of the one that was set before.
@@ -373,19 +362,14 @@ class Simulation:
         Raises:
             BadSetting: these are not three numbers, or one exceeds the fastest current.
         """
-        self.world.set_current(arguments.flow_of(velocity))
-
-    @property
-    def motion(self) -> Motion:
-        """Positions and velocities of all bodies, as one row of numbers."""
-        return self.world.engine.motion
+        self.world.water.set(arguments.flow_of(velocity))
 
     def _publish(self) -> None:
         bus, step = self.bus, self.step
-        for images in self.images.values():
-            images.timer.tick(step)
-        self.world.network.advance(nanoseconds(self.time))
-        self.world.schedule.tick(step)
+        for timer in self._image_timers:
+            timer.tick(step)
+        self._network.advance(nanoseconds(self.time))
+        self._schedule.tick(step)
         bus.deliver()
         for node in self._nodes:
             node.tick()
@@ -394,26 +378,26 @@ class Simulation:
     def _step_devices(self) -> None:
         """Let devices act, at the start of the step."""
         time = self.time - self.timestep
-        for device in self.world.devices:
+        for device in self._devices:
             device.step(time)
 
     def _advect_kinematic(self) -> None:
         """Advect kinematic vehicles with the water, as the original does."""
-        world = self.world
-        if world.water.is_still:
+        water = self._water
+        if water.is_still:
             return
         for vehicle in self._drifting:
             here = vehicle.world_from_base
-            vehicle.drift(world.water.carried(here, self.time, self.timestep, vehicle.name))
+            vehicle.drift(water.carried(here, self.time, self.timestep, vehicle.name))
 
     def _step_physics(self, n: int) -> None:
         """Advance the physics by some steps, in the flow of the water at their times."""
-        engine, water = self.world.engine, self.world.water
-        if self.world.forces:
-            engine.push(engine_wrenches(self.world.forces, self.time - self.timestep))
+        engine, water = self._engine, self._water
+        if self._forces:
+            engine.push(engine_wrenches(self._forces, self.time - self.timestep))
         if not engine.is_dynamic:
             engine.fall()
-            self.world.below_ground.look(self.step)
+            self._below_ground.look(self.step)
             return
         first, half = self.step, 0.5 * self.timestep  # forces act in the middle of a step
         motion = None
@@ -425,11 +409,11 @@ class Simulation:
             engine.step(n, motion)
         finally:
             self._state.bus.step = first + max(0, engine.n_steps - before - 1)
-        self.world.below_ground.look(self.step)
+        self._below_ground.look(self.step)
 
     def _animate(self) -> None:
         """Move what devices animate."""
-        for device in self.world.devices:
+        for device in self._devices:
             device.animate(self.time)
 
     def attach(

@@ -11,8 +11,8 @@ import numpy as np
 from ..base.geometry import Array, Pose, quaternion_from_rotation, rotation_from_quaternion
 from ..model.parts import Part
 from ..scene.urdf.robot import RobotSpec
+from .live_scene import LiveScene
 from .unique_names import unique
-from .world import SceneWorld
 
 
 class TrackedBodies:
@@ -22,15 +22,15 @@ class TrackedBodies:
         world: whose bodies they are.
     """
 
-    def __init__(self, world: SceneWorld) -> None:
+    def __init__(self, world: LiveScene) -> None:
         self._poses = world.engine.poses
-        self._leaders = {i: leaders(robot) for i, robot in world.robots.items()}
+        self._leaders = {i: leaders(robot) for i, robot in world.model.robots.items()}
         links = [
             (i, link)
             for i, leader_of in self._leaders.items()
             for link in dict.fromkeys(leader_of.values())
         ]
-        movable = [i for i in range(len(world.scene.objects)) if not self._poses.is_fixed(i)]
+        movable = [i for i in range(len(world.model.scene.objects)) if not self._poses.is_fixed(i)]
         self._loose = [i for i in movable if self._poses.loose_body(i) is not None]
         self._placed = [i for i in movable if i not in self._loose]
         self._numbers = np.array(
@@ -72,16 +72,18 @@ class TrackedBodies:
             self._poses.put(i, Pose(row[:3].copy(), rotation_from_quaternion(row[3:])))
 
 
-def vehicle_labels(world: SceneWorld) -> tuple[str, ...]:
+def vehicle_labels(world: LiveScene) -> tuple[str, ...]:
     """Return a name of its own for each vehicle."""
-    return unique(vehicle.name for vehicle in world.scene.vehicles)
+    return unique(vehicle.name for vehicle in world.model.scene.vehicles)
 
 
-def body_names(world: SceneWorld) -> tuple[dict[tuple[int, str], str], dict[int, str]]:
+def body_names(world: LiveScene) -> tuple[dict[tuple[int, str], str], dict[int, str]]:
     """Return a name of its own for each body: of a vehicle's leading links, and of objects."""
-    labels, things = vehicle_labels(world), world.scene.objects
+    labels, things = vehicle_labels(world), world.model.scene.objects
     links = [
-        (i, each) for i, robot in world.robots.items() for each in set(leaders(robot).values())
+        (i, each)
+        for i, robot in world.model.robots.items()
+        for each in set(leaders(robot).values())
     ]
     links.sort()
     names = unique([*(f"{labels[i]}/{each}" for i, each in links), *(each.name for each in things)])

@@ -9,7 +9,7 @@ import numpy as np
 from ..base.geometry import Array
 from ..devices.lamp import MountedLamp
 from ..results.motion import Signal
-from .stage import SceneStage
+from .live_scene import LiveScene
 from .tracked_bodies import TrackedBodies, vehicle_labels
 
 LAMP = "lamp/"
@@ -25,7 +25,7 @@ class TrackedState:
         world: the scene.
     """
 
-    def __init__(self, world: SceneStage) -> None:
+    def __init__(self, world: LiveScene) -> None:
         self._world = world
         self._bodies = TrackedBodies(world)
         self._lamps = [one for one in world.devices if isinstance(one, MountedLamp)]
@@ -43,7 +43,7 @@ class TrackedState:
         self._before = rows[:, 3:].copy()
         scenery, engine = self._world.scenery, self._world.engine
         signals = [scenery.state.water.fog, scenery.state.light.rate]
-        for index, vehicle in enumerate(self._world.vehicles):
+        for index, vehicle in enumerate(self._world.vehicles.names):
             signals += self._water_at(engine.poses.vehicle(index).position, vehicle).tolist()
             if index in engine.actuation:
                 signals += engine.actuation[index].commands().tolist()
@@ -54,7 +54,7 @@ class TrackedState:
         """Velocity of the water at a vehicle in W, (3,) [m/s]."""
         if self._world.water.is_still:
             return np.zeros(3)
-        velocity: Array = self._world.water_velocity(place[None], self._world.time, vehicle)[0]
+        velocity: Array = self._world.water.velocity(place[None], self._world.time, vehicle)[0]
         return velocity
 
     def _signals(self) -> Iterator[Signal]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
@@ -11,16 +11,17 @@ import numpy as np
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import turned_back
 from ..base.record import Lazy, Record
+from ..bus import Bus
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
 from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..physics.kinematics.placed_motion import PlacedMotion, Source
-from ..scene.mounts import MountFrames, link_from_frame
+from ..scene.mounts import MountFrames
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
-from ..world import BodyMotion
+from ..world import Actuators, BodyMotion
 from .bodies import SceneBody
 from .moving_bodies import MountedBody
 
@@ -230,7 +231,7 @@ class SceneVehicle:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
         link, engine = (self.index, spec.relative_to), self._engine
         name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
-        contacts = partial(engine.contact_wrench, *link)
+        contacts = partial(engine.contacts.wrench, engine.poses.link_body(*link))
         motion = partial(self._motion, spec.relative_to)
         if not engine.is_simulated(self.index):
             self.follow()
@@ -248,19 +249,47 @@ class SceneVehicle:
         link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
             raise UnknownName("link", link, [each.name for each in robot.links])
-        link_from_part = link_from_frame(robot, link, visual) @ self._frames.frame_from_mounted(
-            spec, visual=visual
-        )
+        link_from_part = self._frames.link_from_mounted(spec, visual=visual)
         return partial(self._engine.poses.mounted, self.index, link, link_from_part)
 
 
-def bind_vehicles(
-    model: SceneModel, engine: Engine, step: Callable[[], int]
-) -> tuple[SceneVehicle, ...]:
-    """Return the vehicles of a scene, in the file's order."""
-    place = model.scene.world_from_localized
-    frames = [
-        MountFrames(vehicle, model.robots[index], place)
-        for index, vehicle in enumerate(model.scene.vehicles)
-    ]
-    return tuple(SceneVehicle(index, each, engine, step) for index, each in enumerate(frames))
+class SceneVehicles:
+    """The vehicles of a scene, in the file's order, which may share names.
+
+    Args:
+        model: of the scene.
+        engine: where their links are.
+        bus: counts the steps.
+    """
+
+    def __init__(self, model: SceneModel, engine: Engine, bus: Bus) -> None:
+        self.names = tuple(vehicle.name for vehicle in model.scene.vehicles)
+        """Their names, by number."""
+        self._actuation = engine.actuation
+        self._vehicles = tuple(
+            SceneVehicle(index, frames, engine, lambda: bus.state.step)
+            for index, frames in enumerate(model.mount_frames)
+        )
+
+    def find(self, name: str) -> SceneVehicle:
+        """Find the first vehicle of a name; UnknownName if there is none."""
+        if name not in self.names:
+            raise UnknownName("vehicle", name, self.names)
+        return self._vehicles[self.names.index(name)]
+
+    def actuators(self, name: str) -> Actuators | None:
+        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
+        actuation = self._actuation.get(self.find(name).index)
+        return None if actuation is None else actuation.actuators()
+
+    def __getitem__(self, index: int) -> SceneVehicle:
+        """Return a vehicle by its number in the file."""
+        return self._vehicles[index]
+
+    def __iter__(self) -> Iterator[SceneVehicle]:
+        """Iterate over all vehicles."""
+        return iter(self._vehicles)
+
+    def __len__(self) -> int:
+        """Return how many there are."""
+        return len(self._vehicles)

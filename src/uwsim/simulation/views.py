@@ -90,7 +90,7 @@ def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> V
 
 def view_from(simulation: Simulation, eye: Array, at: Array, size: Size) -> View:
     """From a point to a point, both in L, (3,) [m]; raises BadSetting where they are the same."""
-    points = simulation.world.world_from_localized.transform(np.stack([eye, at]))
+    points = simulation.world.model.scene.world_from_localized.transform(np.stack([eye, at]))
     return View(_looking(points[0], points[1] - points[0], "--from"), _lens(size, FIELD))
 
 
@@ -105,7 +105,7 @@ def view_from_pose(world_from_camera: Pose, size: Size, field: float = FIELD) ->
 def top_view(simulation: Simulation, size: Size) -> View:
     """From above; L's x axis is up in the image, if it lies level."""
     focus, lens = focus_of(simulation), _lens(size, FIELD)
-    top = simulation.world.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
+    top = simulation.world.model.scene.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
     if length(top) < 0.5:
         top = np.array([0.0, 1.0, 0.0])
     return View(_framing(focus, camera_axes(-UP, top), lens), lens, is_clear=True)
@@ -135,9 +135,8 @@ def focus_of(simulation: Simulation) -> Focus:
 
     Of several vehicles those in the company of the first one.
     """
-    shown = [
-        (part, simulation.world.scenery.corners(part)) for part in simulation.world.scenery.parts
-    ]
+    world, scenery = simulation.world, simulation.world.scenery
+    shown = [(part, scenery.corners(part)) for part in scenery.parts]
     vehicles = _in_company([each for each in shown if each[0].vehicle is not None])
     things = [
         (part.id, corners)
@@ -153,10 +152,10 @@ def focus_of(simulation: Simulation) -> Focus:
     else:
         chosen = things or [(part.id, corners) for part, corners in shown]
     if not chosen:  # nothing at all: the origin of the file's frame
-        chosen = [(0, simulation.world.world_from_localized.position + np.eye(3))]
-    ahead = simulation.world.world_from_localized.rotation[:, 0]
-    if simulation.world.vehicles:
-        ahead = simulation.world.body(simulation.world.vehicles[0]).world_from_body.rotation[:, 0]
+        chosen = [(0, world.model.scene.world_from_localized.position + np.eye(3))]
+    ahead = world.model.scene.world_from_localized.rotation[:, 0]
+    for vehicle in world.vehicles.names[:1]:
+        ahead = world.bodies.find(vehicle).world_from_body.rotation[:, 0]
     level = ahead * [1.0, 1.0, 0.0]
     size = length(level)
     return Focus(
@@ -232,7 +231,7 @@ def _centre(simulation: Simulation, route: str) -> Array:
     """The middle of what a route names, in W, (3,) [m]; the origin where nothing is called so."""
     for name in (f"{route}@visual", route):
         try:
-            body = simulation.world.body(name)
+            body = simulation.world.bodies.find(name)
         except UnknownName:
             continue
         if body.box is None:

@@ -20,7 +20,7 @@ class CommsDeviceROSSpec(SensorTopicSpec):
 
     def bind(self, world: TopicWorld) -> CommsDevicePublisher:
         """Publish from now on; raises UnknownName if the device is not there."""
-        device = world.sensor(self.name, self.sources)
+        device = world.sensors.sensor(self.name, self.sources)
         if not isinstance(device, CommsDevice):
             raise UnknownName("communication device", self.name, ())
         publisher = CommsDevicePublisher(self.topic, device, world)

@@ -27,7 +27,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
 
     def bind(self, world: TopicWorld) -> ContactPublisher:
         """Publish from now on; raises UnknownName if there is nothing of that name to touch."""
-        if not world.touch.is_possible(self.name):
+        if not world.contacts.is_possible(self.name):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
         world.every(sample_rate(self.rate, world), publisher.publish)
@@ -44,4 +44,4 @@ class ContactPublisher(Interface):
     def publish(self) -> None:
         """Publish it as it is now, if somebody reads it; the message has no time."""
         if self._world.bus.has_readers(self._topic):
-            self._publish(Bool(data=bool(self._world.contacts(self._name))))
+            self._publish(Bool(data=bool(self._world.contacts.find(self._name))))

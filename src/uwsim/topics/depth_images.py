@@ -69,7 +69,7 @@ class DepthImagePublisher(Interface):
         camera = _find(world, name)
         self._camera, self._world = camera, world
         self._image_topic, self._info_topic = image_topic, info_topic
-        self._publish_image = world.sensor_publisher(name, image_topic, Image)
+        self._publish_image = world.sensors.publisher(name, image_topic, Image)
         self._publish_info = world.bus.publisher(info_topic, CameraInfo)
 
     def publish(self) -> None:
@@ -113,7 +113,7 @@ class PointCloudPublisher(Interface):
     def __init__(self, camera: DepthCamera, frame_id: str, topic: str, world: TopicWorld) -> None:
         self._camera, self._frame_id = camera, frame_id
         self._topic, self._world = topic, world
-        self._publish = world.sensor_publisher(frame_id, topic, PointCloud2)
+        self._publish = world.sensors.publisher(frame_id, topic, PointCloud2)
 
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
@@ -144,7 +144,7 @@ def publish_depth(
 
 
 def _find(world: TopicWorld, name: str) -> DepthCamera:
-    camera = world.sensor(name, CAMERAS)
+    camera = world.sensors.sensor(name, CAMERAS)
     if not isinstance(camera, DepthCamera):
         raise UnknownName("camera", name, ())
     return camera

@@ -17,7 +17,7 @@ from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
 from ..sensors.virtual_camera import VirtualCamera
 from ..vehicle import Vehicle
-from ..world import World
+from ..world import Body, Contact, TimedWorld
 from .frames import Frame
 
 M = TypeVar("M")
@@ -27,22 +27,18 @@ MIN_RATE = 0.001
 """Nor less often [Hz]."""
 
 
-class Touch(Protocol):
+class BodyContacts(Protocol):
     """Contacts between bodies, as an interface sees them."""
 
     def is_possible(self, name: str) -> bool:
         """Whether there is a vehicle or object of that name, with a shape that others touch."""
 
+    def find(self, name: str) -> Sequence[Contact]:
+        """Find where a vehicle or object touches others now; UnknownName if there is none."""
 
-class TopicWorld(World, Protocol):
-    """The world as an interface sees it: vehicles, sensors, frames, timers and commands."""
 
-    @property
-    def is_blind(self) -> bool:
-        """Whether images are black and nothing is drawn."""
-
-    def vehicle(self, name: str) -> Vehicle:
-        """Find a vehicle; UnknownName if there is none."""
+class TopicSensors(Protocol):
+    """The sensors and devices that interfaces publish."""
 
     def camera(self, name: str) -> VirtualCamera:
         """Find a virtual camera; UnknownName if there is none."""
@@ -50,12 +46,12 @@ class TopicWorld(World, Protocol):
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
         """Find a sensor or device of one of these elements that publishes; UnknownName if none."""
 
-    def sensor_publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
+    def publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
         """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""
 
-    @property
-    def touch(self) -> Touch:
-        """Contacts between bodies."""
+
+class Segmenter(Protocol):
+    """Images of the bodies that pixels see."""
 
     @property
     def part_names(self) -> Mapping[int, str]:
@@ -65,6 +61,40 @@ class TopicWorld(World, Protocol):
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> npt.NDArray[np.uint16]:
         """Return the number of the body that each pixel sees, (h, w); 0: none."""
+
+
+class TopicWorld(TimedWorld, Protocol):
+    """The world as an interface sees it: vehicles, sensors, frames, timers and commands."""
+
+    @property
+    def world_from_localized(self) -> Pose:
+        """W from L: the scene's offset."""
+
+    @property
+    def compatibility(self) -> frozenset[str]:
+        """The names of the compatibility quirks that are on (`uwsim.base.compatibility`)."""
+
+    @property
+    def is_blind(self) -> bool:
+        """Whether images are black and nothing is drawn."""
+
+    def body(self, name: str) -> Body:
+        """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""
+
+    def vehicle(self, name: str) -> Vehicle:
+        """Find a vehicle; UnknownName if there is none."""
+
+    @property
+    def sensors(self) -> TopicSensors:
+        """The sensors and devices that publish."""
+
+    @property
+    def contacts(self) -> BodyContacts:
+        """Contacts between bodies."""
+
+    @property
+    def segmenter(self) -> Segmenter:
+        """What tells which body a pixel sees."""
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
@@ -85,7 +115,7 @@ def rate_element() -> Any:
     return element(default=10.0, minimum=MIN_RATE, maximum=MAX_RATE, original=lenient)
 
 
-def sample_rate(rate: float, world: World) -> float:
+def sample_rate(rate: float, world: TopicWorld) -> float:
     """Return the rate at which samples are taken [Hz]."""
     return max(1.0, math.floor(rate)) if "whole-rates" in world.compatibility else rate
 

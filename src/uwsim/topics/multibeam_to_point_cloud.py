@@ -38,8 +38,8 @@ class MultibeamToPointCloud2Spec(SensorTopicSpec):
 
     def bind(self, world: TopicWorld) -> Interface:
         """Publish the sensor from now on; raises UnknownName if it is not there."""
-        sensor = world.sensor(self.name, self.sources)
-        publish = world.sensor_publisher(self.name, self.topic, PointCloud2)
+        sensor = world.sensors.sensor(self.name, self.sources)
+        publish = world.sensors.publisher(self.name, self.topic, PointCloud2)
         publisher = SensorPublisher(sensor, partial(_publish, publish), lambda: world.time, None)
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher

@@ -73,20 +73,20 @@ class SegmentationPublisher(Interface):
     """Publishes the segmentation of a camera; without a reader nothing is drawn."""
 
     def __init__(self, spec: SegmentationToROSSpec, world: TopicWorld) -> None:
-        camera = world.sensor(spec.camera_name, CAMERAS)
+        camera = world.sensors.sensor(spec.camera_name, CAMERAS)
         if not isinstance(camera, Pinhole):
             raise UnknownName("camera", spec.camera_name, ())
         self._camera, self._world = camera, world
         self._image_topic, self._legend_topic = spec.image_topic, spec.legend_topic
-        self._publish_image = world.sensor_publisher(spec.camera_name, spec.image_topic, Image)
+        self._publish_image = world.sensors.publisher(spec.camera_name, spec.image_topic, Image)
         self._publish_legend = world.bus.publisher(spec.legend_topic, String)
 
     def publish(self) -> None:
         """Publish the legend and the image that is due."""
         world, camera = self._world, self._camera
         if world.bus.has_readers(self._legend_topic):
-            names = {0: ""} | dict(sorted(world.part_names.items()))
+            names = {0: ""} | dict(sorted(world.segmenter.part_names.items()))
             self._publish_legend(String(data=json.dumps(names)))
         if world.bus.has_readers(self._image_topic):
-            numbers = world.segmentation(camera.world_from_camera, camera.intrinsics)
+            numbers = world.segmenter.segmentation(camera.world_from_camera, camera.intrinsics)
             self._publish_image(label_image(numbers, time=world.time, frame_id=camera.frame_id))

@@ -57,9 +57,9 @@ class SensorTopicSpec(InterfaceSpec):
 
     def bind(self, world: TopicWorld) -> Interface:
         """Publish the sensor from now on; raises UnknownName if it is not there."""
-        sensor = world.sensor(self.name, self.sources)
+        sensor = world.sensors.sensor(self.name, self.sources)
         part = self._part(sensor, world)
-        publish = world.sensor_publisher(self.name, self.topic, part.message_type)
+        publish = world.sensors.publisher(self.name, self.topic, part.message_type)
         needed = partial(is_needed, world.bus, self.topic) if part.is_pure else None
         publisher = SensorPublisher(sensor, publish, lambda: world.time, needed)
         world.every(sample_rate(self.rate, world), publisher.publish)
@@ -70,7 +70,7 @@ class SensorTopicSpec(InterfaceSpec):
         parts = _parts()
         for source in self.sources:
             with suppress(UnknownName):
-                if world.sensor(self.name, (source,)) is sensor:
+                if world.sensors.sensor(self.name, (source,)) is sensor:
                     return parts[source]
         raise UnknownName("sensor", self.name, ())
 

@@ -29,7 +29,7 @@ class SonarToROSSpec(InterfaceSpec):
 
     def bind(self, world: TopicWorld) -> SonarPublisher:
         """Ping from now on; raises UnknownName if the sonar is not there."""
-        sonar = cast("Sonar", world.sensor(self.name, self.sources))
+        sonar = cast("Sonar", world.sensors.sensor(self.name, self.sources))
         publisher = SonarPublisher(self, sonar, world)
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
@@ -47,8 +47,8 @@ class SonarPublisher(Interface):
 
     def __init__(self, spec: SonarToROSSpec, sonar: Sonar, world: TopicWorld) -> None:
         self._sonar, self._world, self._image_topic = sonar, world, spec.image_topic
-        self._publish = world.sensor_publisher(spec.name, spec.topic, ProjectedSonarImage)
-        self._publish_image = world.sensor_publisher(spec.name, spec.image_topic, Image)
+        self._publish = world.sensors.publisher(spec.name, spec.topic, ProjectedSonarImage)
+        self._publish_image = world.sensors.publisher(spec.name, spec.image_topic, Image)
 
     def publish(self) -> None:
         """Ping now, whether or not somebody listens: speckle, scan and waterfall go on."""

@@ -41,7 +41,7 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
         if self.depth:
             topics = self.image_topic, self.info_topic
             return publish_depth(world, self.camera_name, topics, self.rate)
-        return ImagePublisher(self, world.camera(self.camera_name), world)
+        return ImagePublisher(self, world.sensors.camera(self.camera_name), world)
 
 
 @dataclass(slots=True)
@@ -76,7 +76,7 @@ class ImagePublisher(Interface):
         shape = (camera.intrinsics.height, camera.intrinsics.width)
         black = np.zeros(shape if camera.is_grey else (*shape, 3), dtype=np.uint8)
         self._blank = black if world.is_blind else None
-        self._publish_image = world.sensor_publisher(spec.camera_name, spec.image_topic, Image)
+        self._publish_image = world.sensors.publisher(spec.camera_name, spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
         self.elsewhere: Callable[[ImagePublisher, float], bool] | None = None

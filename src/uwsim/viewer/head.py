@@ -158,8 +158,8 @@ from ..sensors.sonar.imaging_sonar import ImagingSonarSpec
 from ..sensors.sonar.multibeam_sensor import FanSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
+from ..simulation.live_scene import LiveScene
 from ..simulation.scenery.sand import CELL, REACH, Heap
-from ..simulation.stage import SceneStage
 from ..simulation.tracked_bodies import body_names, leaders, vehicle_labels
 from ..simulation.unique_names import unique
 from ..simulation.views import FIELD, focus_of, orbit_view, viewer_view
@@ -194,7 +194,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
         "uwsim_head": VERSION,
         "title": title,
         "live": is_live,
-        "localized": _row(world.world_from_localized),
+        "localized": _row(world.model.scene.world_from_localized),
         "cameras": list(_cameras(world, bodies)),
         "lamps": list(_lamps(world, bodies)),
         "projector": _projector(world, bodies, models),
@@ -243,9 +243,9 @@ class _Bodies:
         world: the scene.
     """
 
-    def __init__(self, world: SceneStage) -> None:
+    def __init__(self, world: LiveScene) -> None:
         self._world = world
-        self._leaders = {i: leaders(robot) for i, robot in world.robots.items()}
+        self._leaders = {i: leaders(robot) for i, robot in world.model.robots.items()}
         self._of_link, self._of_object = body_names(world)
         self.labels = vehicle_labels(world)
         """A name of its own for each vehicle."""
@@ -262,7 +262,7 @@ class _Bodies:
 
     def link_called(self, vehicle: str, link: str) -> str:
         """Return the name of a link of the first vehicle of that name."""
-        return self.link(self._world.vehicles.index(vehicle), link)
+        return self.link(self._world.vehicles.names.index(vehicle), link)
 
     def pose(self, name: str) -> Pose:
         """Return where a body is, by the name that `link` returned."""
@@ -320,14 +320,14 @@ def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
     }
 
 
-def _cameras(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+def _cameras(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
     links = {  # of several of one name the last is found
         spec.name: f"{vehicle}/{spec.relative_to}"
         for vehicle, spec in _mounted_parts(world)
         if isinstance(spec, VirtualCameraSpec)
     }
-    for name in world.cameras:
-        camera = world.camera(name)
+    for name in world.sensors.cameras:
+        camera = world.sensors.camera(name)
         yield {
             **_mounted(bodies, links[name], camera.world_from_camera),
             "name": name,
@@ -336,7 +336,7 @@ def _cameras(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
         }
 
 
-def _lamps(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+def _lamps(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
     for lamp in world.scenery.mounted_lamps:
         spec = lamp.spec
         yield {
@@ -351,7 +351,7 @@ def _lamps(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
         }
 
 
-def _projector(world: SceneStage, bodies: _Bodies, models: Models) -> Json | None:
+def _projector(world: LiveScene, bodies: _Bodies, models: Models) -> Json | None:
     if world.scenery.mounted_projector is None:
         return None
     projector, pattern = world.scenery.mounted_projector
@@ -363,9 +363,9 @@ def _projector(world: SceneStage, bodies: _Bodies, models: Models) -> Json | Non
     }
 
 
-def _sensors(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
+def _sensors(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
     for name, spec in _mounted_parts(world):
-        place = world.vehicle(name).mount(spec)
+        place = world.vehicles.find(name).mount(spec)
         about = {**_mounted(bodies, place.name, place.world_from_body), "name": spec.name}
         if isinstance(spec, RangeSensorSpec):
             yield {**about, "kind": "range", "reach": spec.range, "from": 0.0, "to": 0.0}
@@ -377,33 +377,33 @@ def _sensors(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
             yield {**about, "kind": "sonar", "reach": spec.range, "from": -half, "to": half}
 
 
-def _frames(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
-    yield {"name": "L", "body": None, "pose": _row(world.world_from_localized)}
-    for index, vehicle in enumerate(world.scene.vehicles):
-        for link in world.robots[index].links:
+def _frames(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
+    yield {"name": "L", "body": None, "pose": _row(world.model.scene.world_from_localized)}
+    for index, vehicle in enumerate(world.model.scene.vehicles):
+        for link in world.model.robots[index].links:
             name = f"{vehicle.name}/{link.name}"
             world_from_link = world.engine.poses.link(index, link.name)
             yield {**_mounted(bodies, name, world_from_link), "name": name}
         for part in (part for name, part in _mounted_parts(world) if name == vehicle.name):
-            place = world.vehicle(vehicle.name).mount(part)
+            place = world.vehicles.find(vehicle.name).mount(part)
             yield {**_mounted(bodies, place.name, place.world_from_body), "name": part.name}
 
 
-def _mounted_parts(world: SceneStage) -> Iterator[tuple[str, MountedSensor]]:
+def _mounted_parts(world: LiveScene) -> Iterator[tuple[str, MountedSensor]]:
     """Name of the vehicle, and spec of each sensor on a link that is there."""
-    for index, vehicle in enumerate(world.scene.vehicles):
+    for index, vehicle in enumerate(world.model.scene.vehicles):
         for _, part in vehicle.all_parts():
-            links = world.robots[index]
+            links = world.model.robots[index]
             if isinstance(part, MountedSensor) and links.link(part.relative_to) is not None:
                 yield vehicle.name, part
 
 
-def _vehicles(world: SceneStage, bodies: _Bodies) -> Iterator[Json]:
-    for index, vehicle in enumerate(world.scene.vehicles):
-        live = world.vehicle(vehicle.name)
+def _vehicles(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
+    for index, vehicle in enumerate(world.model.scene.vehicles):
+        live = world.vehicles.find(vehicle.name)
         yield {
             "name": bodies.labels[index],
-            "body": bodies.link(index, world.robots[index].root),
+            "body": bodies.link(index, world.model.robots[index].root),
             "thrusters": list(live.thrusters),
             "joints": list(live.joint_names),
         }
@@ -417,7 +417,7 @@ def _orbit(simulation: Simulation) -> Json:
 
 def _file_view(simulation: Simulation) -> Json | None:
     """The viewer's camera of the file; None where it has none."""
-    camera = simulation.world.scene.camera
+    camera = simulation.world.model.scene.camera
     if camera is None or camera.position == camera.look_at:
         return None
     eye = viewer_view(simulation, camera, SIZE).world_from_camera

@@ -112,7 +112,7 @@ def _transforms(trial: RecordedTrial) -> Iterator[tuple[float, TFMessage]]:
 
 def _about(trial: RecordedTrial, simulation: Simulation) -> Iterator[Message]:
     """What is not motion: the robot, the levels, the measures."""
-    robots = simulation.world.robots
+    robots = simulation.world.model.robots
     if robots and (file := Path(robots[0].path)).is_file():
         yield 0.0, "/robot_description", String(data=file.read_text(encoding="utf-8"))
     for level in trial.levels:

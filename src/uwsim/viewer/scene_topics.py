@@ -23,6 +23,7 @@ from ..messages import String, TFMessage
 from ..messages.build import transform
 from ..model.parts import Part
 from ..simulation import Simulation
+from ..simulation.frames import scene_frames
 from ..topics.frames import TF, Frame
 from ..topics.world_to_ros_tf import WorldToROSTFSpec
 from .shapes import SCENE, shapes
@@ -49,16 +50,19 @@ class SceneTopics:
 
     def __init__(self, simulation: Simulation, *, is_on_bus: bool) -> None:
         self._simulation, world = simulation, simulation.world
-        own = [each for each in world.scene.ros_interfaces if isinstance(each, WorldToROSTFSpec)]
+        own = [
+            each for each in world.model.scene.ros_interfaces if isinstance(each, WorldToROSTFSpec)
+        ]
         self._root = own[0].root_name.strip().lstrip("/") if own else ROOT
         has_objects = any(each.enable_objects for each in own)
         fixed = {
             each.name
-            for i, each in enumerate(world.scene.objects)
+            for i, each in enumerate(world.model.scene.objects)
             if world.engine.poses.is_fixed(i)
         }
-        vehicles = world.frames(with_objects=False)
-        objects = world.frames(with_objects=True)[len(vehicles) :]
+        parts = world.model, world.engine, world.vehicles, world.bodies
+        vehicles = scene_frames(*parts, with_objects=False)
+        objects = scene_frames(*parts, with_objects=True)[len(vehicles) :]
         missing = [] if own else vehicles
         self._moving = [each for each in missing if not each.is_fixed]
         self._fixed = [each for each in missing if each.is_fixed]
@@ -75,7 +79,7 @@ class SceneTopics:
                 self._publish_tf = simulation.bus.publisher(TF, TFMessage)
         self._is_on_bus = is_on_bus
         if self._moving:
-            world.every(RATE, self._tick)
+            world.schedule.every(RATE, self._tick)
 
     def record(self, recorder: Recorder) -> None:
         """Have them recorded, too, from now on."""
@@ -103,22 +107,22 @@ class SceneTopics:
     def _published_once(self) -> Iterator[tuple[str, Any]]:
         """What is published once."""
         world = self._simulation.world
-        robots = world.robots
+        robots = world.model.robots
         if robots and (file := Path(robots[0].path)).is_file():
             yield "/robot_description", String(data=file.read_text(encoding="utf-8"))
-        up = Frame(UP, self._root, lambda: world.world_from_localized, is_fixed=True)
+        up = Frame(UP, self._root, lambda: world.model.scene.world_from_localized, is_fixed=True)
         yield "/tf_static", self._transforms([*([up] if self._root != UP else []), *self._fixed])
         yield f"/{SCENE}", shapes(self._simulation, self._frame_of)
 
     def _frame_of(self, part: Part) -> tuple[str, Array]:
         """The frame that a part moves with, and ``frame_from_world``."""
         world = self._simulation.world
-        poses, scene = world.engine.poses, world.scene
+        poses, scene = world.engine.poses, world.model.scene
         if part.vehicle is not None:
             here = poses.link(part.vehicle, part.link)
             return f"{scene.vehicles[part.vehicle].name}/{part.link}", here.inverse().matrix
         assert part.object is not None
         if poses.is_fixed(part.object):
-            return self._root, world.world_from_localized.inverse().matrix
+            return self._root, world.model.scene.world_from_localized.inverse().matrix
         name = scene.objects[part.object].name
-        return name, world.body(name).world_from_body.inverse().matrix
+        return name, world.bodies.find(name).world_from_body.inverse().matrix

@@ -25,7 +25,7 @@ def play(name: str, seed: int, limit: float) -> tuple[list[str], list[str], floa
         for topic, texts in said.items():
             simulation.bus.subscribe(topic, String, lambda m, texts=texts: texts.append(m.data))
         simulation.attach(ALGORITHMS[name]())
-        simulation.start()
+        simulation.advance(0.0)
         lay, raised = float(simulation.pose("blackbox").position[2]), 0.0
         while simulation.time < limit and "hold" not in said["phase"]:
             simulation.advance(0.5)

@@ -199,26 +199,26 @@ def test_the_deepest_interval_counts_and_none_may_stand_at_the_bottom() -> None:
 @pytest.fixture
 def simulation() -> Iterator[Simulation]:
     simulation = open_scene(tank())
-    simulation.start()
+    simulation.advance(0.0)
     yield simulation
     simulation.close()
 
 
 def test_a_restart_brings_back_force_and_pose_in_a_simulation(simulation: Simulation) -> None:
     spec = nested(RepeatSpec(iterations=2, interval=1.0), current(initial_value=0.0), ARM)
-    updaters = bind_updaters(spec, simulation.world)
-    start = simulation.world.body(VEHICLE).world_from_body.position
+    updaters = bind_updaters(spec, simulation.world.stage_view)
+    start = simulation.world.bodies.find(VEHICLE).world_from_body.position
     joints = {}
     drifted = {}
     before: Level | None = None
     for level in levels(spec):
         apply_level(updaters, level, after=before)
         before = level
-        joints[level] = simulation.world.joints(VEHICLE)[:2]
+        joints[level] = simulation.world.vehicles.find(VEHICLE).joints[:2]
         for _ in range(1250):
             simulation.advance()
         drifted[level] = np.linalg.norm(
-            simulation.world.body(VEHICLE).world_from_body.position - start
+            simulation.world.bodies.find(VEHICLE).world_from_body.position - start
         )
     for level in levels(spec):
         (_, iteration), (_, speed), (_, arm) = level.values

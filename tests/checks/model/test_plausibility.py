@@ -361,7 +361,7 @@ def test_every_doubt_has_a_name_and_a_sentence() -> None:
 
 def test_the_model_of_a_sound_scene_has_no_warnings(tmp_path: Path) -> None:
     simulation = open_scene(read_scene(written(tmp_path)), is_blind=True)
-    assert model_warnings(simulation.model) == []
+    assert model_warnings(simulation.world.model) == []
 
 
 DVL = "<dvlSensor> <name>log</name> <relativeTo>base_link</relativeTo> {} </dvlSensor>"

@@ -63,5 +63,7 @@ def test_a_run_warns_of_it_at_its_own_step(tmp_path: Path) -> None:
         with open_scene(
             read_scene(tmp_path / "scene.xml"), is_blind=True, timestep=timestep
         ) as one:
-            found = [each.message for each in model_warnings(one.model) if "thick" in each.message]
+            found = [
+                each.message for each in model_warnings(one.world.model) if "thick" in each.message
+            ]
         assert len(found) == n, found

@@ -32,7 +32,7 @@ def said(folder: Path, *, parts: str = "", interfaces: str = "", rate: object = 
     found = check_file(scene)
     if not any(each.severity == "error" for each in found):
         with open_scene(read_scene(scene), is_blind=True) as simulation:
-            assert model_warnings(simulation.model) == found
+            assert model_warnings(simulation.world.model) == found
     else:
         with pytest.raises(SceneError):
             open_scene(read_scene(scene), is_blind=True)

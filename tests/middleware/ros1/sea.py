@@ -26,7 +26,7 @@ class Sea:
             log=Log("test", self.printed.append),
         )
         self.simulation.watch(self.bridge.step)
-        self.simulation.start()
+        self.simulation.advance(0.0)
         self.bridge.step()
         assert self.bridge.wait(LIMIT)
 

@@ -14,7 +14,7 @@ from uwsim.simulation import Simulation
 def one_by_one(simulation: Simulation, name: str) -> dict[str, Array]:
     """The same from MuJoCo's own function."""
     state = simulation.world.engine
-    model, data, contacts = state._model, state._data, state._contacts
+    model, data, contacts = state._model, state._data, state.contacts
     names = [contacts._names[owner] for owner in contacts._owner_numbers]
     found: dict[str, Array] = {}
     local = np.zeros(6)
@@ -34,10 +34,10 @@ def test_what_lies_on_the_floor_is_carried_by_it_and_the_floor_feels_it() -> Non
     with uwsim.load("grasp-scene", timestep=0.005) as simulation:
         simulation.advance(0.5)
         assert simulation.world.engine._data.ncon > 1
-        box = simulation.world.contact_forces("blackbox")
+        box = simulation.world.contacts.forces("blackbox")
         assert set(box) == {"terrain"}
         for name in ("blackbox", "girona500"):
-            forces, expected = simulation.world.contact_forces(name), one_by_one(simulation, name)
+            forces, expected = simulation.world.contacts.forces(name), one_by_one(simulation, name)
             assert forces.keys() == expected.keys()
             for other, force in forces.items():
                 assert force == pytest.approx(expected[other], abs=1e-9)

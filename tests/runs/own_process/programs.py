@@ -225,7 +225,7 @@ class LooksForTheTruth(Does):
 
     def act(self) -> None:
         found = {type(each).__name__ for each in gc.get_objects()}
-        assert not found & {"Simulation", "InProcessNode", "SceneStage"}
+        assert not found & {"Simulation", "InProcessNode", "LiveScene"}
         assert "uwsim.simulation" not in sys.modules
 
 

@@ -60,7 +60,7 @@ def traced(
     simulation = FakeSimulation()
     fingerprinter = Fingerprinter(cast(Any, simulation))
     for step in range(1, n_steps + 1):
-        simulation.motion.row[:] = (step, 2 * step, 5.0)
+        simulation.world.engine.motion.row[:] = (step, 2 * step, 5.0)
         if bump is not None:
             bump(step, simulation)
         simulation.look()
@@ -95,7 +95,7 @@ def test_marks_that_are_kept_are_those_of_the_finer_trace() -> None:
 def test_the_interval_and_the_body_of_a_difference_are_named(at: int) -> None:
     def nudge(step: int, simulation: FakeSimulation) -> None:
         if step == at:
-            simulation.motion.row[2] = np.nextafter(5.0, 6.0)
+            simulation.world.engine.motion.row[2] = np.nextafter(5.0, 6.0)
 
     found = divergence(traced(10_000), traced(10_000, nudge))
     assert found is not None
@@ -106,10 +106,10 @@ def test_the_interval_and_the_body_of_a_difference_are_named(at: int) -> None:
 
 def test_an_image_that_differs_is_named_by_its_topic() -> None:
     def capture(step: int, simulation: FakeSimulation) -> None:
-        simulation.images["/camera"].digest.update(b"b" if step == 300 else b"a")
+        simulation.world.images["/camera"].digest.update(b"b" if step == 300 else b"a")
 
     def same(step: int, simulation: FakeSimulation) -> None:
-        simulation.images["/camera"].digest.update(b"a")
+        simulation.world.images["/camera"].digest.update(b"a")
 
     found = divergence(traced(1000, same), traced(1000, capture))
     assert found is not None
@@ -142,7 +142,7 @@ def test_a_trace_is_read_back_as_it_was_stored() -> None:
 def test_a_scene_in_which_nothing_can_move_leaves_a_trace_too() -> None:
     simulation = open_scene(SceneSpec())
     fingerprinter = Fingerprinter(simulation)
-    simulation.start()
+    simulation.advance(0.0)
     for _ in range(100):
         simulation.advance()
     assert len(fingerprinter.fingerprint) == 16

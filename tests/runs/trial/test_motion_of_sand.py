@@ -32,10 +32,12 @@ def recorded(folder: Path) -> tuple[bytes, list[Array]]:
         simulation.watch(look)
         look()
         for x in (0.0, 0.03):
-            simulation.world.vehicle("rov").place(Pose(np.array([x, 0.01, 0.1234567]), np.eye(3)))
+            simulation.world.vehicles.find("rov").place(
+                Pose(np.array([x, 0.01, 0.1234567]), np.eye(3))
+            )
             simulation.advance(0.3)
         heap.show(())
-        simulation.world.vehicle("rov").place(Pose(np.array([-0.05, 0.0, 0.1]), np.eye(3)))
+        simulation.world.vehicles.find("rov").place(Pose(np.array([-0.05, 0.0, 0.1]), np.eye(3)))
         simulation.advance(0.2)
         return recorder.track(), frames
 

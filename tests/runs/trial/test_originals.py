@@ -85,7 +85,7 @@ def scene_for(benchmark: Path, spec: BenchmarkSpec) -> Path:
         except UwsimError as error:
             said.append(f"{path}: {error}")
             continue
-        errors = unknown_names(spec, simulation.world)
+        errors = unknown_names(spec, simulation.world.stage_view)
         simulation.close()
         if not errors:
             return path

@@ -57,7 +57,10 @@ def stamped(x: float, y: float, z: float) -> PoseStamped:
 def above_the_box() -> np.ndarray:
     """Points 2 cm and 4 cm over its top, in the frame of the vehicle, (2, 3) [m]."""
     simulation = open_scene(scene(), is_blind=True)
-    box, vehicle = simulation.world.body("blackbox"), simulation.world.body("girona500")
+    box, vehicle = (
+        simulation.world.bodies.find("blackbox"),
+        simulation.world.bodies.find("girona500"),
+    )
     assert box.box is not None
     stands = box.world_from_body
     up = 1.0 if stands.rotation[2, 2] > 0.0 else -1.0

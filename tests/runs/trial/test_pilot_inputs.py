@@ -94,7 +94,7 @@ def test_a_pilot_drives_the_propeller_of_a_vehicle_that_takes_no_twist() -> None
 
 def test_a_pilot_drives_a_single_thruster_of_a_vehicle_that_takes_twists_too() -> None:
     with opened("grasp-scene") as simulation:
-        names = simulation.world.vehicle("girona500").thrusters
+        names = simulation.world.vehicles.find("girona500").thrusters
         piloted(simulation, thruster2=-0.5)
         simulation.advance(1.0)
         wanted = [0.0] * len(names)

@@ -34,7 +34,7 @@ def fail_from(time: float, monkeypatch: pytest.MonkeyPatch, *, seed: int = 0) ->
     advance = Simulation.advance
 
     def failing(self: Simulation, *arguments: float) -> None:
-        if self.time >= time and self.model.seed == seed:
+        if self.time >= time and self.world.model.seed == seed:
             raise SimulationFailed(WHY)
         advance(self, *arguments)
 

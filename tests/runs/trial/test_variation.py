@@ -114,7 +114,10 @@ def test_whatever_the_seed_the_target_is_seen_as_a_whole() -> None:
     scene = read_scene(DATA / "scenes" / "visibility-moving-scene.xml")
     for seed in range(40):
         simulation = open_scene(scene, seed=seed, is_blind=True)
-        camera, body = simulation.world.camera("bowtech1"), simulation.world.body("blackbox")
+        camera, body = (
+            simulation.world.sensors.camera("bowtech1"),
+            simulation.world.bodies.find("blackbox"),
+        )
         truths = [FaceCorners(camera, body), CornersFromCamera(camera, body)]
         before = None
         for step in range(2000):  # prelude, ramp and level

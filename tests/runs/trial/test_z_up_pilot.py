@@ -19,7 +19,7 @@ from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.scene.reader import read_scene
 from uwsim.viewer.live.mapping import PilotMapping
 from uwsim.viewer.live.server import LiveServer
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 PAGE = Path(__file__).parents[3] / "docs" / "first-benchmark.md"
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -57,7 +57,7 @@ def moved(scene: Path, axis: str) -> tuple[Array, Array]:
         held = tuple(float(each == axis) for each in AXES)
         PilotInputs(simulation, lambda: held)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
-        name = simulation.world.vehicles[0]
+        name = simulation.world.vehicles.names[0]
         before = simulation.pose(name, "W").position
         simulation.advance(2.0)
         after = simulation.pose(name, "W")
@@ -87,12 +87,12 @@ def test_a_pilots_benchmark_of_a_vehicle_with_z_up_is_sent_again_with_the_same_b
     benchmark.write_text(text)
     levels, out = ["current=0.1"], tmp_path / "flown"
     server = LiveServer(lambda: "")
-    view = LiveView(server, speed=0.0, mapping=PilotMapping())
+    session = LiveSession(server, speed=0.0, mapping=PilotMapping())
     up = tuple(float(axis == "heave") for axis in AXES)
-    view.pilot = lambda: up  # type: ignore[method-assign]
+    session.pilot = lambda: up  # type: ignore[method-assign]
     try:
         flown = bench_of(benchmark, out, algorithm="pilot", levels=levels)
-        run_all([flown], SerialExecutor(view))
+        run_all([flown], SerialExecutor(session))
     finally:
         server.close()
     run(benchmark, tmp_path / "again", algorithm=f"scripted:{out}", levels=levels)

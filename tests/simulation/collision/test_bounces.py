@@ -52,7 +52,7 @@ def in_water(*objects: ObjectSpec, timestep: float) -> Simulation:
 
 
 def height(simulation: Simulation, name: str = "thing") -> float:
-    return float(simulation.world.body(name).world_from_body.position[2])
+    return float(simulation.world.bodies.find(name).world_from_body.position[2])
 
 
 @pytest.mark.parametrize(
@@ -94,7 +94,7 @@ def test_in_water_the_bound_takes_nothing_from_a_bounce(floor: ObjectSpec) -> No
             simulation.world.engine._bounces.is_on = False
             simulation.world.engine._bounces.apply = lambda: None
         simulation.advance(2.0)
-        ends.append(simulation.world.body("thing").world_from_body.matrix.tobytes())
+        ends.append(simulation.world.bodies.find("thing").world_from_body.matrix.tobytes())
     assert ends[0] == ends[1]
 
 
@@ -124,7 +124,7 @@ def test_a_ball_too_fast_for_its_step_does_not_fall_on_silently(floor: ObjectSpe
         simulation = in_air(thing, floor, timestep=0.02)
         with suppress(SimulationFailed):
             simulation.advance(4.0)
-            body = simulation.world.body("thing").world_from_body.position
+            body = simulation.world.bodies.find("thing").world_from_body.position
             inside = np.abs(body[:2]).max() < 8.0
             assert not inside or body[2] > float(relief(body[0], body[1])) - 1.5
 
@@ -142,7 +142,7 @@ def drawn(random: np.random.Generator, *, is_in_water: bool) -> dict[str, float]
 
 
 def is_below(simulation: Simulation, name: str, reach: float) -> bool:
-    x, y, z = simulation.world.body(name).world_from_body.position
+    x, y, z = simulation.world.bodies.find(name).world_from_body.position
     return bool(max(abs(x), abs(y)) < 8.0 and z < relief(x, y) - reach)
 
 
@@ -216,7 +216,7 @@ def test_what_a_kinematic_vehicle_lifts_or_presses_is_above_the_ground_or_named(
     scene = SceneSpec(sim_params=sim, objects=(thing, floor), vehicles=(lift,))
     simulation = open_scene(scene, timestep=timestep, is_blind=True)
     simulation.advance(4.0)
-    x, y, rest = simulation.world.body("thing").world_from_body.position
+    x, y, rest = simulation.world.bodies.find("thing").world_from_body.position
     highest = -np.inf
     try:
         for z in (*np.linspace(-9.0, -4.5, 60), *np.linspace(-4.5, -9.0, 60)):

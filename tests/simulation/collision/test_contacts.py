@@ -54,7 +54,7 @@ def test_a_box_dropped_above_the_floor_comes_to_rest_on_it() -> None:
     before = position(simulation, "blackbox")
     run(simulation, 2.0)
     assert position(simulation, "blackbox") == pytest.approx(before, abs=1e-3)
-    touched = simulation.world.contacts("blackbox")
+    touched = simulation.world.contacts.find("blackbox")
     assert {contact.other for contact in touched} == {"terrain"}
     assert len(touched) >= 3
     assert all(abs(contact.approach_speed) < 0.01 for contact in touched)
@@ -157,7 +157,7 @@ def run_into(thing: ObjectSpec, surge: float = 0.4) -> tuple[Simulation, object,
     sensor = ContactSensorToROSSpec(name="girona500", topic="/touch", rate=100)
     simulation = make((TWIST, sensor), objects=(thing,))
     inbox = simulation.bus.inbox("/touch", Bool)
-    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world)
+    measure = CollisionSpec(name="hits", target="girona500").bind(simulation.world.measure_view)
     measure.start()
     command(simulation, surge, 0.0)
     for _ in range(round(8.0 / simulation.timestep)):
@@ -189,8 +189,8 @@ def test_a_vehicle_pushes_a_loose_box_before_it() -> None:
 def test_with_the_quirk_collision_only_what_is_listed_first_counts() -> None:
     simulation = make(objects=(FLOOR, box(3.0, 1.0, 4.7)))
     run(simulation, 2.0)
-    firsts = [contact.is_first for contact in simulation.world.contacts("blackbox")]
-    others = [contact.is_first for contact in simulation.world.contacts("terrain")]
+    firsts = [contact.is_first for contact in simulation.world.contacts.find("blackbox")]
+    others = [contact.is_first for contact in simulation.world.contacts.find("terrain")]
     assert firsts == [not other for other in others]
     assert len(firsts) > 0
 
@@ -208,15 +208,15 @@ def test_two_runs_with_contacts_are_the_same_to_the_last_bit() -> None:
 def test_a_vehicle_in_the_middle_of_the_tank_touches_nothing() -> None:
     simulation = make(objects=(FLOOR,))
     run(simulation, 1.0)
-    assert simulation.world.contacts("girona500") == []
+    assert simulation.world.contacts.find("girona500") == []
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.01)
 
 
 def test_without_any_physics_everything_is_touched_where_it_stands() -> None:
     over = replace(BLACKBOX, position=(3.0, 1.5, 2.0))
     simulation = make(objects=(over,))
-    [*contacts] = simulation.world.contacts("girona500")
+    [*contacts] = simulation.world.contacts.find("girona500")
     assert {contact.other for contact in contacts} == {"blackbox"}
-    assert simulation.world.contacts("blackbox")
+    assert simulation.world.contacts.find("blackbox")
     with pytest.raises(UnknownName, match="blackbox"):
-        simulation.world.contacts("blackbux")
+        simulation.world.contacts.find("blackbux")

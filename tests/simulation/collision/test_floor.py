@@ -66,7 +66,7 @@ def opened(*objects: ObjectSpec, frame: SimParamsSpec = UP, rov: bool = False) -
 
 def corners(simulation: Simulation) -> np.ndarray:
     """Corners of the thing in W, (8, 3) [m]."""
-    body = simulation.world.body("thing")
+    body = simulation.world.bodies.find("thing")
     assert body.box is not None
     return body.world_from_body.transform(body.box.corners())
 
@@ -88,8 +88,8 @@ def test_a_box_stands_on_a_flat_floor_whichever_way_the_files_z_points(
     simulation = opened(ground(file, orientation=turned), thing(1.3, -0.7), frame=frame)
     assert lowest(simulation) == pytest.approx(-4.0, abs=1e-6)
     place = (
-        simulation.world.world_from_localized.inverse()
-        @ simulation.world.body("thing").world_from_body
+        simulation.world.model.scene.world_from_localized.inverse()
+        @ simulation.world.bodies.find("thing").world_from_body
     )
     assert (place.position - place.rotation @ [0, 0, 0])[:2] == pytest.approx([1.3, -0.7], abs=1e-9)
 
@@ -121,8 +121,8 @@ def clearance_by_sampling(simulation: Simulation, file: str) -> float:
     import trimesh
     from matplotlib.tri import LinearTriInterpolator, Triangulation
 
-    part = simulation.world.body("thing")
-    scale = simulation.world.scene.objects[1].scale_factor[0]
+    part = simulation.world.bodies.find("thing")
+    scale = simulation.world.model.scene.objects[1].scale_factor[0]
     points = np.concatenate([mesh.vertices for mesh in load_model(BOX).meshes]) * scale
     hull = trimesh.convex.convex_hull(points)
     surface, _ = trimesh.sample.sample_surface_even(hull, 4000, seed=1)
@@ -140,7 +140,7 @@ def test_aligned_to_a_slope_a_box_lies_flat_on_it(tmp_path: Path) -> None:
     simulation = opened(ground(file), stands)
     over = corners(simulation)[:, 2] - (-4.0 + np.tan(steepness) * corners(simulation)[:, 0])
     assert np.sort(over)[:4] == pytest.approx(np.zeros(4), abs=1e-6)
-    rotation = simulation.world.body("thing").world_from_body.rotation
+    rotation = simulation.world.bodies.find("thing").world_from_body.rotation
     heading = np.arctan2(rotation[1, 0], rotation[0, 0])
     assert heading == pytest.approx(0.5, abs=0.1)
 
@@ -160,10 +160,10 @@ def test_what_is_loose_stays_where_it_was_set(tmp_path: Path) -> None:
         0.95, 0.1, physics=PhysicsSpec(mass=30.0), on_floor=OnFloorSpec(align_to_slope=True)
     )
     simulation = opened(ground(file), stands, frame=UP, rov=True)
-    simulation.start()
-    before = simulation.world.body("thing").world_from_body.position
+    simulation.advance(0.0)
+    before = simulation.world.bodies.find("thing").world_from_body.position
     run(simulation, 3.0)
-    after = simulation.world.body("thing").world_from_body.position
+    after = simulation.world.bodies.find("thing").world_from_body.position
     assert after == pytest.approx(before, abs=0.02)
 
 
@@ -216,7 +216,7 @@ def test_a_thing_as_thin_as_paper_lies_on_the_ground(tmp_path: Path) -> None:
         np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2], [0, 2, 3]]),
     )  # fmt: skip
     simulation = opened(ground(file), replace(thing(0.0, 0.0), file=sheet))
-    assert simulation.world.body("thing").world_from_body.position[2] == pytest.approx(
+    assert simulation.world.bodies.find("thing").world_from_body.position[2] == pytest.approx(
         -4.0, abs=1e-3
     )
 
@@ -253,15 +253,15 @@ def test_a_vehicle_begins_with_its_lowest_link_on_the_floor(align: bool, tmp_pat
     simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(terrain,)), data_path=(tmp_path,)
     )
-    simulation.start()
-    start: Pose = simulation.world.body("girona500").world_from_body
+    simulation.advance(0.0)
+    start: Pose = simulation.world.bodies.find("girona500").world_from_body
     simulation.advance()
-    touched = simulation.world.contacts("girona500")
+    touched = simulation.world.contacts.find("girona500")
     run(simulation, 0.05)
-    end: Pose = simulation.world.body("girona500").world_from_body
+    end: Pose = simulation.world.bodies.find("girona500").world_from_body
     assert {contact.other for contact in touched} == {"terrain"}
     assert np.linalg.norm(end.position - start.position) < 0.005
-    localized = simulation.world.world_from_localized.inverse() @ start
+    localized = simulation.world.model.scene.world_from_localized.inverse() @ start
     assert localized.position[:2] == pytest.approx([2.0, 1.0], abs=1e-9)
 
 
@@ -282,7 +282,7 @@ def test_a_scaled_vehicle_stands_on_its_scaled_foot(tmp_path: Path) -> None:
         on_floor=ON_FLOOR,
     )
     scene = SceneSpec(objects=(ground(grid(tmp_path, flat(6.0))),), vehicles=(vehicle,))
-    height = open_scene(scene).world.body("tall").world_from_body.position[2]
+    height = open_scene(scene).world.bodies.find("tall").world_from_body.position[2]
     assert height == pytest.approx(-6.0 + 1.5 * 2.1, abs=1e-6)
 
 
@@ -299,7 +299,7 @@ def test_check_says_with_its_line_where_there_is_no_ground(tmp_path: Path) -> No
     path = tmp_path / "scene.xml"
     path.write_text(FILE.format(x=3))
     assert [diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"] == []
-    assert open_scene(read_scene(path)).world.body("pot").world_from_body.position[2] > -7.2
+    assert open_scene(read_scene(path)).world.bodies.find("pot").world_from_body.position[2] > -7.2
     path.write_text(FILE.format(x=300))
     (diagnostic,) = [
         diagnostic for diagnostic in check_file(path) if diagnostic.severity == "error"

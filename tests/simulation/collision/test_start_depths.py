@@ -42,7 +42,7 @@ def sunk(depth: float, name: str = "thing", x: float = 0.3, **physics: object) -
 
 
 def height(simulation: Simulation, name: str = "thing") -> float:
-    return float(simulation.world.body(name).world_from_body.position[2])
+    return float(simulation.world.bodies.find(name).world_from_body.position[2])
 
 
 @pytest.mark.parametrize("timestep", [0.002, 0.01])
@@ -56,7 +56,7 @@ def test_a_box_that_begins_in_the_ground_is_lifted_slowly(
         simulation.advance(0.1)
         heights.append(height(simulation))
     assert np.diff(heights).max() < 1.1 * SPEED * 0.1
-    x, y, z = simulation.world.body("thing").world_from_body.position
+    x, y, z = simulation.world.bodies.find("thing").world_from_body.position
     assert z > relief(x, y) - 0.05
     assert max(heights) < float(relief(0.3, 0.2)) + 1.5 * HEIGHT  # and then it may roll down
 
@@ -90,7 +90,7 @@ def test_each_of_several_is_lifted_by_its_own_depth(floor: ObjectSpec) -> None:
     simulation.advance(6.0)
     assert not simulation.world.engine.lift.is_active
     for name in "ab":
-        x, y, z = simulation.world.body(name).world_from_body.position
+        x, y, z = simulation.world.bodies.find(name).world_from_body.position
         assert z > relief(x, y) - 0.05
 
 
@@ -102,14 +102,14 @@ def test_what_is_placed_elsewhere_meanwhile_is_no_longer_lifted(floor: ObjectSpe
     assert not simulation.world.engine.lift.is_active
     assert height(simulation) < -2.0
     simulation.advance(8.0)
-    x, y, z = simulation.world.body("thing").world_from_body.position
+    x, y, z = simulation.world.bodies.find("thing").world_from_body.position
     assert relief(x, y) - 0.05 < z < -2.0  # it touches the ground again
 
 
 def motion_of(simulation: Simulation) -> bytes:
     """Positions and velocities of all bodies, as bytes."""
-    row = np.zeros(simulation.motion.size)
-    simulation.motion.read(row)
+    row = np.zeros(simulation.world.engine.motion.size)
+    simulation.world.engine.motion.read(row)
     return row.tobytes()
 
 
@@ -135,7 +135,7 @@ def test_the_steps_of_a_lift_do_not_depend_on_how_they_are_asked_for(floor: Obje
         simulation = in_water(sunk(0.25), floor, timestep=0.01)
         for _ in range(round(3.0 / seconds)):
             simulation.advance(seconds)
-        ends.append(simulation.world.body("thing").world_from_body.matrix.tobytes())
+        ends.append(simulation.world.bodies.find("thing").world_from_body.matrix.tobytes())
     assert ends[0] == ends[1]
 
 

@@ -35,10 +35,12 @@ def exchange(simulation: Simulation, seed: int, n: int) -> None:
     bus, world = simulation.bus, simulation.world
     control = SimulationControl(simulation, lambda: None)
     control.begin()
-    joints = [name for each in world.vehicles for name in world.vehicle(each).joint_names]
-    objects = [each.name for each in world.scene.objects]
+    joints = [
+        name for each in world.vehicles.names for name in world.vehicles.find(each).joint_names
+    ]
+    objects = [each.name for each in world.model.scene.objects]
     words = ["", "base_link", "world", "rgb8", "mono8", "spawned", "entity_0", "x", "y", "z", "rgb"]
-    messages = RandomMessages(seed, [*words, *world.vehicles, *objects, *joints])
+    messages = RandomMessages(seed, [*words, *world.vehicles.names, *objects, *joints])
     topics = [topic for topic in bus.topics if bus.has_readers(topic)]
     for topic in list(bus.topics):
         bus.inbox(topic, object)  # everything that the scene publishes is made
@@ -54,7 +56,7 @@ def exchange(simulation: Simulation, seed: int, n: int) -> None:
             playing = SimulationState(SimulationState.PLAYING)
             simulation.call("set_simulation_state", SetSimulationState(state=playing))
         simulation.advance(0.006)
-        described(looks_of(world.markers.shown, world.world_from_localized))
+        described(looks_of(world.markers.shown, world.model.scene.world_from_localized))
 
 
 def _request(name: str, bus: uwsim.simulation.simulation.Bus) -> object:
@@ -85,7 +87,7 @@ def test_no_message_to_an_interface_ends_a_simulation(every_interface: Path, see
 def test_no_message_to_a_bundled_scene_ends_a_simulation(scene: str, seed: int) -> None:
     with uwsim.load(scene) as simulation:
         exchange(simulation, seed, 120)
-        for name in simulation.world.vehicles:
+        for name in simulation.world.vehicles.names:
             assert np.isfinite(simulation.pose(name).position).all()
 
 

@@ -14,7 +14,7 @@ from uwsim.base.geometry import Pose as Transform
 from uwsim.messages import ColorRGBA, Marker, Point, Pose, Quaternion, SpawnMarker, Vector3
 from uwsim.simulation.markers import SERVICE, TYPES
 from uwsim.simulation.markers.lines import MAX_POINTS, described, looks_of
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 NOWHERE = Transform(np.zeros(3), np.eye(3))
 
@@ -68,13 +68,15 @@ def test_what_a_program_spawns_is_sent_once_and_again_when_it_is_gone() -> None:
     def markers() -> list[dict[str, Any]]:
         return [json.loads(content) for content in desk.on("markers")]
 
-    view = LiveView(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
     with uwsim.load("remus-scene") as simulation:
-        view.open(simulation, "scene")
+        session.open(simulation, "scene")
         simulation.call(SERVICE, SpawnMarker(marker=marker(type=Marker.CUBE)))
         simulation.advance(0.1)
         assert [[each["name"] for each in said["markers"]] for said in markers()] == [["7+buoy"]]
-        where = simulation.world.world_from_localized.transform(np.array([[1.0, 2.0, 3.0]]))[0]
+        where = simulation.world.model.scene.world_from_localized.transform(
+            np.array([[1.0, 2.0, 3.0]])
+        )[0]
         assert markers()[0]["markers"][0]["at"] == pytest.approx(where.tolist(), abs=1e-3)
         simulation.call(SERVICE, SpawnMarker(marker=marker(action=Marker.DELETEALL)))
         simulation.advance(0.1)

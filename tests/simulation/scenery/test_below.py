@@ -41,9 +41,9 @@ def test_below_a_vehicle_lie_the_box_and_then_the_tank_and_not_itself() -> None:
     try:
         found = below_vehicle(simulation.world, "girona500")
         assert [each.name for each in found] == ["blackbox", "terrain"]
-        box = simulation.world.body("blackbox").box
+        box = simulation.world.bodies.find("blackbox").box
         assert box is not None
-        origin = simulation.world.body("blackbox").world_from_body.position[2]
+        origin = simulation.world.bodies.find("blackbox").world_from_body.position[2]
         assert found[0].height == pytest.approx(origin + box.upper[2], abs=0.15)
         assert found[1].height < found[0].height
         assert (

@@ -16,7 +16,7 @@ SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
 
 def images(scene: SceneSpec, pool: RendererPool | None) -> list[np.ndarray]:
     simulation = open_scene(scene, seed=3, pool=pool)
-    camera = simulation.world.camera("bowtech1")
+    camera = simulation.world.sensors.camera("bowtech1")
     exact = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     assert exact.colour is not None
     assert exact.range is not None
@@ -43,7 +43,7 @@ def test_two_simulations_at_once_do_not_see_each_other() -> None:
     pool = RendererPool()
     emptier = open_scene(replace(scene, objects=scene.objects[:1]), pool=pool)
     whole = open_scene(scene, pool=pool)
-    camera = emptier.world.camera("bowtech1")
+    camera = emptier.world.sensors.camera("bowtech1")
     with_all = whole.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids
     with_one = emptier.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics).ids
     assert with_all is not None

@@ -79,10 +79,10 @@ def test_ghosts_are_not_met(tmp_path: Path) -> None:
 def test_the_water_is_that_of_the_scene(tmp_path: Path) -> None:
     """Fresh where only a temperature is given, the sea where nothing is."""
     with make(tmp_path) as simulation:
-        water = simulation.world.sea_water
+        water = simulation.world.model.scene.ocean_state.sea_water
         assert (water.temperature, water.salinity) == (8.0, 0.0)
     file = tmp_path / "empty.xml"
     file.write_text("<UWSimScene/>")
     with open_scene(read_scene(file), is_blind=True) as simulation:
-        water = simulation.world.sea_water
+        water = simulation.world.model.scene.ocean_state.sea_water
         assert (water.temperature, water.salinity) == (15.0, 35.0)

@@ -74,14 +74,14 @@ def test_every_collision_of_a_link_is_touched(tmp_path: Path) -> None:
     simulation = begin(
         scene_of(VehicleSpec(name="r", file=str(file)), objects=(wall,)), is_blind=True
     )
-    assert {contact.other for contact in simulation.world.contacts("r")} == {"wall"}
+    assert {contact.other for contact in simulation.world.contacts.find("r")} == {"wall"}
 
 
 def test_the_box_of_a_links_visual_frame_holds_all_that_is_seen_of_it(tmp_path: Path) -> None:
     first = shape(xyz="1 0 0", rpy="0 0 1.5707963267948966", size=(0.2, 0.2, 0.2))
     second = shape(xyz="1 2 0", size=(0.2, 0.2, 0.2))
     simulation, _ = seen(tmp_path, f'<link name="base">{first}{second}</link>')
-    box = simulation.world.body("base@visual").box
+    box = simulation.world.bodies.find("base@visual").box
     assert box is not None
     assert box.lower == pytest.approx((-0.1, -0.1, -0.1))
     assert box.upper == pytest.approx((2.1, 0.1, 0.1))  # y of the link is x of the visual
@@ -143,7 +143,7 @@ def test_two_vehicles_of_one_name_carry_their_own_cameras(tmp_path: Path) -> Non
     )
     simulation = begin(scene_of(twins[0], vehicles=twins), is_blind=True)
     for x in (1.0, 5.0):
-        assert simulation.world.camera(f"eye{x}").world_from_camera.position[0] == x
+        assert simulation.world.sensors.camera(f"eye{x}").world_from_camera.position[0] == x
 
 
 def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_image(
@@ -159,7 +159,7 @@ def test_a_camera_that_looks_at_an_object_has_it_in_the_middle_of_its_image(
     )  # fmt: skip
     thing = ObjectSpec(name="thing", file="objects/blackbox", position=(4.0, 3.0, -2.0))
     simulation = begin(scene_of(vehicle, objects=(thing,)))
-    camera = simulation.world.camera("eye")
+    camera = simulation.world.sensors.camera("eye")
     image = simulation.world.scenery.render_clean(camera.world_from_camera, camera.intrinsics)
     simulation.close()
     assert image.ids is not None

@@ -21,7 +21,7 @@ def record(simulation: uwsim.Simulation, seconds: float) -> list[bytes]:
     seen = []
     for _ in range(round(seconds / 0.1)):
         simulation.advance(0.1)
-        motion = simulation.motion
+        motion = simulation.world.engine.motion
         row = np.zeros(motion.size)
         motion.read(row)
         seen.append(row.tobytes())
@@ -77,11 +77,11 @@ def test_servos_that_follow_a_command_go_on() -> None:
         simulation.advance(0.05)
         saved = simulation.save()
         simulation.advance(0.5)
-        there = simulation.world.joints("girona500")
+        there = simulation.world.vehicles.find("girona500").joints
         simulation.restore(saved)
-        assert not np.array_equal(simulation.world.joints("girona500"), there)
+        assert not np.array_equal(simulation.world.vehicles.find("girona500").joints, there)
         simulation.advance(0.5)
-        np.testing.assert_array_equal(simulation.world.joints("girona500"), there)
+        np.testing.assert_array_equal(simulation.world.vehicles.find("girona500").joints, there)
 
 
 def test_bytes_of_another_scene_or_of_none_are_refused() -> None:

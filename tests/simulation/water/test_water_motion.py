@@ -59,8 +59,8 @@ def bluerov(current: Current) -> Simulation:
     simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=()), is_blind=True
     )
-    simulation.start()
-    simulation.world.set_current(current)
+    simulation.advance(0.0)
+    simulation.world.water.set(current)
     simulation.world.engine.actuation[0].autopilot.push(np.zeros(3), np.zeros(3))  # adrift
     return simulation
 
@@ -77,7 +77,7 @@ def test_a_neutral_ball_goes_round_in_an_eddy() -> None:
     """Released with the water 2 m from the middle it stays there, and is not flung out."""
     simulation = bluerov(Linear(EDDY))
     state = simulation.world.engine
-    frame = simulation.world.world_from_localized
+    frame = simulation.world.model.scene.world_from_localized
     base = state.poses.vehicle(0)
     state.place_vehicle(0, replace(base, position=frame.transform(np.array([[2.0, 0, 3.0]]))[0]))
     velocity = state._data.qvel[state._free_dofs[0] : state._free_dofs[0] + 6]

@@ -147,9 +147,9 @@ def test_bodies_are_put_where_they_were_and_cameras_go_with_them(trial: Recorded
         puppets.put(0.7)
         np.testing.assert_allclose(world.engine.poses.vehicle(0).position, poses[21, number, :3])
         assert world.scenery.state.water.fog == pytest.approx(0.4)
-        before = world.camera("bowtech1").world_from_camera.position
+        before = world.sensors.camera("bowtech1").world_from_camera.position
         puppets.put(1.0)
-        now = world.camera("bowtech1").world_from_camera.position
+        now = world.sensors.camera("bowtech1").world_from_camera.position
         np.testing.assert_allclose(now - before, [1.0, 0.0, 0.0], atol=1e-3)
     finally:
         puppets.close()
@@ -173,7 +173,7 @@ def test_the_inset_is_the_image_of_the_camera(small: Film, trial: RecordedTrial)
     puppets = Puppets(trial)
     try:
         puppets.put(0.6)
-        camera = puppets.simulation.world.camera("bowtech1")
+        camera = puppets.simulation.world.sensors.camera("bowtech1")
         lens = camera.intrinsics.resized(width, height)
         seen = puppets.simulation.world.scenery.render_clean(camera.world_from_camera, lens)
         assert seen.colour is not None
@@ -186,7 +186,7 @@ def test_the_inset_is_the_image_of_the_camera(small: Film, trial: RecordedTrial)
 def test_a_grey_camera_is_grey_in_the_inset_and_as_the_view(
     small: Film, trial: RecordedTrial, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    camera = small._puppets.simulation.world.camera("bowtech1")
+    camera = small._puppets.simulation.world.sensors.camera("bowtech1")
     coloured = small._seen("bowtech1", (72, 54), 0.6)
     monkeypatch.setattr(camera, "is_grey", True)
     grey = small._seen("bowtech1", (72, 54), 0.6)

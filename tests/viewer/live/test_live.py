@@ -30,7 +30,7 @@ from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.viewer.live.clock import Clock
 from uwsim.viewer.live.mapping import KEYS, PilotMapping, merged, read_mapping
 from uwsim.viewer.live.server import LiveServer
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 WAIT = 60.0
 """Bound on hanging [s]."""
@@ -259,13 +259,13 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
 ) -> None:
     benchmark = write_benchmark(tmp_path, "0.2")
     run(benchmark, tmp_path / "without")
-    view = LiveView(server, speed=0.0)
+    session = LiveSession(server, speed=0.0)
     with socket_of(server) as socket:
         socket.send(json.dumps({"type": "images", "cameras": ["bowtech1"]}))
         topics = ["cornersTopic", "autoInit", "uwsim/camera1", "no such topic"]
         socket.send(json.dumps({"type": "topics", "names": topics}))
-        run_all([bench_of(benchmark, tmp_path / "with")], SerialExecutor(view))
-        view.end("over")
+        run_all([bench_of(benchmark, tmp_path / "with")], SerialExecutor(session))
+        session.end("over")
         heard: list[Any] = []
         while not heard or "over" not in str(heard[-1]):
             heard.append(socket.recv(timeout=WAIT))
@@ -288,7 +288,7 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
 
 def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_coming() -> None:
     desk, now = Desk(), [0.0]
-    view = LiveView(desk, speed=0.0, mapping=PilotMapping(), wall=lambda: now[0])  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, mapping=PilotMapping(), wall=lambda: now[0])  # type: ignore[arg-type]
     rows: list[int] = []  # at these milliseconds
 
     def pass_by(milliseconds: int) -> None:
@@ -299,7 +299,7 @@ def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_c
             rows.extend([round(1e3 * now[0])] * len(desk.on("row")))
 
     with uwsim.load("remus-scene") as simulation:
-        view.open(simulation, "scene")
+        session.open(simulation, "scene")
         pass_by(100)
         began = rows[-1] + 2
         pass_by(began - round(1e3 * now[0]))
@@ -327,12 +327,12 @@ def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_c
 )
 def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str) -> None:
     desk = Desk()
-    view = LiveView(desk, speed=0.0, mapping=PilotMapping(), resets=True)  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, mapping=PilotMapping(), resets=True)  # type: ignore[arg-type]
     with uwsim.load(scene) as simulation:
-        PilotInputs(simulation, view.pilot)
+        PilotInputs(simulation, session.pilot)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
-        view.open(simulation, "scene")
-        name = simulation.world.vehicles[0]
+        session.open(simulation, "scene")
+        name = simulation.world.vehicles.names[0]
         began = simulation.pose(name).position.copy()
         desk.said.append((1, {"type": "input", "keys": ["w", "q", "t"]}))
         simulation.advance(2.0)
@@ -352,9 +352,9 @@ def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str
 
 def test_nobody_resets_a_benchmark() -> None:
     desk = Desk()
-    view = LiveView(desk, speed=0.0)  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0)  # type: ignore[arg-type]
     with uwsim.load("cirs") as simulation:
-        view.open(simulation, "scene")
+        session.open(simulation, "scene")
         world_from_elsewhere = Pose.from_rpy((1.0, 2.0, -3.0), (0.0, 0.0, 0.0))
         simulation.world.engine.place_vehicle(0, world_from_elsewhere)
         desk.said.append((1, {"type": "control", "action": "reset"}))
@@ -381,13 +381,13 @@ def test_a_pilots_run_is_stored_and_sent_again_with_the_same_bytes(
     text = write_benchmark(tmp_path, "0.2").read_text()
     benchmark = tmp_path / "pilot.xml"
     benchmark.write_text(text.replace("visibility-scene.xml", "currents-scene.xml"))
-    view = LiveView(server, speed=0.0, mapping=PilotMapping())
-    view.pilot = Scribble()  # type: ignore[method-assign]
+    session = LiveSession(server, speed=0.0, mapping=PilotMapping())
+    session.pilot = Scribble()  # type: ignore[method-assign]
     settings, levels = ["algorithm.speed=0.8"], ["fog=0.4"]
     flown = bench_of(
         benchmark, tmp_path / "flown", algorithm="pilot", settings=settings, levels=levels
     )
-    run_all([flown], SerialExecutor(view))
+    run_all([flown], SerialExecutor(session))
     stored = journal.path_of(tmp_path / "flown", 0).with_suffix(journal.INPUTS)
     head, *lines = stored.read_text().splitlines()
     assert json.loads(head)["axes"] == list(AXES)

@@ -19,7 +19,7 @@ from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.viewer.document import document
 from uwsim.viewer.live.mapping import KEYS, PilotMapping
 from uwsim.viewer.live.server import LiveServer
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 pytestmark = pytest.mark.slow
 LIMIT = 120_000
@@ -38,10 +38,10 @@ def server() -> Iterator[LiveServer]:
 
 def opened(browser: Any, server: LiveServer, mapping: PilotMapping, height: int) -> Any:
     """Open the page of a scene that stands still, in a window of some height."""
-    view = LiveView(server, mapping=mapping)
+    session = LiveSession(server, mapping=mapping)
     with uwsim.load("currents-scene") as simulation:
-        view.open(simulation, "scene")
-        view.close()
+        session.open(simulation, "scene")
+        session.close()
     return page_of(browser, server, height)
 
 
@@ -100,9 +100,9 @@ def test_a_dimmed_lamp_looks_in_the_page_as_in_a_camera(
     with open_scene(night(LAMP)) as simulation:
         simulation.publish("headlight/brightness", Float64(data=brightness))
         simulation.advance(0.01)
-        view = LiveView(server)
-        view.open(simulation, "scene")
-        view.close()
+        session = LiveSession(server)
+        session.open(simulation, "scene")
+        session.close()
         drawn = simulation.image("bowtech1").colour
     assert drawn is not None
     assert bool(drawn.max() > 30) is (brightness > 0.0)
@@ -167,10 +167,10 @@ def test_sticks_and_images_of_cameras_do_not_cover_each_other(
 def test_keys_that_move_nothing_are_not_in_the_help_and_no_letter_has_two_meanings(
     browser: Any, server: LiveServer
 ) -> None:
-    view = LiveView(server, mapping=PilotMapping(), resets=True)
+    session = LiveSession(server, mapping=PilotMapping(), resets=True)
     with uwsim.load("currents-scene") as simulation:
-        view.open(simulation, "scene", pilot_topics(simulation))
-        view.close()
+        session.open(simulation, "scene", pilot_topics(simulation))
+        session.close()
     page = page_of(browser, server)
     rows = page.evaluate("uwsim.page.link.help().Pilot.map(({ does }) => does)")
     assert rows[:-1] == [f"{axis} +, −" for axis in ("surge", "sway", "yaw", "heave")]
@@ -185,10 +185,10 @@ def test_keys_that_move_nothing_are_not_in_the_help_and_no_letter_has_two_meanin
 def test_where_nothing_can_be_steered_the_page_says_why_and_has_no_sticks(
     browser: Any, server: LiveServer, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    view = LiveView(server, mapping=PilotMapping())
+    session = LiveSession(server, mapping=PilotMapping())
     with uwsim.load("dredging-scene") as simulation:
-        view.open(simulation, "scene", pilot_topics(simulation))
-        view.close()
+        session.open(simulation, "scene", pilot_topics(simulation))
+        session.close()
     assert "No vehicle can be steered" in capsys.readouterr().err
     page = page_of(browser, server)
     assert page.locator(".stick").count() == 0
@@ -204,19 +204,19 @@ def test_the_orbit_goes_along_with_the_piloted_vehicle_and_keeps_its_distance(
         parameters = pilot_topics(simulation)
         other = next(
             spec.topic
-            for spec in simulation.world.scene.ros_interfaces
+            for spec in simulation.world.model.scene.ros_interfaces
             if type(spec).__name__ == "ROSTwistToPATSpec"
-            and spec.vehicle_name == simulation.world.vehicles[1]
+            and spec.vehicle_name == simulation.world.vehicles.names[1]
         )
         for index, topic in enumerate((parameters["twist_topic"], other)):
-            view = LiveView(server, mapping=PilotMapping())
-            view.open(simulation, "scene", {**parameters, "twist_topic": topic})
-            began = simulation.pose(simulation.world.vehicles[index], "W")
+            session = LiveSession(server, mapping=PilotMapping())
+            session.open(simulation, "scene", {**parameters, "twist_topic": topic})
+            began = simulation.pose(simulation.world.vehicles.names[index], "W")
             moved = Pose(np.add(began.position, (3.0, -2.0, 0.5)), began.rotation)
             simulation.world.engine.place_vehicle(index, moved)
-            view._due["row"] = 0.0
-            view._hand_over()
-            view.close()
+            session.view._due["row"] = 0.0
+            session.view.hand_over()
+            session.close()
             page = page_of(browser, server)
             page.wait_for_function("uwsim.page.drawn !== ''")
             eye = "uwsim.page.views.sight(800, 600).worldFromCamera"
@@ -248,10 +248,10 @@ def test_names_of_frames_of_two_vehicles_begin_with_the_vehicles(
     browser: Any, server: LiveServer
 ) -> None:
     with uwsim.load("two-vehicles-scene") as simulation:
-        view = LiveView(server)
-        view.open(simulation, "scene")
-        view.close()
-        vehicles = simulation.world.vehicles
+        session = LiveSession(server)
+        session.open(simulation, "scene")
+        session.close()
+        vehicles = simulation.world.vehicles.names
     page = browser.new_context(bypass_csp=True).new_page()
     page.set_default_timeout(LIMIT)
     page.goto(server.url)

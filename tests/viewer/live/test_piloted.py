@@ -17,7 +17,7 @@ from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 from uwsim.viewer.live.mapping import PilotMapping
 from uwsim.viewer.live.piloted import piloted_of
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
   <vehicle> <name>one</name> <file>rexrov.urdf</file>
@@ -66,10 +66,10 @@ def test_a_scene_without_interfaces_says_what_it_lacks_once(
         assert piloted.axes == frozenset()
         assert piloted.keys(PilotMapping()) == {}
         assert piloted.sticks(PilotMapping()) == ["", "", "", ""]
-        view = LiveView(Desk(), mapping=PilotMapping())  # type: ignore[arg-type]
+        session = LiveSession(Desk(), mapping=PilotMapping())  # type: ignore[arg-type]
         for _ in range(2):  # trials
-            view.open(simulation, "scene", parameters)
-            view.close()
+            session.open(simulation, "scene", parameters)
+            session.close()
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith("uwsim: warning: No vehicle can be steered: ")
     assert "<ROSTwistToPAT>" in line
@@ -89,10 +89,12 @@ def test_axes_are_those_that_the_vehicle_has(scene: str, axes: set[str]) -> None
         piloted = piloted_of(simulation.world, pilot_topics(simulation))
         joints = [
             name
-            for vehicle in simulation.world.vehicles[:1]
-            for name in simulation.world.vehicle(vehicle).joint_names
+            for vehicle in simulation.world.vehicles.names[:1]
+            for name in simulation.world.vehicles.find(vehicle).joint_names
         ]
-        thrusters = list(simulation.world.vehicle(simulation.world.vehicles[0]).thrusters)
+        thrusters = list(
+            simulation.world.vehicles.find(simulation.world.vehicles.names[0]).thrusters
+        )
     named = {axis: name for axis, name in piloted.names.items() if axis[:5] != "thrus"}
     wanted = dict(zip(("joint1", "joint2", "joint3", "joint4", "jaw"), joints, strict=False))
     assert named == (wanted if "joint1" in axes else {})
@@ -114,8 +116,8 @@ def test_whoever_waits_for_a_page_says_so_once_and_not_at_once(
             now[0] += 0.5
             return int(now[0] > 5.0)
 
-    monkeypatch.setattr("uwsim.viewer.live.view.NAP", 0.0)
-    view = LiveView(
+    monkeypatch.setattr("uwsim.viewer.live.session.NAP", 0.0)
+    session = LiveSession(
         Late(),  # type: ignore[arg-type]
         mapping=PilotMapping(),
         waits=True,
@@ -123,8 +125,8 @@ def test_whoever_waits_for_a_page_says_so_once_and_not_at_once(
         say=lambda text: told.append(f"{now[0]:g}: {text}"),
     )
     with uwsim.load("currents-scene") as simulation:
-        view.open(simulation, "scene")
-        view.close()
-        view.open(simulation, "scene")  # of another trial: somebody looks
-        view.close()
+        session.open(simulation, "scene")
+        session.close()
+        session.open(simulation, "scene")  # of another trial: somebody looks
+        session.close()
     assert told == ["1: waits for a page: open http://127.0.0.1:1/?token=x"]

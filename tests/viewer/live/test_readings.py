@@ -17,12 +17,12 @@ from uwsim.devices.battery import BatterySpec
 from uwsim.messages import Float64, Float64MultiArray, JointState, PoseStamped, String
 from uwsim.viewer.live.heard_topics import MAX_FIELDS, HeardTopics, fields_of
 from uwsim.viewer.live.readings import Readings
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 
 def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their_sensors() -> None:
     with uwsim.load("grasp-scene") as opened:
-        scene = opened.world.scene
+        scene = opened.world.model.scene
     battery = BatterySpec(name="pack", capacity=10.0, voltage=24.0, charge=0.25, hotel_load=500.0)
     [vehicle] = scene.vehicles
     with open_scene(
@@ -30,9 +30,9 @@ def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their
     ) as simulation:
         simulation.advance(0.2)
         found = {name: (unit, value) for name, unit, value in Readings(simulation, 0).take(0.0)}
-        live = simulation.world.vehicle("girona500")
+        live = simulation.world.vehicles.find("girona500")
         joints = live.joints
-        wrist = simulation.world.sensor("wrist", ("ForceSensor",)).sample(0.0).wrench.force
+        wrist = simulation.world.sensors.sensor("wrist", ("ForceSensor",)).sample(0.0).wrench.force
     for name, value in zip(live.joint_names, joints, strict=True):
         assert found[f"joint/{name}"] == ("deg", pytest.approx(math.degrees(value)))
     assert found["force/wrist"] == ("N", pytest.approx(math.hypot(wrist.x, wrist.y, wrist.z)))
@@ -46,12 +46,12 @@ def test_joints_have_the_names_of_the_file_and_forces_and_battery_those_of_their
 
 def test_a_contact_is_felt_and_a_slide_is_in_metres() -> None:
     with uwsim.load("grasp-scene") as simulation:
-        live = simulation.world.vehicle("girona500")
+        live = simulation.world.vehicles.find("girona500")
         sunk = replace(live.world_from_base, position=live.world_from_base.position - (0, 0, 1.9))
         live.place(sunk)
         simulation.advance(0.1)
         readings = {name: value for name, _, value in Readings(simulation, 0).take(0.0)}
-        forces = simulation.world.contact_forces("girona500").values()
+        forces = simulation.world.contacts.forces("girona500").values()
     assert readings["contact force"] == pytest.approx(sum(np.linalg.norm(f) for f in forces))
     assert readings["contact force"] > 1.0
 
@@ -71,7 +71,7 @@ def test_the_real_time_factor_is_that_of_the_last_seconds_and_none_in_a_pause() 
 
 def test_a_scene_without_a_vehicle_has_its_pace_alone() -> None:
     with uwsim.load("currents-scene") as opened:
-        scene = replace(opened.world.scene, vehicles=(), ros_interfaces=())
+        scene = replace(opened.world.model.scene, vehicles=(), ros_interfaces=())
     with open_scene(scene, is_blind=True) as simulation:
         assert [name for name, _, _ in Readings(simulation, 0).take(0.0)] == ["real-time factor"]
 
@@ -143,14 +143,14 @@ def test_the_list_of_topics_is_sent_when_it_has_changed() -> None:
 def test_pages_get_readings_and_the_topics_they_want() -> None:
     desk = Desk(wanted=frozenset({"?topic/dataNavigator"}))
     wall = [0.0]
-    view = LiveView(desk, speed=0.0, wall=lambda: wall[0])  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, wall=lambda: wall[0])  # type: ignore[arg-type]
     with uwsim.load("currents-scene") as simulation:
-        view.open(simulation, "scene")
+        session.open(simulation, "scene")
         for _ in range(5):
             wall[0] += 0.25
             simulation.publish("dataNavigator", simulation.bus.message_type("dataNavigator")())  # type: ignore[misc]
             simulation.advance(0.02)
-        view.close()
+        session.close()
         assert json.loads(desk.on("readings")[-1])["time"] == pytest.approx(0.1, abs=0.021)
         assert len(desk.on("topics")) == 1
         assert len(desk.on("?topic/dataNavigator")) >= 3

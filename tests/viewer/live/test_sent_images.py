@@ -14,7 +14,8 @@ from tests.viewer.live.test_pilot_page import MAPPING, opened, server
 from uwsim.errors import BadSetting
 from uwsim.simulation.views import FIELD, view_from_pose
 from uwsim.viewer.live.server import LiveServer
-from uwsim.viewer.live.view import HEADER, IMAGE, LiveView, _asked_for, jpeg
+from uwsim.viewer.live.session import LiveSession
+from uwsim.viewer.live.view import HEADER, IMAGE, _asked_for, jpeg
 
 __all__ = ["server"]
 CAMERA = "bowtech1"
@@ -51,11 +52,11 @@ def test_images_are_as_wide_as_the_widest_viewer_shows_them(
         now[0] += 0.01  # one step in a few sends an image
         return now[0]
 
-    view = LiveView(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
     with uwsim.load("currents-scene") as simulation:
         if is_read:
             simulation.bus.inbox("/uwsim/camera1", uwsim.messages.Image)
-        view.open(simulation, "scene")
+        session.open(simulation, "scene")
         simulation.advance(0.2)
         assert newest(desk).shape == (round(0.75 * width), width, 3)
         whole = simulation.image(CAMERA).colour

@@ -23,7 +23,7 @@ from uwsim.simulation import Simulation
 from uwsim.viewer.document import document
 from uwsim.viewer.live.mapping import PilotMapping
 from uwsim.viewer.live.server import LiveServer
-from uwsim.viewer.live.view import LiveView
+from uwsim.viewer.live.session import LiveSession
 
 pytestmark = pytest.mark.slow
 PHONE, DESKTOP = (390, 844), (1280, 800)
@@ -52,12 +52,12 @@ def shown(
     browser: Any, server: LiveServer, simulation: Simulation, move: Callable[[], object] = lambda: 0
 ) -> Any:
     """Open the page of a simulation that stands still, piloted; ``move`` is done before."""
-    view = LiveView(server, mapping=PilotMapping(), resets=True)
-    view.open(simulation, "scene", pilot_topics(simulation))
+    session = LiveSession(server, mapping=PilotMapping(), resets=True)
+    session.open(simulation, "scene", pilot_topics(simulation))
     move()
-    view._due = dict.fromkeys(view._due, 0.0)
-    view._hand_over()
-    view.close()
+    session.view._due = dict.fromkeys(session.view._due, 0.0)
+    session.view.hand_over()
+    session.close()
     page = page_of(browser, server)
     page.wait_for_function(
         "uwsim.page.drawn !== '' && document.querySelectorAll('#hud button').length"
@@ -123,9 +123,9 @@ def test_the_state_is_that_of_the_vehicle_whichever_way_its_z_axis_points(
     y = starboard if is_down else -starboard
     with uwsim.load("grasp-scene") if is_down else rov(tmp_path / "scene.xml") as simulation:
         world = simulation.world
-        live = world.vehicle(world.vehicles[0])
+        live = world.vehicles.find(world.vehicles.names[0])
         assert bool(live.world_from_base.rotation[2, 2] < 0.0) is is_down
-        place = np.array([0.3, 0.2, world.surface_height - 2.75])
+        place = np.array([0.3, 0.2, world.model.scene.ocean_state.ocean_surface_height - 2.75])
 
         def move() -> None:
             live.place(Pose(place, np.column_stack([ahead, y, np.cross(ahead, y)])))
@@ -257,7 +257,7 @@ def test_a_line_of_keys_has_the_names_of_the_joints_until_somebody_pilots(
     browser: Any, server: LiveServer
 ) -> None:
     with uwsim.load("grasp-scene") as simulation:
-        joints = simulation.world.vehicle("girona500").joint_names
+        joints = simulation.world.vehicles.find("girona500").joint_names
         page = shown(browser, server, simulation)
     line = " ".join(page.locator(".keyline").inner_text().split())
     for words in ("WS forward / back", "EQ turn right / left", "? all keys", f"TG {joints[0]}"):
@@ -368,7 +368,7 @@ def test_the_chase_view_is_nearer_where_something_hides_the_vehicle(
 
 def test_the_view_of_the_file_is_one_of_its_own(browser: Any, server: LiveServer) -> None:
     with uwsim.load("currents-scene") as simulation:
-        camera = simulation.world.scene.camera
+        camera = simulation.world.model.scene.camera
         page = shown(browser, server, simulation)
     assert camera is not None
     sight = "uwsim.page.views.sight(800, 600)"

@@ -114,10 +114,6 @@ def render(
     """Return the report's HTML; ``unchecked`` is the text returned by `check_rows`."""
     found = endings(result)
     provenance, notes = load_provenance(directory), load_measures(directory)
-    columns = result.of_kind("score") + result.of_kind("measure")
-    n_repeats = len(set(repeats_of(result))) or 1
-    n_levels = len(rows_by_level(result))
-    drawn = [plot for plot in plots if plot.stem != OVERVIEW and n_levels > 1]
     images = shown_images(result, directory)
     return template("report.html.j2").render(
         title=result.inputs.title,
@@ -131,26 +127,15 @@ def render(
         cards=_cards(result, found),
         heads=heads(result),
         table=level_rows(result),
-        n_levels=n_levels,
+        n_levels=len(rows_by_level(result)),
         values=_values(result, notes),
-        repeats=n_repeats,
+        repeats=len(set(repeats_of(result))) or 1,
         full=all_cells(result),
         replay=REPLAY if (directory / REPLAY).is_file() else None,
         has_motion=bool(recorded_trials(directory)),
         n_rows=len(result.rows),
-        plots=[
-            (caption(result, column, notes), data_url(plot.read_bytes(), "png"))
-            for column, plot in zip(columns, drawn, strict=False)
-        ],
-        run_plots=[
-            (
-                each.caption
-                if each.measure is None
-                else over_time_caption(result, each.measure, each.caption, notes),
-                data_url(each.path.read_bytes(), "png"),
-            )
-            for each in run_plots
-        ],
+        plots=_captioned_plots(result, notes, plots),
+        run_plots=_captioned_run_plots(result, notes, run_plots),
         are_wide=_n_curves(result) > MAX_INSIDE,
         marks=marks(result, has_control=control is not None),
         images=images,
@@ -177,6 +162,34 @@ def render(
         provenance=machine(provenance),
         version=result.run.version or "?",
     )
+
+
+def _captioned_plots(result: Result, notes: Notes, plots: Iterable[Path]) -> list[tuple[str, str]]:
+    """Return caption and image of the plot of each score and measure over the levels."""
+    if len(rows_by_level(result)) < 2:
+        return []
+    columns = result.of_kind("score") + result.of_kind("measure")
+    return [
+        (caption(result, column, notes), data_url(plot.read_bytes(), "png"))
+        for column, plot in zip(
+            columns, (plot for plot in plots if plot.stem != OVERVIEW), strict=False
+        )
+    ]
+
+
+def _captioned_run_plots(
+    result: Result, notes: Notes, plots: Iterable[RunPlot]
+) -> list[tuple[str, str]]:
+    """Return caption and image of each plot over time."""
+    return [
+        (
+            plot.caption
+            if plot.measure is None
+            else over_time_caption(result, plot.measure, plot.caption, notes),
+            data_url(plot.path.read_bytes(), "png"),
+        )
+        for plot in plots
+    ]
 
 
 def _lead(result: Result) -> str:

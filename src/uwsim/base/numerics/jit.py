@@ -12,6 +12,7 @@ import functools
 import hashlib
 import importlib
 import os
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from types import FunctionType
@@ -25,29 +26,15 @@ import numpy as np
 import numpy.typing as npt
 from numba.core.caching import FunctionCache, NullCache
 from numba.core.ccallback import CFunc
+from numba.core.runtime.nrt import rtsys
 from numba.core.serialize import dumps
 
 from ..files import disk_cache
 from .compiled_source import source_digest
 from .compiling import one_is_compiled
-from .loading import FORMAT, LibraryCache, start_runtime, unpacked
 
-
-@functools.cache
-def _load_arrays() -> None:
-    """Import numba's array functions without scipy.linalg, which they look for as they load.
-
-    It takes a tenth of a start; whoever compiles a matrix product makes numba import it then.
-    """
-    linear: Any = importlib.import_module("numba.np.linalg")  # numba has no types
-    look = linear.ensure_blas
-    linear.ensure_blas = lambda: None
-    try:
-        importlib.import_module("numba.np.arraymath")
-    finally:
-        linear.ensure_blas = look
-
-
+FORMAT = 3
+"""The format of the files of compiled code."""
 P = ParamSpec("P")
 R = TypeVar("R")
 Elementwise = Callable[..., npt.NDArray[np.float64]]
@@ -98,8 +85,6 @@ def c_function(function: Callable[..., object], signature: Any) -> Any:
 class HashedCache(FunctionCache):
     """numba's cache of a function, with files that are checked by their hash."""
 
-    _impl_class = LibraryCache
-
     def __init__(self, function: FunctionType) -> None:
         super().__init__(function)  # type: ignore[no-untyped-call]
         locator = self._impl.locator
@@ -115,7 +100,7 @@ class HashedCache(FunctionCache):
         numba's own would first fill the tables of all that it can compile: 0.2 s and 20 MB of a
         start. Code that is compiled already needs only the functions that count references.
         """
-        start_runtime(target_context, self._cache_file.folder)
+        rtsys.initialize(target_context)
         return cast("object | None", super()._load_overload(sig, target_context))  # type: ignore[no-untyped-call]
 
     def save_overload(self, sig: object, data: object) -> None:
@@ -151,7 +136,7 @@ class Signatures:
         if data is None:
             return None
         try:
-            stamp, kept_key, compiled = unpacked(data)
+            stamp, kept_key, compiled = pickle.loads(data)
         except (ImportError, AttributeError):  # it calls what was moved since
             return None
         return compiled if (stamp, kept_key) == (self._find_stamp(), key) else None
@@ -200,7 +185,6 @@ class CacheOnUse(NullCache):
         """Load compiled code; None if there is none, and it is compiled."""
         found = self._found.load_overload(sig, target_context)
         if found is None or self._is_typed:
-            _load_arrays()
             target_context.refresh()
         return found
 

@@ -154,7 +154,7 @@ class BagFogUpdater(SceneUpdater):
         self._stage, self._spec, self._path, self._truth = stage, spec, path, truth
         if truth is not None:
             stage.bus.withhold(truth.topic)
-        self._is_original = "bag-fog" in stage.compatibility
+        self._is_original = "bag-fog" in stage.world.compatibility
         self._image_topic, self._info_topic = spec.topics
         self._density = spec.density(spec.initial)  # [1/m]
         self._recording: Recording | None = None

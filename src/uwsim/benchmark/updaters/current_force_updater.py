@@ -169,7 +169,7 @@ class CurrentForceUpdater(SceneUpdater):
         offset = spec.time_offset
         current = LateCurrent(steady, began=stage.time, delay=delay, offset=offset)
         if not spec.publish_as_force:
-            alone = "current-target" in stage.compatibility
+            alone = "current-target" in stage.world.compatibility
             stage.set_current(TargetCurrent(current, spec.target) if alone else current)
         elif self._force is None:
             self._force = ForcePublisher(stage, current)
@@ -192,7 +192,7 @@ class ForcePublisher:
         self.current = current
         """The current as of now."""
         self._stage = stage
-        self._is_signless = "current-force" in stage.compatibility
+        self._is_signless = "current-force" in stage.world.compatibility
         self._publish = stage.bus.publisher(FORCE_TOPIC, WrenchStamped)
         stage.every(FORCE_RATE, self._say)
 

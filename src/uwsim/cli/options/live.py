@@ -15,7 +15,7 @@ from ...errors import BadSetting
 from .help_texts import CONNECTED, in_group
 
 if TYPE_CHECKING:
-    from ...viewer.live.view import LiveView
+    from ...viewer.live.session import LiveSession
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +66,7 @@ class LiveOptions:
         is_piloted: bool,
         waits: bool = False,
         resets: bool = False,
-    ) -> Iterator[LiveView | None]:
+    ) -> Iterator[LiveSession | None]:
         """Open the port and print the address; None where nobody may look.
 
         Args:
@@ -82,13 +82,13 @@ class LiveOptions:
         from ...viewer.document import document
         from ...viewer.live.mapping import PilotMapping, read_mapping
         from ...viewer.live.server import LiveServer
-        from ...viewer.live.view import LiveView
+        from ...viewer.live.session import LiveSession
 
         mapping = None
         if is_piloted:
             mapping = read_mapping(self.pilot_mapping) if self.pilot_mapping else PilotMapping()
         server = LiveServer(lambda: document(title, None), self.port or 0)
-        view = LiveView(
+        session = LiveSession(
             server,
             speed=speed,
             mapping=mapping,
@@ -98,7 +98,7 @@ class LiveOptions:
         )
         typer.echo(f"view: {server.url}", err=True)
         try:
-            yield view
+            yield session
         finally:
-            view.end("The run has ended.")
+            session.end("The run has ended.")
             server.close()

@@ -42,15 +42,15 @@ def inventory(
     warnings = [
         diagnostic.message for diagnostic in diagnostics if diagnostic.severity == "warning"
     ]
-    placed = simulation.world.scene
-    sensors = _sensors(placed, simulation.world.robots)
+    placed = simulation.world.model.scene
+    sensors = _sensors(placed, simulation.world.model.robots)
     directions = {f"{each['name']!r} {each['points']}" for each in sensors}
     return {
         "file": scene.path,
         "frame": _frame(scene),
         "water": _water(scene),
         "vehicles": [_vehicle(placed, i, simulation) for i in range(len(scene.vehicles))],
-        "cameras": _cameras(scene, simulation.world.robots),
+        "cameras": _cameras(scene, simulation.world.model.robots),
         "sensors": sensors,
         "objects": [_object(placed, thing) for thing in placed.objects],
         "topics": topics(scene, simulation),
@@ -104,9 +104,9 @@ def _water(scene: SceneSpec) -> Fields:
 
 def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
     spec = scene.vehicles[index]
-    robot = simulation.world.robots[index]
-    actuators = simulation.world.actuators(spec.name)
-    dynamics = simulation.model.dynamics.get(index)
+    robot = simulation.world.model.robots[index]
+    actuators = simulation.world.vehicles.actuators(spec.name)
+    dynamics = simulation.world.model.dynamics.get(index)
     return {
         "name": spec.name,
         "file": spec.file,
@@ -173,7 +173,7 @@ def _joint(joint: JointSpec) -> Fields:
 
 def _below(scene: SceneSpec, spec: VehicleSpec, simulation: Simulation) -> list[Fields]:
     """The surfaces below the vehicle's origin, the nearest first: the last one is the floor."""
-    origin = simulation.world.body(spec.name).world_from_body.position
+    origin = simulation.world.bodies.find(spec.name).world_from_body.position
     localized_from_world = scene.world_from_localized.inverse()
     found = []
     for each in below_vehicle(simulation.world, spec.name):

@@ -21,7 +21,7 @@ from typing import ClassVar
 from ...messages import Pose
 from ...network import BitErrors, EnergyModel, LinkBudget, ModemSettings, WaterChannel
 from ...schema import REQUIRED, Spec, element
-from ...world import Stage
+from ...world import DeviceWorld
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import acoustic_channel
 from .comms_device import (
@@ -135,14 +135,14 @@ class AcousticCommsDeviceSpec(DeviceSpec):
             return ()
         return packet_topics(self.name, has_energy=self.energy_model is not None)
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> CommsDevice:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> CommsDevice:
         """Mount it and let it take part; raises UnknownName if there is no such link."""
-        settings = None if self.disable else self._settings(stage, vehicle.name)
-        return CommsDevice(self, stage, vehicle, settings)
+        settings = None if self.disable else self._settings(world, vehicle.name)
+        return CommsDevice(self, world, vehicle, settings)
 
-    def _settings(self, stage: Stage, vehicle: str) -> ModemSettings:
+    def _settings(self, world: DeviceWorld, vehicle: str) -> ModemSettings:
         name = acoustic_channel(self.channel_id)
-        found = stage.network.channels.get(name)
+        found = world.network.channels.get(name)
         water = found if isinstance(found, WaterChannel) else WaterChannel()
         bit_rate = self.symbols_per_second * self.coding_eff
         settings = ModemSettings(

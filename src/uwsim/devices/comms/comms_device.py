@@ -32,7 +32,7 @@ from ...network import (
 )
 from ...schema import MAX_DISTANCE, REQUIRED, Original, Spec, element
 from ...sensors.sensor import Mounted
-from ...world import Body, Stage
+from ...world import Body, DeviceWorld
 from ..device import Device, DeviceTopic, DeviceVehicle
 
 SLOT_BYTES = 64
@@ -132,7 +132,7 @@ class CommsDevice(Device):
 
     Args:
         spec: its spec.
-        stage: the scene.
+        world: the scene.
         vehicle: what it rides on.
         settings: what it is in the network; None: it takes no part.
     """
@@ -140,7 +140,7 @@ class CommsDevice(Device):
     def __init__(
         self,
         spec: CommsSpec,
-        stage: Stage,
+        world: DeviceWorld,
         vehicle: DeviceVehicle,
         settings: ModemSettings | None,
     ) -> None:
@@ -152,15 +152,15 @@ class CommsDevice(Device):
         self.parent_frame = spec.relative_tf_id or f"{vehicle.name}/{spec.relative_to}"
         """Name of the frame it rides on."""
         if settings is not None:
-            self._join(spec.dccomms_id, stage, settings)
+            self._join(spec.dccomms_id, world, settings)
 
-    def _join(self, name: str, stage: Stage, settings: ModemSettings) -> None:
-        bus = stage.bus
+    def _join(self, name: str, world: DeviceWorld, settings: ModemSettings) -> None:
+        bus = world.bus
         publish = bus.publisher(f"{name}/rx", UInt8MultiArray)
         modem = Modem(
             settings, lambda: _position(self._mount), lambda packet, _: publish(_message(packet))
         )
-        send = stage.network.join(modem)
+        send = world.network.join(modem)
 
         def take(message: UInt8MultiArray) -> None:
             send(message.data.tobytes(), _destination(message))
@@ -170,9 +170,9 @@ class CommsDevice(Device):
             publish_energy = bus.publisher(f"{name}/energy", Float64)
 
             def tell() -> None:
-                publish_energy(Float64(data=modem.energy(stage.network.now) or 0.0))
+                publish_energy(Float64(data=modem.energy(world.network.now) or 0.0))
 
-            stage.every(ENERGY_RATE, tell)
+            world.every(ENERGY_RATE, tell)
 
     @property
     def parent_from_device(self) -> Pose:

@@ -23,7 +23,7 @@ from ...base import expression
 from ...messages import Pose
 from ...network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateErrors, Unit
 from ...schema import REQUIRED, Spec, element
-from ...world import Stage
+from ...world import DeviceWorld
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import MAX_MS, custom_channel
 from .comms_device import (
@@ -137,14 +137,14 @@ class CustomCommsDeviceSpec(DeviceSpec):
         """Its topics, besides that of its interface."""
         return () if self.disable else packet_topics(self.name)
 
-    def bind(self, stage: Stage, vehicle: DeviceVehicle) -> CommsDevice:
+    def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> CommsDevice:
         """Mount it and let it take part; raises UnknownName if there is no such link."""
-        settings = None if self.disable else self._settings(stage, vehicle.name)
-        return CommsDevice(self, stage, vehicle, settings)
+        settings = None if self.disable else self._settings(world, vehicle.name)
+        return CommsDevice(self, world, vehicle, settings)
 
-    def _settings(self, stage: Stage, vehicle: str) -> ModemSettings:
+    def _settings(self, world: DeviceWorld, vehicle: str) -> ModemSettings:
         sends_on = custom_channel(self.tx_channel_id)
-        channel = stage.network.channels.get(sends_on, DelayChannel())
+        channel = world.network.channels.get(sends_on, DelayChannel())
         jitter, model = self.jitter or JitterSpec(), self.rate_error_model
         settings = ModemSettings(
             name=f"{vehicle}/{self.dccomms_id}",

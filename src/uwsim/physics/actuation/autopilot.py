@@ -39,7 +39,6 @@ The autopilot reads the true state. Not modelled: noise and delay of its sensors
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -101,59 +100,79 @@ class AutopilotState(Record):
     """The commands of the thrusters that are passed on, (n,) [1]."""
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class AutopilotModel:
+    """What an autopilot knows of its vehicle; it does not change while a simulation runs."""
+
+    reference: Array
+    """What forces and moments are about, in the base's frame, (3,) [m]."""
+    allocation: Allocation
+    """The thrust allocation."""
+    loops: npt.NDArray[np.void]
+    """The parameters of its loops, (1,) of `records.AUTOPILOT`."""
+    thrusters: npt.NDArray[np.void]
+    """The parameters of its thrusters, (n,) of `records.THRUSTER`."""
+
+
+def autopilot_model(
+    vehicle: VehicleHydrodynamics,
+    link: str,
+    mass: float,
+    seat: Seat,
+    *,
+    stiffness: float,
+    thrusters: Sequence[ThrusterSpec],
+) -> AutopilotModel:
+    """Prepare the loops of a vehicle.
+
+    Args:
+        vehicle: its hydrodynamics.
+        link: its base.
+        mass: of the whole vehicle with its arm [kg].
+        seat: where the engine keeps it.
+        stiffness: with which the hull rights itself [N m/rad].
+        thrusters: in the base's frame.
+    """
+    body = vehicle.body(link)
+    reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
+    allocation = allocate(thrusters, reference, stiffness)
+    loops = _autopilot_record(vehicle, link, mass, Gains(), allocation)
+    for name in ("place", "dof", "body", "is_over_ground"):
+        loops[name] = getattr(seat, name)
+    records = _thruster_records(thrusters, allocation, loops)
+    records["control"] = seat.controls
+    loops.flags.writeable = records.flags.writeable = False
+    return AutopilotModel(
+        reference=reference, allocation=allocation, loops=loops, thrusters=records
+    )
+
+
 class Autopilot:
     """The autopilot of one vehicle: velocity loops; depth, heading and position hold.
 
     It takes the commands; `autopilot_kernel.steer` does what they ask for.
+
+    Args:
+        model: what it knows of the vehicle.
     """
 
-    def __init__(
-        self,
-        vehicle: VehicleHydrodynamics,
-        link: str,
-        mass: float,
-        seat: Seat,
-        gains: Gains | None = None,
-        *,
-        stiffness: float = math.inf,
-        thrusters: Sequence[ThrusterSpec] | None = None,
-    ) -> None:
-        """Prepare the loops of a vehicle.
-
-        Args:
-            vehicle: its hydrodynamics.
-            link: its base.
-            mass: of the whole vehicle with its arm [kg].
-            seat: where the engine keeps it.
-            gains: how hard the loops pull.
-            stiffness: with which the hull rights itself [N m/rad].
-            thrusters: in the base's frame; without those of the set, all on the base.
-        """
-        thrusters = vehicle.thrusters if thrusters is None else thrusters
-        body = vehicle.body(link)
-        self._reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
-        self.allocation = allocate(thrusters, self._reference, stiffness)
-        """The thrust allocation."""
-        self._autopilot = _autopilot_record(vehicle, link, mass, gains or Gains(), self.allocation)
-        for name in ("place", "dof", "body", "is_over_ground"):
-            self._autopilot[name] = getattr(seat, name)
-        self._thrusters = _thruster_records(thrusters, self.allocation, self._autopilot)
-        self._thrusters["control"] = seat.controls
+    def __init__(self, model: AutopilotModel) -> None:
+        self._model = model
         self._state = np.zeros(1, AUTOPILOT_STATE)
         self._state["heading"] = np.eye(3)
         self._mode: Array = self._state["mode"]
         self._wanted: Array = self._state["wanted"][0]
         self._integral: Array = self._state["integral"]
-        self._commands = np.zeros(len(vehicle.thrusters))
+        self._commands = np.zeros(len(model.thrusters))
         self.state = AutopilotState(self._state, self._commands)
         """What it does."""
 
     @property
     def addresses(self) -> tuple[int, int, int, int, int]:
         """Of its records: what it knows, its state, its thrusters, its commands; how many."""
-        records = (self._autopilot, self._state, self._thrusters, self._commands)
+        records = (self._model.loops, self._state, self._model.thrusters, self._commands)
         knows, state, thrusters, commands = (each.ctypes.data for each in records)
-        return knows, state, thrusters, commands, len(self._thrusters)
+        return knows, state, thrusters, commands, len(self._commands)
 
     def hold(self, world_from_base: Pose) -> None:
         """Hold the present depth and heading, at rest, and reset the loops."""
@@ -181,7 +200,7 @@ class Autopilot:
         """Allocate a force [N] and a torque about the base's origin [N m], base axes."""
         self._state["mode"], self._state["has_news"] = WRENCH, True
         force, torque = np.clip([force, torque], -MAX_COMMAND, MAX_COMMAND)
-        moment = torque - np.cross(self._reference, force)
+        moment = torque - np.cross(self._model.reference, force)
         self._state["wrench"] = np.concatenate([force, moment])
 
     def set_thrusters(self, commands: Array) -> None:

@@ -252,7 +252,13 @@ def nearest(autopilot: Record, state: Record, thrusters: Record) -> Array:
 def command(thruster: Record, force: float) -> float:
     """Return a thruster's command for a thrust [N], as far as it reaches [1]."""
     x, y = thruster.thrusts, thruster.commands
-    j = np.searchsorted(x, force, side="right") - 1
+    j, end = -1, len(x)  # the last point that is not beyond the force
+    while end - j > 1:
+        middle = (j + end) // 2
+        if x[middle] > force:
+            end = middle
+        else:
+            j = middle
     found: float = y[min(max(j, 0), len(y) - 1)]
     if 0 <= j < len(x) - 1:
         found = y[j] + (y[j + 1] - y[j]) * (force - x[j]) / (x[j + 1] - x[j])

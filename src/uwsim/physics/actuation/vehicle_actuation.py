@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -12,15 +11,14 @@ import numpy as np
 from ...base.geometry import Array, Pose
 from ...base.record import Record
 from ...model.balance import balance_of
-from ...model.body_names import vehicle_fin, vehicle_joint, vehicle_thruster
+from ...model.body_names import vehicle_body, vehicle_fin, vehicle_joint, vehicle_thruster
+from ...model.scene_model import SceneModel
 from ...scene.hydrodynamics import VehicleHydrodynamics
-from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
-from ...scene.vehicle import VehicleSpec
 from ..poses import Poses
 from .actuators import Actuators
 from .allocation import thrusters_on_base
-from .autopilot import Autopilot, AutopilotState, Seat
+from .autopilot import Autopilot, AutopilotModel, AutopilotState, Seat, autopilot_model
 from .servos import Servos, ServosState
 
 if TYPE_CHECKING:
@@ -42,7 +40,7 @@ class VehicleActuation:
 
     Args:
         index: its number in the scene.
-        vehicle: what the scene says of it.
+        autopilot: what its autopilot knows of it.
         robot: its links and joints.
         dynamics: what its hydrodynamics file says.
         data: the engine's state.
@@ -53,7 +51,7 @@ class VehicleActuation:
     def __init__(
         self,
         index: int,
-        vehicle: VehicleSpec,
+        autopilot: AutopilotModel,
         robot: RobotSpec,
         dynamics: VehicleHydrodynamics,
         data: mujoco.MjData,
@@ -70,32 +68,11 @@ class VehicleActuation:
         self._fins = [vehicle_fin(index, name) for name in self.fins]
         self.servos = Servos(water.model, data, robot, index)
         """Those of its joints."""
-        self.autopilot = self._make_autopilot(vehicle, poses)
+        self.autopilot = Autopilot(autopilot)
         """What steers it."""
         self.state = ActuationState(self.autopilot.state, self.servos.state)
         """What they do."""
-
-    def _make_autopilot(self, vehicle: VehicleSpec, poses: Poses) -> Autopilot:
-        robot, dynamics, model = self._robot, self._dynamics, self._water.model
-        pose, base = poses.vehicle(self._index), poses.base(self._index)
-        free = model.joint(vehicle_joint(self._index, ""))
-        actuators = [self._water.thrusters[number] for number in self._thrusters]
-        autopilot = Autopilot(
-            dynamics,
-            robot.root,
-            float(model.body_subtreemass[base]),
-            Seat(
-                place=int(free.qposadr[0]),
-                dof=int(free.dofadr[0]),
-                body=base,
-                controls=model.actuator_ctrladr[actuators].tolist(),
-                is_over_ground=vehicle.velocity_loop == "ground",
-            ),
-            stiffness=balance_of(robot, dynamics, vehicle.joint_values).stiffness(pose.rotation[2]),
-            thrusters=thrusters_on_base(robot, dynamics.thrusters, vehicle.joint_values),
-        )
-        autopilot.hold(pose)
-        return autopilot
+        self.autopilot.hold(poses.vehicle(index))
 
     def hold(self, world_from_base: Pose) -> None:
         """Stop the thrusters, put the fins at 0, and hold depth and heading here."""
@@ -141,17 +118,42 @@ class VehicleActuation:
 
 
 def actuation_of(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Mapping[int, VehicleHydrodynamics],
-    data: mujoco.MjData,
-    water: Hydrodynamics | None,
-    poses: Poses,
+    scene_model: SceneModel, data: mujoco.MjData, water: Hydrodynamics | None, poses: Poses
 ) -> dict[int, VehicleActuation]:
     """The actuation of every simulated vehicle, by its number; none without water."""
     if water is None:
         return {}
+    robots, autopilots = scene_model.robots, scene_model.compute_once(_autopilot_models)
     return {
-        i: VehicleActuation(i, scene.vehicles[i], robots[i], one, data, water, poses)
-        for i, one in dynamics.items()
+        i: VehicleActuation(i, autopilots[i], robots[i], one, data, water, poses)
+        for i, one in scene_model.dynamics.items()
     }
+
+
+def _autopilot_models(scene_model: SceneModel) -> dict[int, AutopilotModel]:
+    """Return what the autopilot of each simulated vehicle knows of it, by its number."""
+    model = scene_model.engine_model
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    found = {}
+    for index, dynamics in scene_model.dynamics.items():
+        vehicle, robot = scene_model.scene.vehicles[index], scene_model.robots[index]
+        base = model.body(vehicle_body(index, robot.root)).id
+        free = model.joint(vehicle_joint(index, ""))
+        names = [vehicle_thruster(index, thruster.name) for thruster in dynamics.thrusters]
+        up = data.xmat[base, 6:]  # W's z in the base's frame, (3,)
+        found[index] = autopilot_model(
+            dynamics,
+            robot.root,
+            float(model.body_subtreemass[base]),
+            Seat(
+                place=int(free.qposadr[0]),
+                dof=int(free.dofadr[0]),
+                body=base,
+                controls=[int(model.actuator_ctrladr[model.actuator(n).id]) for n in names],
+                is_over_ground=vehicle.velocity_loop == "ground",
+            ),
+            stiffness=balance_of(robot, dynamics, vehicle.joint_values).stiffness(up),
+            thrusters=thrusters_on_base(robot, dynamics.thrusters, vehicle.joint_values),
+        )
+    return found

@@ -174,12 +174,23 @@ def install(model: mujoco.MjModel) -> Hydrodynamics:
         MujocoChanged: this MuJoCo is not laid out as the kernel needs it.
     """
     _check(model)
+    water = attach(model)
+    correct_inverse_weights(model)
+    _set_rotor_dynamics(model)
+    return water
+
+
+def attach(model: mujoco.MjModel) -> Hydrodynamics:
+    """Return the hydrodynamics of a copy of a model that `install` has corrected.
+
+    Raises:
+        CallbackTaken: another function sits in the slot.
+        MujocoChanged: this MuJoCo is not laid out as the kernel needs it.
+    """
     self_test()
     if callback.has_slot():
         callback.install()
     callback.stop_profiler()
-    correct_inverse_weights(model)
-    _set_rotor_dynamics(model)
     return Hydrodynamics(model)
 
 

@@ -108,7 +108,7 @@ class Fingerprinter:
     """Takes the fingerprints of a simulation while it runs."""
 
     def __init__(self, simulation: Simulation) -> None:
-        self._simulation, self._motion = simulation, simulation.motion
+        self._simulation, self._motion = simulation, simulation.world.engine.motion
         self._block = np.zeros((BLOCK, self._motion.size))
         self._n = self._step = 0
         ends = np.cumsum([0, *(size for _, size in self._motion.parts)], dtype=int).tolist()
@@ -159,9 +159,9 @@ class Fingerprinter:
             self._every *= 2
 
     def _digests(self) -> str:
-        images = self._simulation.images
+        images = self._simulation.world.images
         hashes = [images[topic].sha256[: 2 * BYTES] for topic in sorted(images)]
         return "".join([*(digest.hexdigest() for _, digest in self._hashes), *hashes])
 
     def _names(self) -> tuple[str, ...]:
-        return (*(name for name, _ in self._motion.parts), *sorted(self._simulation.images))
+        return (*(name for name, _ in self._motion.parts), *sorted(self._simulation.world.images))

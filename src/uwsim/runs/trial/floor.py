@@ -49,11 +49,11 @@ class Floor:
         chosen = _corners_of(starting)
         assert chosen is not None
         self._is_started_once = starting.auto_init == "once"
-        self._given = chosen.bind(simulation.world, starting.truth)
-        camera, body = simulation.world.camera(chosen.camera), simulation.world.body(chosen.target)
-        self._face = FaceCorners(camera, body)
+        world = simulation.world.measure_view
+        self._given = chosen.bind(world, starting.truth)
+        self._face = FaceCorners(world.camera(chosen.camera), world.body(chosen.target))
         self._truths = {
-            spec.name: spec.ground_truth.bind(simulation.world, spec.truth)
+            spec.name: spec.ground_truth.bind(world, spec.truth)
             for spec in specs
             if spec.ground_truth.camera == chosen.camera
             and getattr(spec.ground_truth, "target", None) == chosen.target

@@ -48,7 +48,7 @@ class LiveTopics:
         self._due = 0  # step from which on the next entry may be taken
         self._news = ""
         self._entries: list[float] = []
-        simulation.world.every(RATE, self._speak)
+        simulation.world.schedule.every(RATE, self._speak)
 
     def changed(self, level: Level, *, after: Level | None) -> None:
         """Take note that the scene was brought to ``level``; the first one changes nothing."""

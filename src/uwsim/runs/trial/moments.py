@@ -86,7 +86,7 @@ class Moments:
         rendered = scenery.render_view(pose, lens, targets=frozenset({"colour"}))
         assert rendered.colour is not None
         pixels = np.ascontiguousarray(rendered.colour.view(np.uint8)[..., :3])
-        for images in self._simulation.images.values():
+        for images in self._simulation.world.images.values():
             if images.last is not None:
                 return with_inset(pixels, images.last)
         return pixels

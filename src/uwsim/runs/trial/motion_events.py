@@ -83,7 +83,7 @@ class MarkerLog:
         if name in self._looks:
             self._drawn -= n_points(self._looks[name])
         room = max(0, min(MAX_POINTS - self._drawn, self._room))
-        look = look_of(marker, self._world.world_from_localized, room)
+        look = look_of(marker, self._world.model.scene.world_from_localized, room)
         if look.lines not in self._shapes:
             self._shapes.add(look.lines)
             self._room -= n_points(look)

@@ -23,9 +23,9 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     if not world.vehicles:
         return {}
     index = _first_steered(simulation)
-    name = world.vehicles[index]
+    name = world.vehicles.names[index]
     found: dict[str, float | str] = {}
-    for spec in world.scene.ros_interfaces:
+    for spec in world.model.scene.ros_interfaces:
         if getattr(spec, "vehicle_name", name) != name:
             continue
         if isinstance(spec, ROSTwistToPATSpec):
@@ -34,13 +34,13 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
             found.setdefault("odom_topic", spec.topic)
         elif isinstance(spec, ROSJointStateToArmSpec):
             found.setdefault("joints_topic", spec.topic)
-        elif isinstance(spec, ROSThrustersToPATSpec) and world.vehicle(name).thrusters:
+        elif isinstance(spec, ROSThrustersToPATSpec) and world.vehicles.find(name).thrusters:
             found.setdefault("thrusters_topic", spec.topic)
-            found["n_thrusters"] = float(len(world.vehicle(name).thrusters))
-    lamps = (lamp.brightness_topic for lamp in world.scene.vehicles[index].parts_of(LampSpec))
+            found["n_thrusters"] = float(len(world.vehicles.find(name).thrusters))
+    lamps = (lamp.brightness_topic for lamp in world.model.scene.vehicles[index].parts_of(LampSpec))
     if topics := " ".join(dict.fromkeys(topic for topic in lamps if " " not in topic)):
         found["lamp_topics"] = topics
-    joints = list(world.vehicle(name).joint_names)
+    joints = list(world.vehicles.find(name).joint_names)
     jaw = ""
     if joints and any(word in joints[-1].lower() for word in JAW):
         jaw = joints.pop()
@@ -53,7 +53,7 @@ def _first_steered(simulation: Simulation) -> int:
     world = simulation.world
     names = {
         spec.vehicle_name
-        for spec in world.scene.ros_interfaces
+        for spec in world.model.scene.ros_interfaces
         if isinstance(spec, ROSTwistToPATSpec | ROSOdomToPATSpec | ROSThrustersToPATSpec)
     }
-    return next((i for i, name in enumerate(world.vehicles) if name in names), 0)
+    return next((i for i, name in enumerate(world.vehicles.names) if name in names), 0)

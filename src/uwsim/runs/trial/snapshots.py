@@ -38,7 +38,7 @@ def capture(
     An estimate is kept only if the algorithm ``is_tracking`` still: an old one is no estimate.
     """
     taken: dict[str, Snapshot] = {}
-    for images in simulation.images.values():
+    for images in simulation.world.images.values():
         name = images.camera.name
         if images.last is not None and name not in taken:
             truth, estimate = _corners(name, measures)

@@ -126,7 +126,7 @@ class _Execution:
         self._updater = benchmark.scene_updater
         self._fingerprinter = Fingerprinter(simulation)
         self._motion = MotionRecorder(simulation, benchmark.measures)
-        self._updaters = bind_updaters(self._updater, simulation.world)
+        self._updaters = bind_updaters(self._updater, simulation.world.stage_view)
         if "no-markers" in plan.compatibility:
             simulation.bus.services.withdraw(SPAWN_MARKER)
         simulation.bus.keeps_unread = False  # all who read subscribe
@@ -135,7 +135,7 @@ class _Execution:
         ramp_level(self._updaters, self._before())
         for triggered in self._bind_measures():
             triggered.close()  # the bus now keeps the messages that they read when they start
-        self._triggers = LevelTriggers(benchmark, simulation.world)
+        self._triggers = LevelTriggers(benchmark, simulation.world.measure_view)
         self._live = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
@@ -172,7 +172,7 @@ class _Execution:
     def rows(self) -> Iterator[LevelRow | TrialEnd]:
         """Run the levels."""
         plan, simulation = self._plan, self._simulation
-        simulation.start()
+        simulation.advance(0.0)
         self._motion.start()
         if self._onlooker is not None:
             pilot = None if self._inputs is None else self._parameters
@@ -266,7 +266,7 @@ class _Execution:
         """Topic, number and SHA-256 of the images published, by topic."""
         cameras = [
             (topic, images.n_frames, images.sha256)
-            for topic, images in self._simulation.images.items()
+            for topic, images in self._simulation.world.images.items()
         ]
         return tuple(sorted([*cameras, *(s for u in self._updaters for s in u.streams)]))
 
@@ -314,7 +314,9 @@ class _Execution:
 
     def _bind_measures(self) -> list[TriggeredMeasure]:
         """Bind every measure anew."""
-        return [TriggeredMeasure(spec, self._simulation.world) for spec in self._measures]
+        return [
+            TriggeredMeasure(spec, self._simulation.world.measure_view) for spec in self._measures
+        ]
 
     def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
         """Close them, and remember which have initialised an algorithm."""

@@ -56,10 +56,10 @@ def visibility_facts(
         truth = spec.ground_truth
         if not isinstance(truth, CornersFromCameraSpec):
             continue
-        corners = truth.bind(simulation.world, spec.truth).read()
+        corners = truth.bind(simulation.world.measure_view, spec.truth).read()
         if corners is None:
             continue
-        camera = simulation.world.camera(truth.camera)
+        camera = simulation.world.sensors.camera(truth.camera)
         image = simulation.world.scenery.render_clean(
             camera.world_from_camera, camera.intrinsics, fog=0.0
         )
@@ -131,7 +131,7 @@ def _first_truth(simulation: Simulation, plan: Plan) -> GroundTruth | None:
         if isinstance(spec, EuclideanNormSpec) and isinstance(
             spec.ground_truth, CornersFromCameraSpec
         ):
-            return spec.ground_truth.bind(simulation.world, spec.truth)
+            return spec.ground_truth.bind(simulation.world.measure_view, spec.truth)
     return None
 
 

@@ -16,6 +16,7 @@ surface: with ``multipath`` such rays send echoes back by the same way.
 from __future__ import annotations
 
 import math
+from functools import cache, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -80,7 +81,7 @@ class Echoes:
         highest: float | None = None,
     ) -> None:
         self._spec, self._world = spec, world
-        self.grid = RayGrid(spec, azimuths, step, highest)
+        self.grid = _ray_grid(spec, tuple(azimuths.tolist()), step, highest)
         """The rays of its pings."""
         self._fan = Fan(
             float(azimuths[0]),
@@ -195,6 +196,14 @@ class Echoes:
         return max(0.0, self._world.surface_height - float(world_from_sonar.position[2]))
 
 
+@lru_cache(maxsize=16)
+def _ray_grid(
+    spec: SonarSpec, azimuths: tuple[float, ...], step: float, highest: float | None
+) -> RayGrid:
+    """Return the rays of a sonar's pings; who asks again gets the same."""
+    return RayGrid(spec, np.array(azimuths), step, highest)
+
+
 def _numbers(materials: list[Material]) -> Array:
     """Numbers of materials for `add_echoes`, (m, 3)."""
     return np.array(
@@ -217,6 +226,7 @@ def _draws(key: int, shape: tuple[int, int]) -> npt.NDArray[np.uint16]:
     return wide.astype("<u8", copy=False).view("<u2")[:n].reshape(shape)
 
 
+@cache
 def _rayleigh() -> npt.NDArray[np.float32]:
     """Quantiles of the amplitude whose mean square is 1, (65536,)."""
     shares = (np.arange(65536) + 0.5) / 65536.0

@@ -1,7 +1,7 @@
 """What a program that owns a simulation passes to it and reads from it.
 
 `topics` publishes and reads messages; `arguments` checks what is passed; `boxes` has the boxes in
-3-D of links and objects.
+3-D of links and objects; `placing` places vehicles and objects.
 """
 
 from __future__ import annotations

@@ -69,7 +69,7 @@ class Contacts:
         if self._overlaps.part is not None:
             self._overlaps.part.record(step)
 
-    def contacts(self, name: str) -> list[Contact]:
+    def find(self, name: str) -> list[Contact]:
         """Find where the vehicle or object of that name touches others.
 
         Raises:
@@ -77,7 +77,7 @@ class Contacts:
             UwsimError: it cannot be touched.
         """
         kind, index = touchable(name, self._model.scene)
-        contacts = self._engine.contacts(kind, index)
+        contacts = self._engine.contacts.of(kind, index)
         if contacts is None:
             if self._overlaps.part is None:
                 self._overlaps.made().record(self.state.step)
@@ -95,7 +95,7 @@ class Contacts:
         """
         if name not in self._found:
             self._found[name] = touchable(name, self._model.scene)
-        return self._engine.contact_forces(*self._found[name])
+        return self._engine.contacts.forces(*self._found[name])
 
     def _lay(self) -> KinematicContacts:
         scene, engine, shapes = self._model.scene, self._engine, self._model.all_shapes

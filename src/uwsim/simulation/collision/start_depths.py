@@ -19,7 +19,7 @@ from ...base.geometry import Array, Pose
 from ...model.collision.ground import Ground
 from ...model.placement import Floor
 from ...model.scene_model import SceneModel
-from ...physics.engine import Engine
+from ...physics.engine import Engine, Kind
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 
@@ -100,13 +100,20 @@ class StartDepths:
 
 
 def lift_from_ground(model: SceneModel, engine: Engine) -> None:
-    """Begin to lift simulated vehicles and loose objects that begin in the ground.
+    """Begin to lift simulated vehicles and loose objects that begin in the ground."""
+    for kind, index, rise in model.compute_once(_start_lifts):
+        engine.begin_lift(kind, index, rise)
+
+
+def _start_lifts(model: SceneModel) -> list[tuple[Kind, int, float]]:
+    """Return what is lifted when the run begins, and how far [m].
 
     Only those are looked at which touch something fixed at the start.
     """
-    touching = engine.deep_at_start(MIN_RISE)
+    lifts: list[tuple[Kind, int, float]] = []
+    touching = Engine(model).deep_at_start(MIN_RISE)
     if not touching:
-        return
+        return lifts
     scene = model.scene
     depths = StartDepths(scene, model.robots, model.data_path)
     for kind, index in touching:
@@ -115,4 +122,5 @@ def lift_from_ground(model: SceneModel, engine: Engine) -> None:
             continue
         found = depths.of_vehicle(index) if kind == "vehicle" else depths.of_object(index)
         if found is not None and found.rise > 0.0 and found.origin < found.height:
-            engine.begin_lift(kind, index, found.rise)
+            lifts.append((kind, index, found.rise))
+    return lifts

@@ -62,7 +62,7 @@ class Entities:
     @property
     def names(self) -> list[str]:
         """Vehicles, objects and what was spawned."""
-        scene = self._simulation.world.scene
+        scene = self._simulation.world.model.scene
         shown = self._simulation.world.markers.shown
         self._spawned = {n: i for n, i in self._spawned.items() if f"{i}+{NAMESPACE}" in shown}
         vehicles, objects = scene.vehicles, scene.objects
@@ -95,7 +95,9 @@ class Entities:
             return GetEntityStateResponse(state=state)
         pose = self._simulation.pose(name)
         state.pose = _message(pose)
-        if name in world.vehicles and world.engine.is_simulated(world.vehicle(name).index):
+        if name in world.vehicles.names and world.engine.is_simulated(
+            world.vehicles.find(name).index
+        ):
             twist = self._simulation.velocity(name)
             linear, angular = turned(pose.rotation, twist[:3]), turned(pose.rotation, twist[3:])
             state.twist = Twist(linear=Vector3(*linear), angular=Vector3(*angular))
@@ -106,7 +108,7 @@ class Entities:
         name, world = request.entity, self._simulation.world
         if name not in self.names:
             return SetEntityStateResponse(_not_found(name))
-        if name not in world.vehicles or request.set_twist or request.set_acceleration:
+        if name not in world.vehicles.names or request.set_twist or request.set_acceleration:
             message = "Only the pose of a vehicle can be set; it is at rest then."
             return SetEntityStateResponse(Result(Result.FEATURE_UNSUPPORTED, message))
         pose = read_pose(request.state.pose)
@@ -114,7 +116,7 @@ class Entities:
             message = f"The pose is not valid; expected {EXPECTED_POSE}."
             return SetEntityStateResponse(Result(Result.OPERATION_FAILED, message))
         if request.set_pose:
-            world.vehicle(name).put(world.world_from_localized @ pose)
+            world.vehicles.find(name).put(world.model.scene.world_from_localized @ pose)
         return SetEntityStateResponse()
 
     def spawn(self, request: SpawnEntity) -> SpawnEntityResponse:

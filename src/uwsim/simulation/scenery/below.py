@@ -10,7 +10,7 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.linear import product
 from ...model.parts import Part
-from ..world import SceneWorld
+from ..live_scene import LiveScene
 from .scenery import Scenery
 
 
@@ -24,9 +24,9 @@ class Below:
     """z of the surface in W [m]."""
 
 
-def below_vehicle(world: SceneWorld, vehicle: str) -> tuple[Below, ...]:
+def below_vehicle(world: LiveScene, vehicle: str) -> tuple[Below, ...]:
     """Return the surfaces vertically below a vehicle's origin, the nearest first."""
-    index = world.vehicle(vehicle).index
+    index = world.vehicles.find(vehicle).index
     parts = world.scenery.parts
     others = [part for part in parts if part.vehicle != index and not part.is_hidden]
     return below(world.engine.poses.vehicle(index).position, world.scenery, others)

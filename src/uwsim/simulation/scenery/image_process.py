@@ -62,7 +62,7 @@ class ImageProcess:
         """Number of the process, once it is started."""
         self.n_left_out = 0
         """Samples left out so far."""
-        for publisher in simulation.images.values():
+        for publisher in simulation.world.images.values():
             publisher.elsewhere = self._take
         simulation.watch(self.step)
 
@@ -93,7 +93,7 @@ class ImageProcess:
 
     def close(self) -> None:
         """End the process; images are drawn in this one."""
-        for publisher in self._simulation.images.values():
+        for publisher in self._simulation.world.images.values():
             publisher.elsewhere = None
         self._is_ready = False
         if self._pipe is not None:
@@ -111,7 +111,7 @@ class ImageProcess:
     def _begin(self) -> None:
         self._room = len(self._seen()) + SPARE
         size = self._room
-        for topic, publisher in self._simulation.images.items():
+        for topic, publisher in self._simulation.world.images.items():
             pinhole = publisher.camera.intrinsics
             n_bytes = pinhole.width * pinhole.height * 3
             self._slots[topic] = size, n_bytes
@@ -121,7 +121,7 @@ class ImageProcess:
         self._pipe, theirs = context.Pipe()
         where = self._memory.name, self._slots
         self._process = context.Process(
-            target=draw_images, args=(theirs, where, self._simulation.model), daemon=True
+            target=draw_images, args=(theirs, where, self._simulation.world.model), daemon=True
         )
         self._process.start()
         self.pid = self._process.pid
@@ -160,7 +160,7 @@ class ImageProcess:
         for topic, time, shape in answer:
             if time > self._simulation.time:  # the simulation has begun again
                 continue
-            publisher = self._simulation.images[topic]
+            publisher = self._simulation.world.images[topic]
             offset = self._slots[topic][0]
             seen = np.ndarray(shape, np.uint8, self._memory.buf, offset)
             frame = publisher.camera.frame_id
@@ -191,7 +191,7 @@ def draw_images(
                 simulation.world.scenery.redraw()
                 done = []
                 for topic, time in asked:
-                    pixels = simulation.images[topic].camera.capture()
+                    pixels = simulation.world.images[topic].camera.capture()
                     offset = slots[topic][0]
                     np.ndarray(pixels.shape, np.uint8, memory.buf, offset)[...] = pixels
                     done.append((topic, time, pixels.shape))

@@ -79,8 +79,9 @@ class Scenery:
         self.mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
         """The projector of the scene, and its pattern (h, w, 4)."""
         self._projector: Projector | None = None
+        buried = {index for index, thing in enumerate(scene.objects) if thing.buried > 0.0}
         self.heaps = heaps_of(
-            scene, [(p.object, self.corners(p)) for p in self.parts if p.object is not None]
+            scene, [(p.object, self.corners(p)) for p in self.parts if p.object in buried]
         )
         """The sand over buried objects."""
         self.state = SceneryState(
@@ -105,6 +106,18 @@ class Scenery:
     def set_projector(self, projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> None:
         """Set the projector of the scene, and its pattern (h, w, 4)."""
         self.mounted_projector = projector, pattern
+
+    def set_fog(self, density: float) -> None:
+        """Set the fog density [1/m] of the water; its colour stays.
+
+        The original sets the colour of its window's fog to (0, 0.05, 0.3) here, and leaves that of
+        its cameras as the scene has it.
+        """
+        self.state.water = replace(self.state.water, fog=density)
+
+    def set_light_rate(self, rate: float) -> None:
+        """Scale the light of the scene; 1 is as usual."""
+        self.state.light = replace(self.state.light, rate=rate)
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """The present pose of a part, with its scale, (4, 4) [m]."""

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ...base.record import fields_of
+from ...base.record import Drawn, Live, changing_fields, fields_of
 from ...errors import UwsimError
 from ...version import __version__
 
@@ -33,7 +33,7 @@ CHECKSUM = 4
 
 
 def pack(value: object) -> bytes:
-    """Return a copied value as bytes, with the version of uwsim.
+    """Return the present value of a record as bytes, with the version of uwsim.
 
     Raises:
         UwsimError: something in it has no bytes.
@@ -42,14 +42,19 @@ def pack(value: object) -> bytes:
         pickler = pickle.Pickler(stream := io.BytesIO(), protocol=5)
         pickler.fast = True  # the same bytes whichever values are one object
         pickler.dump((__version__, _FLAT[type(value)](value)))
-        return with_checksum(stream.getvalue())
+        stream.write(_checksum(stream.getbuffer()))
+        return stream.getvalue()
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise UwsimError(f"The state cannot be saved: {error}.") from None
 
 
 def with_checksum(payload: bytes) -> bytes:
     """Return bytes with their checksum behind them."""
-    return payload + zlib.crc32(payload).to_bytes(CHECKSUM, "little")
+    return payload + _checksum(payload)
+
+
+def _checksum(payload: bytes | memoryview) -> bytes:
+    return zlib.crc32(payload).to_bytes(CHECKSUM, "little")
 
 
 def unpack(data: bytes, kind: type[T]) -> T:
@@ -81,17 +86,33 @@ class _Flat(dict[type, Callable[[Any], Any]]):
 
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
         self[kind] = _itself
-        if dataclasses.is_dataclass(kind) and "__slots__" in vars(kind):
-            name = f"{kind.__module__}:{kind.__qualname__}"
-            self[kind] = lambda value: [
-                RECORD,
-                name,
-                *[self[type(each)](each) for each in fields_of(value)],
-            ]
+        if issubclass(kind, Live):
+            self[kind] = lambda part: _flat(part.value())
+        elif dataclasses.is_dataclass(kind) and "__slots__" in vars(kind):
+            self[kind] = _record_flattener(kind)
         return self[kind]
 
 
 RECORD, ARRAY, LIST, DICT, QUEUE = range(5)
+
+
+def _record_flattener(kind: type) -> Callable[[Any], list[Any]]:
+    """Return what makes lists of the records of a class: most fields stay as they are."""
+    name = f"{kind.__module__}:{kind.__qualname__}"
+    places, flat = [2 + place for place in changing_fields(kind)], _FLAT
+
+    def flatten(record: Any) -> list[Any]:
+        values = [RECORD, name, *fields_of(record)]
+        for place in places:
+            value = values[place]
+            values[place] = flat[type(value)](value)
+        return values
+
+    return flatten
+
+
+def _flat(value: Any) -> Any:
+    return _FLAT[type(value)](value)
 
 
 def _itself(value: Any) -> Any:
@@ -106,6 +127,7 @@ def _flat_array(array: Any) -> list[Any]:
 _FLAT: _Flat = _Flat(
     {
         np.ndarray: _flat_array,
+        np.random.Generator: lambda value: _flat(Drawn.by(value)),
         list: lambda value: [LIST, *[_FLAT[type(each)](each) for each in value]],
         dict: lambda value: [DICT, *value, *[_FLAT[type(each)](each) for each in value.values()]],
         deque: lambda value: [QUEUE, value.maxlen, *[_FLAT[type(each)](each) for each in value]],

@@ -134,7 +134,7 @@ class State(Record):
         Raises:
             UwsimError: a part of it, as a current of a program's own class, has no bytes.
         """
-        return pack(self.copy())
+        return pack(self)
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Self:

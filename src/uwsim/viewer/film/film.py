@@ -137,7 +137,7 @@ class Film:
         return None, None
 
     def _chosen_camera(self) -> str | None:
-        cameras = self._puppets.simulation.world.cameras
+        cameras = self._puppets.simulation.world.sensors.cameras
         wanted = self.spec.camera
         if wanted is not None and wanted not in cameras:
             raise UnknownName("virtual camera", wanted, cameras)
@@ -165,7 +165,7 @@ class Film:
     def _seen(self, name: str, size: tuple[int, int], time: float) -> Pixels:
         """What a camera sees, without noise, with the corners of truth and estimate."""
         world = self._puppets.simulation.world
-        camera = world.camera(name)
+        camera = world.sensors.camera(name)
         lens = fitted(camera.intrinsics, size)
         rendered = world.scenery.render_clean(camera.world_from_camera, lens, targets={"colour"})
         assert rendered.colour is not None
@@ -231,7 +231,7 @@ class Film:
         if not self._has_inset:
             return None
         assert self._camera is not None
-        lens = self._puppets.simulation.world.camera(self._camera).intrinsics
+        lens = self._puppets.simulation.world.sensors.camera(self._camera).intrinsics
         strip = self.spec.size[1] - self._bar - self._strip_top
         height = strip - 2 * MARGIN - round(1.2 * self._small_letters)
         width = min(round(height * lens.width / lens.height), self.spec.size[0] // 2)

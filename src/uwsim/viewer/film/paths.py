@@ -97,7 +97,10 @@ class CameraPath:
 def leader_of(puppets: Puppets, middle: Array, ahead: Array) -> Leader:
     """Smooth the way of the first vehicle; without one the viewer's centre stands still."""
     world, track = puppets.simulation.world, puppets.track
-    roots = [f"{world.scene.vehicles[i].name}/{robot.root}" for i, robot in world.robots.items()]
+    roots = [
+        f"{world.model.scene.vehicles[i].name}/{robot.root}"
+        for i, robot in world.model.robots.items()
+    ]
     if not roots or roots[0] not in track.bodies:
         n = track.n_frames
         return Leader(np.repeat(middle[None], n, axis=0), np.repeat(ahead[None], n, axis=0))

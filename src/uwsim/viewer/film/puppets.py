@@ -48,9 +48,9 @@ class Puppets:
         world = self.simulation.world
         fog, light = self.signal("fog", before), self.signal("light_rate", before)
         if fog is not None:
-            world.set_fog(fog)
+            world.scenery.set_fog(fog)
         if light is not None:
-            world.set_light_rate(light)
+            world.scenery.set_light_rate(light)
         for lamp in world.devices:
             if isinstance(lamp, MountedLamp):
                 brightness = self.signal(f"{LAMP}{lamp.spec.name}", before)

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from ...algorithms.pilot import N_JOINTS, THRUSTER_AXES, TWIST_AXES
-from ...simulation.stage import SceneStage
+from ...simulation.live_scene import LiveScene
 from .mapping import PilotMapping
 
 STEERING = ("twist_topic", "odom_topic", "thrusters_topic")
@@ -38,7 +38,7 @@ class Piloted:
         return any(target.lstrip("+-") in self.axes for target in does.split())
 
 
-def piloted_of(world: SceneStage, parameters: Mapping[str, float | str]) -> Piloted:
+def piloted_of(world: LiveScene, parameters: Mapping[str, float | str]) -> Piloted:
     """Return what a pilot with these parameters can move in a scene."""
     given = {name: str(value) for name, value in parameters.items()}
     topics = {given[name] for name in STEERING if given.get(name)}
@@ -64,14 +64,14 @@ def piloted_of(world: SceneStage, parameters: Mapping[str, float | str]) -> Pilo
             "<u:ROSThrustersToPAT> in its <rosInterfaces>."
         )
     steered = [
-        world.vehicles.index(name)
-        for spec in world.scene.ros_interfaces
+        world.vehicles.names.index(name)
+        for spec in world.model.scene.ros_interfaces
         if getattr(spec, "topic", None) in topics
-        and (name := getattr(spec, "vehicle_name", None)) in world.vehicles
+        and (name := getattr(spec, "vehicle_name", None)) in world.vehicles.names
     ]
     vehicle = next(iter(steered), 0)
     if world.vehicles:
-        thrusters = world.vehicle(world.vehicles[vehicle]).thrusters
+        thrusters = world.vehicles.find(world.vehicles.names[vehicle]).thrusters
         named = zip(THRUSTER_AXES, thrusters, strict=False)
         names.update({axis: name for axis, name in named if axis in axes})
     return Piloted(vehicle=vehicle, axes=frozenset(axes), why=why, names=names)

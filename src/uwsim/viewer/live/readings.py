@@ -35,13 +35,13 @@ class Readings:
         self._sensors: list[tuple[str, Any]] = []
         if not world.vehicles:
             return
-        self._vehicle = world.vehicle(world.vehicles[vehicle])
+        self._vehicle = world.vehicles.find(world.vehicles.names[vehicle])
         self._is_simulated = world.engine.is_simulated(self._vehicle.index)
-        for element, part in world.scene.vehicles[vehicle].all_parts():
+        for element, part in world.model.scene.vehicles[vehicle].all_parts():
             if isinstance(part, ForceSensorSpec | BatterySpec):
                 with suppress(UnknownName):  # one on a link that is not there is left out
-                    self._sensors.append((part.name, world.sensor(part.name, (element,))))
-        self._turns = tuple(j.kind != "prismatic" for j in world.robots[vehicle].movable)
+                    self._sensors.append((part.name, world.sensors.sensor(part.name, (element,))))
+        self._turns = tuple(j.kind != "prismatic" for j in world.model.robots[vehicle].movable)
 
     def take(self, wall: float, *, is_paused: bool = False) -> list[Reading]:
         """Return all of them at a wall time [s]."""
@@ -57,7 +57,7 @@ class Readings:
         for name, value, turns in joints:
             yield f"joint/{name}", "deg" if turns else "m", math.degrees(value) if turns else value
         if self._is_simulated:
-            forces = world.contact_forces(vehicle.name).values()
+            forces = world.contacts.forces(vehicle.name).values()
             yield "contact force", "N", math.fsum(math.hypot(*f.tolist()) for f in forces)
         for name, sensor in self._sensors:
             message = sensor.sample(world.time)

@@ -1,7 +1,7 @@
-"""A live view of a simulation: it looks between steps, and hands copies to the server.
+"""A live view of one simulation: it looks between steps, and hands copies to the server.
 
-What it shows depends on the wall clock; the simulation does not: nothing is written to it but a
-pilot's inputs, which go over the bus like those of any program.
+What it shows depends on the wall clock; the simulation does not: nothing is written to it, unless
+a viewer puts everything back where it began.
 """
 
 from __future__ import annotations
@@ -9,19 +9,16 @@ from __future__ import annotations
 import json
 import math
 import struct
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from ...algorithms.pilot import AXES
 from ...base.external_values import MAX_COORDINATE, read_number
 from ...base.geometry import Pose, rotation_from_quaternion
 from ...base.record import assign_fields, copied_fields
-from ...base.terminal import warn
 from ...benchmark.updaters import Level
 from ...errors import BadSetting
 from ...messages import Marker
@@ -32,11 +29,9 @@ from ...simulation import Simulation
 from ...simulation.markers.lines import described, looks_of
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import FIELD, view_from_pose
-from .clock import NAP, Clock
+from .audience import MAX_SIDE, Audience
 from .head import head_of
 from .heard_topics import HeardTopics
-from .mapping import PilotMapping, merged
-from .piloted import piloted_of
 from .readings import Readings
 from .server import LiveServer, Message
 
@@ -52,131 +47,58 @@ READING_RATE = 5.0
 """Sets of readings, and messages of each topic, a second of the wall clock [Hz]."""
 SAMPLE_RATE = 2.0
 """Batches of samples a second of the wall clock [Hz]."""
-PATIENCE = 1.0
-"""So long nobody may look before the terminal is told that a simulation waits [s]."""
 N_BATCHES = 600
 """Batches of samples that are kept for whoever comes later."""
 QUALITY = 85
 """Of JPEG images, 0..100."""
-MAX_SIDE = 1280
-"""Of a view that is drawn for a page without WebGL [px]."""
 HEADER = struct.Struct("<BBHId")
 ROW, IMAGE, VIEW, SAND = 1, 2, 3, 4
 """Kinds of binary messages (`uwsim.viewer.head`)."""
 
 
 class LiveView:
-    """What viewers see of one simulation after another, and what they make of it.
+    """What viewers see of a simulation.
 
     Args:
+        simulation: the one, at step 0.
         server: to whom it is handed.
-        speed: simulation time a second of the wall clock; 0: as fast as it can.
-        mapping: what keys and sticks do; None: nobody pilots.
-        waits: whether a simulation does not begin before somebody looks.
-        resets: whether viewers may put vehicles and objects back where they began; not where
-            anything is scored.
+        audience: what viewers have asked for.
+        title: of the page.
+        vehicle: number of the vehicle whose readings are shown.
+        resets: whether viewers may put vehicles and objects back where they began.
         wall: returns the wall time [s].
-        say: is told in words what it waits for.
     """
 
     def __init__(
         self,
+        simulation: Simulation,
         server: LiveServer,
+        audience: Audience,
         *,
-        speed: float = 1.0,
-        mapping: PilotMapping | None = None,
-        waits: bool = False,
-        resets: bool = False,
-        wall: Callable[[], float] = time.monotonic,
-        say: Callable[[str], None] | None = None,
+        title: str,
+        vehicle: int,
+        resets: bool,
+        wall: Callable[[], float],
     ) -> None:
-        self._server, self._wall, self._say = server, wall, say
-        self._clock = Clock(speed, wall)
-        self._simulation: Simulation | None = None
-        self._state: TrackedState | None = None
+        self._simulation, self._server, self._wall = simulation, server, wall
+        self._audience = audience
+        self._state = TrackedState(simulation.world)
         self._measures: Sequence[TriggeredMeasure] = ()
         self._taken: dict[str, int] = {}
         self._levels: list[dict[str, Any]] = []
         self._markers: dict[str, Marker] = {}  # those sent last
-        self._sand: list[int] = []  # versions of the heaps sent last
+        self._sand = [heap.version for heap in simulation.world.scenery.heaps]  # sent last
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
-        self._readings: Readings | None = None
-        self._topics: HeardTopics | None = None
-        self._views: dict[int, Message] = {}
-        self._widths: dict[int, int] = {}  # of images, of viewers who have said one [px]
-        self._mapping, self._waits = mapping, waits
-        self._piloted: dict[str, Any] = {  # what pilots move, as pages are told
-            **{"vehicle": 0, "why": "", "names": {}},
-            "sticks": ["", "", "", ""] if mapping is None else list(mapping.sticks),
-            "mapping": {} if mapping is None else dict(mapping.keys),
-            "reserved": [] if mapping is None else sorted(mapping.keys),
-        }
-        self._resets, self._first = resets, dict[str, Any]()
-        self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
         self._prompt = math.inf  # when a row that follows an input is due
-
-    def open(
-        self,
-        simulation: Simulation,
-        title: str,
-        parameters: Mapping[str, float | str] | None = None,
-    ) -> None:
-        """Show a simulation from now on; it is at step 0.
-
-        Args:
-            simulation: the one.
-            title: of the page.
-            parameters: of the pilot; None: all keys and sticks are shown, or nobody pilots.
-        """
-        self._find_out_what_pilots_move(simulation, parameters)
-        self._simulation, self._state = simulation, TrackedState(simulation.world)
-        self._levels, self._measures, self._markers = [], (), {}
-        self._sand = [heap.version for heap in simulation.world.scenery.heaps]
-        self._first = copied_fields(simulation.state, MOVED if self._resets else ())
-        self._due = dict.fromkeys(self._due, 0.0)
-        self._readings = Readings(simulation, self._piloted["vehicle"])
-        self._topics = HeardTopics(simulation.bus, lambda: simulation.time, self._wall)
-        self._server.forget(lambda channel: channel != "state")
+        self._first = copied_fields(simulation.state, MOVED if resets else ())
+        self._readings = Readings(simulation, vehicle)
+        self._topics = HeardTopics(simulation.bus, lambda: simulation.time, wall)
         head = head_of(simulation, title, self._state)
-        self._server.publish("head", HEADER.pack(0, 0, 0, 0, 0.0) + head)
-        self._say_state()
-        self._hand_over()
-        if self._waits:
-            self._wait_for_a_page()
-        self._clock.begin(simulation.time)
-        simulation.watch(self._look)
-
-    def _find_out_what_pilots_move(
-        self, simulation: Simulation, parameters: Mapping[str, float | str] | None
-    ) -> None:
-        """Keep it for pages, and say on the terminal where it is nothing."""
-        mapping = self._mapping
-        if mapping is None or parameters is None:
-            return
-        piloted = piloted_of(simulation.world, parameters)
-        if piloted.why and piloted.why != self._piloted["why"]:
-            warn(piloted.why)
-        self._piloted |= {
-            "vehicle": piloted.vehicle,
-            "sticks": piloted.sticks(mapping),
-            "why": piloted.why,
-            "names": piloted.names,
-            "mapping": piloted.keys(mapping),
-        }
-
-    def _wait_for_a_page(self) -> None:
-        """Wait until somebody looks; a page that is loaded again is back sooner than it is told."""
-        tells_at = self._wall() + PATIENCE
-        while not self._server.n_viewers:
-            time.sleep(NAP)
-            if self._say is not None and self._wall() >= tells_at:
-                self._say(f"waits for a page: open {self._server.url}")
-                tells_at = math.inf
+        server.publish("head", HEADER.pack(0, 0, 0, 0, 0.0) + head)
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
         """A level is measured from now on."""
-        assert self._simulation is not None
         self._measures, self._taken = measures, {}
         values = dict(level.values)
         label = ", ".join(f"{name} {value:g}" for name, value in values.items())
@@ -195,37 +117,22 @@ class LiveView:
         self._levels[-1] |= {"status": row.status, "why": why, "end": row.ended_at}
         self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
 
-    def pilot(self) -> Sequence[float] | None:
-        """Return what all pilots do together; None before the first has done anything."""
-        return merged(self._inputs)
+    def reset(self) -> None:
+        """Put vehicles, joints and objects back where they began, at rest; time goes on."""
+        assign_fields(self._simulation.state, self._first)
+        self._simulation.world.scenery.redraw()
+        self.follow(0.0)
+
+    def follow(self, delay: float = PROMPT) -> None:
+        """Send a row soon, after ``delay`` [s of wall time]: an input has changed."""
+        self._prompt = min(self._prompt, self._wall() + delay)
 
     def close(self) -> None:
-        """The simulation is about to be closed."""
-        if self._topics is not None:
-            self._topics.close()
-        self._readings, self._topics = None, None
-        self._simulation, self._state, self._measures = None, None, ()
+        """Listen to nothing more; the simulation is about to be closed."""
+        self._topics.close()
 
-    def end(self, why: str) -> None:
-        """Tell everybody that nothing more comes."""
-        self._server.publish("end", json.dumps({"type": "end", "why": why}))
-
-    def _look(self) -> None:
-        """Hand over what is due, and wait where the view is paused or ahead of its time."""
-        simulation = self._simulation
-        if simulation is None:
-            return
-        self._hear()
-        self._hand_over()
-        while self._clock.waits(simulation.time):
-            self._clock.sleep(simulation.time)
-            self._hear()
-            self._hand_over()
-        self._clock.stepped()
-
-    def _hand_over(self) -> None:
-        assert self._simulation is not None
-        assert self._state is not None
+    def hand_over(self, *, is_paused: bool = False) -> None:
+        """Hand over what is due at this wall time."""
         now = self._wall()
         if now >= self._prompt:
             self._prompt, self._due["row"] = math.inf, now
@@ -237,7 +144,7 @@ class LiveView:
             self._send_markers()
             self._send_sand()
         if self._is_due("readings", now, READING_RATE):
-            self._send_readings(now)
+            self._send_readings(now, is_paused=is_paused)
         if self._is_due("images", now, IMAGE_RATE):
             self._send_images()
             self._send_views()
@@ -252,7 +159,6 @@ class LiveView:
         return True
 
     def _header(self, kind: int, index: int) -> bytes:
-        assert self._simulation is not None
         return HEADER.pack(
             kind, index, 0, self._simulation.step & 0xFFFFFFFF, self._simulation.time
         )
@@ -277,12 +183,9 @@ class LiveView:
             self._server.forget(lambda channel: channel == gone)
             self._n_batches += 1
 
-    def _send_readings(self, now: float) -> None:
+    def _send_readings(self, now: float, *, is_paused: bool) -> None:
         """Send the state of the piloted vehicle, and news of topics that pages ask for."""
-        assert self._simulation is not None
-        assert self._readings is not None
-        assert self._topics is not None
-        found = self._readings.take(now, is_paused=self._clock.is_paused)
+        found = self._readings.take(now, is_paused=is_paused)
         message = {"type": "readings", "time": self._simulation.time, "readings": found}
         self._server.publish("readings", json.dumps(message))
         if (topics := self._topics.list_changed()) is not None:
@@ -292,18 +195,16 @@ class LiveView:
 
     def _send_markers(self) -> None:
         """Send the markers that programs have spawned, when they have changed."""
-        assert self._simulation is not None
         world = self._simulation.world
         shown = world.markers.shown
         if list(map(id, shown.values())) == list(map(id, self._markers.values())):
             return
         self._markers = shown
-        markers = described(looks_of(shown, world.world_from_localized))
+        markers = described(looks_of(shown, world.model.scene.world_from_localized))
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_sand(self) -> None:
         """Send the heaps of sand that have changed."""
-        assert self._simulation is not None
         for number, heap in enumerate(self._simulation.world.scenery.heaps):
             if heap.version != self._sand[number]:
                 self._sand[number] = heap.version
@@ -312,23 +213,21 @@ class LiveView:
 
     def _send_images(self) -> None:
         """Send what cameras have published; of those that nobody reads what they would see."""
-        assert self._simulation is not None
         wanted = self._server.wanted()
         world = self._simulation.world
-        for index, name in enumerate(world.cameras):
+        for index, name in enumerate(world.sensors.cameras):
             if (channel := f"?image/{name}") in wanted:
-                image = self._image(name, max(self._widths.values(), default=MAX_SIDE))
+                image = self._image(name, self._audience.width)
                 self._server.publish(channel, self._header(IMAGE, index) + jpeg(image))
 
     def _image(self, camera: str, width: int = MAX_SIDE) -> npt.NDArray[np.uint8]:
         """Return what a camera sees, ``width`` wide at most."""
-        assert self._simulation is not None
         world = self._simulation.world
-        view = world.camera(camera)
+        view = world.sensors.camera(camera)
         lens = view.intrinsics
         size = width, max(1, round(width * lens.height / lens.width))
         is_smaller = width < lens.width
-        for images in self._simulation.images.values():
+        for images in self._simulation.world.images.values():
             if images.camera.name == camera and images.last is not None:
                 seen = images.last
                 if is_smaller:
@@ -343,12 +242,11 @@ class LiveView:
 
     def _send_views(self) -> None:
         """Draw the newest view that a page without WebGL asks for."""
-        assert self._simulation is not None
-        if not self._views:
+        asked = self._audience.view
+        if asked is None:
             return
-        asked = next(reversed(self._views.values()))
         camera = asked.get("camera")
-        if isinstance(camera, str) and camera in self._simulation.world.cameras:
+        if isinstance(camera, str) and camera in self._simulation.world.sensors.cameras:
             image = self._image(camera)
         else:
             try:
@@ -363,58 +261,6 @@ class LiveView:
             image = colour.view(np.uint8)
         self._server.publish("view", self._header(VIEW, 0) + jpeg(image))
 
-    def _say_state(self) -> None:
-        state = {
-            "type": "state",
-            "paused": self._clock.is_paused,
-            "speed": self._clock.speed,
-            "pilot": self._mapping is not None,
-            "resets": bool(self._first),
-            **self._piloted,
-        }
-        self._server.publish("state", json.dumps(state))
-
-    def _hear(self) -> None:
-        """Do what viewers have asked for."""
-        for viewer, message in self._server.messages():
-            try:
-                self._apply(viewer, message)
-            except Exception as error:  # no message of a viewer may end the run
-                self._server.drop(viewer, f"{type(error).__name__} in a message")
-
-    def _apply(self, viewer: int, message: Message) -> None:
-        """Do what one message of a viewer asks for."""
-        kind = message["type"]
-        if kind == "control" and self._clock.control(message):
-            self._say_state()
-        elif kind == "control" and message.get("action") == "reset" and self._first:
-            self._reset()
-        elif kind == "view":
-            self._views.pop(viewer, None)
-            self._views[viewer] = message
-        elif kind == "images":
-            self._widths[viewer] = _width_of(message)
-        elif kind == "input" and self._mapping is not None:
-            self._take(viewer, self._mapping.values(message))
-        elif kind == "left":
-            self._views.pop(viewer, None)
-            self._widths.pop(viewer, None)
-            if viewer in self._inputs:
-                self._take(viewer, (0.0,) * len(AXES))
-
-    def _reset(self) -> None:
-        """Put vehicles, joints and objects back where they began, at rest; time goes on."""
-        assert self._simulation is not None
-        assign_fields(self._simulation.state, self._first)
-        self._simulation.world.scenery.redraw()
-        self._prompt = min(self._prompt, self._wall())
-
-    def _take(self, viewer: int, values: tuple[float, ...]) -> None:
-        """Keep what a viewer's pilot does now."""
-        if self._inputs.get(viewer) != values:
-            self._inputs[viewer] = values
-            self._prompt = min(self._prompt, self._wall() + PROMPT)
-
 
 def jpeg(image: npt.NDArray[np.uint8]) -> bytes:
     """Return an image, (h, w, 3) or (h, w), as JPEG."""
@@ -423,12 +269,6 @@ def jpeg(image: npt.NDArray[np.uint8]) -> bytes:
         ".jpg", np.ascontiguousarray(ordered), [cv2.IMWRITE_JPEG_QUALITY, QUALITY]
     )
     return bytes(packed.tobytes())
-
-
-def _width_of(message: Message) -> int:
-    """Width of the images that a viewer wants [px]; as they are where it says none."""
-    width = read_number(message.get("width"))
-    return MAX_SIDE if width is None else round(min(max(width, 16.0), MAX_SIDE))
 
 
 def _asked_for(message: Message) -> tuple[Pose, tuple[int, int], float]:

@@ -1,0 +1,69 @@
+"""What is in a scene before anything measures it or acts in it: bodies, water, light and time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..base import rng
+from ..bus import Bus
+from ..model.scene_model import SceneModel
+from ..physics.engine import Engine
+from .bodies import SceneBodies
+from .collision.below_ground import BelowGround
+from .collision.contacts import Contacts
+from .collision.start_depths import lift_from_ground
+from .scenery.renderer_pool import RendererPool
+from .scenery.scene_rays import SceneRays
+from .scenery.scenery import Scenery
+from .schedule import Schedule
+from .vehicles import SceneVehicles
+from .water.water_motion import water_motion
+
+
+class PhysicalScene:
+    """The parts of a scene from which its views are made, with the clock and the topics.
+
+    Args:
+        model: of the scene.
+        stream_prefix: prefix of the name of every random stream.
+        runs_code: let Python code that the scene names run; without it that water is still.
+        pool: lends the renderer; without one the scene has a renderer of its own.
+    """
+
+    def __init__(
+        self,
+        model: SceneModel,
+        *,
+        stream_prefix: str,
+        runs_code: bool,
+        pool: RendererPool | None,
+    ) -> None:
+        self.model = model
+        """What does not change while the scene runs."""
+        self._prefix = stream_prefix
+        self.bus = Bus()
+        """Its topics and services."""
+        self.schedule = Schedule(self.bus, model.timestep)
+        """What is to be done at a later step."""
+        self.engine = engine = Engine(model)
+        """Where everything is, and what moves it."""
+        if model.dynamics or model.scene.has_uwsim_physics:
+            lift_from_ground(model, engine)
+        self.below_ground = BelowGround(model, engine)
+        """Whether a body has passed through the ground."""
+        self.vehicles = SceneVehicles(model, engine, self.bus)
+        """The vehicles, by their number in the file or by name."""
+        self.scenery = Scenery(model, engine, pool)
+        """The visual side of the scene."""
+        self.rays = SceneRays(model, engine, self.scenery.heaps)
+        """Ray casting against the scene."""
+        self.bodies = SceneBodies(model, engine)
+        """Vehicles, links and objects, by name."""
+        self.contacts = Contacts(model, engine)
+        """Contacts between bodies."""
+        self.water = water_motion(model, self.stream, runs_code=runs_code)
+        """How its water moves."""
+
+    def stream(self, name: str) -> np.random.Generator:
+        """Return the random generator of that name."""
+        return rng.stream(self.model.seed, self._prefix + name)

@@ -1,0 +1,39 @@
+"""Images of the bodies that pixels see, by the renderer or by rays."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from ...base.geometry import Intrinsics, Pose
+from ...sensors.pinhole import cast_surfaces
+from .scene_rays import SceneRays
+from .scenery import Scenery
+
+
+class SceneSegmenter:
+    """What tells which body a pixel sees (`uwsim.topics.interface.Segmenter`).
+
+    Args:
+        scenery: what is seen.
+        rays: rays against it.
+        is_blind: cast rays, which meet no ghosts; else render.
+    """
+
+    def __init__(self, scenery: Scenery, rays: SceneRays, *, is_blind: bool) -> None:
+        self._scenery, self._rays, self._is_blind = scenery, rays, is_blind
+
+    @property
+    def part_names(self) -> Mapping[int, str]:
+        """Number in segmentation images -> ``vehicle/link`` or object."""
+        return self._scenery.part_names
+
+    def segmentation(
+        self, world_from_camera: Pose, intrinsics: Intrinsics
+    ) -> npt.NDArray[np.uint16]:
+        """Return the number of the body that each pixel sees, (h, w); 0: none."""
+        if self._is_blind:
+            return cast_surfaces(self._rays, world_from_camera, intrinsics)
+        return self._scenery.segmentation(world_from_camera, intrinsics)

@@ -1,0 +1,54 @@
+"""A scene as its interfaces see it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ...topics.frames import Frame
+from ..frames import scene_frames
+from ..markers import Markers
+from ..physical_scene import PhysicalScene
+from ..scene_sensors import SceneSensors
+from ..scenery.segmenter import SceneSegmenter
+from .scene_view import SceneView
+
+
+class TopicView(SceneView):
+    """A scene as its interfaces see it (`uwsim.topics.interface.TopicWorld`).
+
+    Args:
+        scene: the scene.
+        sensors: its sensors, and its devices that measure.
+        markers: the markers in it.
+        is_blind: images are black, and nothing is drawn.
+    """
+
+    def __init__(
+        self, scene: PhysicalScene, sensors: SceneSensors, markers: Markers, *, is_blind: bool
+    ) -> None:
+        super().__init__(scene)
+        self._scene = scene
+        self.is_blind = is_blind
+        """Whether images are black and nothing is drawn."""
+        self.world_from_localized = scene.model.scene.world_from_localized
+        """W from L: the scene's offset."""
+        self.compatibility = scene.model.compatibility
+        """The compatibility quirks that are on."""
+        self.sensors = sensors
+        """The sensors and devices that publish."""
+        self.contacts = scene.contacts
+        """Contacts between bodies."""
+        self.segmenter = SceneSegmenter(scene.scenery, scene.rays, is_blind=is_blind)
+        """What tells which body a pixel sees."""
+        self.body = scene.bodies.find
+        self.vehicle = scene.vehicles.find
+        self.marker_frames = markers.frames
+        self.every = scene.schedule.every
+        self.at_next_step = scene.schedule.at_next_step
+
+    def frames(self, *, with_objects: bool) -> Sequence[Frame]:
+        """List the frames of vehicles, their links and sensors, and those of objects."""
+        scene = self._scene
+        return scene_frames(
+            scene.model, scene.engine, scene.vehicles, scene.bodies, with_objects=with_objects
+        )
