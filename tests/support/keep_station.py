@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 from pathlib import Path
 from typing import Any
 
+from tests.support.short_benchmark import run
 from uwsim.bus import Node
 from uwsim.messages import Empty, Odometry, TwistStamped
 
@@ -64,9 +64,7 @@ def result_in(out: Path) -> dict[str, Any]:
 
 def scored_in_process(benchmark: Path, out: Path) -> dict[str, Any]:
     """Score the class of this file."""
-    words = bench_words(benchmark, out, "--algorithm", f"{__file__}:KeepStation")
-    done = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT)
-    assert done.returncode == 0, done.stderr
+    run(benchmark, out, algorithm=f"{__file__}:KeepStation", levels=[*LEVELS[1::2]], seed=0)
     return result_in(out)
 
 

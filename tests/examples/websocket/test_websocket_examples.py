@@ -13,7 +13,7 @@ import pytest
 
 from tests.support.byte_hashes import short_currents
 from tests.support.keep_station import LEVELS, scored_in_process, short_benchmark
-from tests.support.short_benchmark import write_benchmark
+from tests.support.short_benchmark import run, write_benchmark
 from tests.support.timed_algorithm import TIMED
 from tests.support.waiting import free_port, until
 from uwsim import load
@@ -67,9 +67,10 @@ def scored_outside(
     return result_of(out), said
 
 
-def scored_inside(benchmark: Path, out: Path, algorithm: str, *options: str) -> dict[str, Any]:
-    words = ["bench", str(benchmark), "--algorithm", algorithm, "--out", str(out), *options]
-    subprocess.run(uwsim(*words), check=True, capture_output=True, timeout=LIMIT)
+def scored_inside(
+    benchmark: Path, out: Path, algorithm: str, levels: list[str] | None = None
+) -> dict[str, Any]:
+    run(benchmark, out, algorithm=algorithm, levels=levels, seed=0)
     return result_of(out)
 
 
@@ -90,7 +91,7 @@ def test_a_tracker_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path: P
 def test_a_controller_outside_scores_the_same_rows_also_when_it_dawdles(tmp_path: Path) -> None:
     benchmark = short_currents(tmp_path)
     level = ("--level", "current=0.2")
-    inside = scored_inside(benchmark, tmp_path / "inside", "p", *level)
+    inside = scored_inside(benchmark, tmp_path / "inside", "p", [*level[1:]])
     program = ["run_algorithm.py", "uwsim.algorithms.control:P", "--name", "outside"]
     outside, said = scored_outside(
         benchmark, tmp_path / "outside", [*program, "--delay", "20"], *level
@@ -105,7 +106,7 @@ def test_a_class_with_a_timer_runs_outside_without_a_change(
     """Its first tick is due at the join: its join was refused."""
     monkeypatch.setenv("PYTHONPATH", str(EXAMPLES.parents[1]))
     benchmark, level = short_currents(tmp_path), ("--level", "current=0.2")
-    inside = scored_inside(benchmark, tmp_path / "inside", TIMED, *level)
+    inside = scored_inside(benchmark, tmp_path / "inside", TIMED, [*level[1:]])
     program = ["run_algorithm.py", TIMED, "--name", "outside"]
     outside, said = scored_outside(benchmark, tmp_path / "outside", program, *level)
     assert outside["rows"] == inside["rows"], said

@@ -251,15 +251,24 @@ def test_an_error_that_cannot_be_pickled_is_reported_all_the_same() -> None:
     assert "test_executor.py" in back.__notes__[-1]
 
 
+@pytest.fixture(scope="module")
+def whole_run(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
+    """Return a benchmark, and the fingerprint of its run that nothing disturbed."""
+    folder = tmp_path_factory.mktemp("whole")
+    benchmark = write_benchmark(folder, "2")
+    command = [sys.executable, "-m", "uwsim", "bench", str(benchmark), "--mode", "independent"]
+    subprocess.run([*command, "--out", str(folder / "out")], check=True, capture_output=True)
+    return benchmark, fingerprint(folder / "out")
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("workers", ["1", "2"])
 def test_a_killed_run_that_is_resumed_ends_with_the_same_bytes(
-    tmp_path: Path, workers: str
+    tmp_path: Path, workers: str, whole_run: tuple[Path, dict[str, str]]
 ) -> None:
-    benchmark = write_benchmark(tmp_path, "2")
+    benchmark, whole = whole_run
+    broken = tmp_path / "broken"
     command = [sys.executable, "-m", "uwsim", "bench", str(benchmark), "--mode", "independent"]
-    whole, broken = tmp_path / "whole", tmp_path / "broken"
-    subprocess.run([*command, "--out", str(whole)], check=True, capture_output=True)
     command += ["--workers", workers, "--out", str(broken), "--resume"]
     chance = random.Random(20261121)
     for _ in range(3):
@@ -268,4 +277,4 @@ def test_a_killed_run_that_is_resumed_ends_with_the_same_bytes(
         os.kill(process.pid, signal.SIGKILL)
         process.wait()
     subprocess.run(command, check=True, capture_output=True)
-    assert fingerprint(broken) == fingerprint(whole)
+    assert fingerprint(broken) == whole

@@ -1,6 +1,8 @@
 """The comparison of trackers: what `visibility-moving` is for."""
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -14,6 +16,7 @@ from uwsim.runs.run import Run
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.trial import execute
 
+Totals = Callable[[str], dict[float, float | None]]
 TRACKERS = ("ecc", "esm", "ic", "orb", "ssd-esm")
 
 
@@ -33,22 +36,29 @@ def blind(algorithm: str, out: Path) -> dict[str, float]:
     return {name: value for name, (value, _) in row.measures.items() if value is not None}
 
 
+@pytest.fixture(scope="module")
+def totals(tmp_path_factory: pytest.TempPathFactory) -> Totals:
+    """Return what runs an algorithm on two levels of fog, once: fog -> total."""
+
+    @cache
+    def once(algorithm: str) -> dict[float, float | None]:
+        plan, out = plan_of(algorithm, [("fog", 0.0), ("fog", 0.9)]), tmp_path_factory.mktemp("out")
+        inputs, renderer = hash_inputs(plan)
+        [result] = run_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
+        fogs = [value for value in result.numbers("fog") if value is not None]
+        return dict(zip(fogs, result.numbers("total"), strict=True))
+
+    return once
+
+
 @pytest.mark.slow
-def test_in_clear_water_a_tracker_beats_a_blob_of_colour(tmp_path: Path) -> None:
-    blob = totals("tests.runs.trial.algorithms:Blob", tmp_path / "blob")[0.0]
-    esm = totals("esm", tmp_path / "esm")[0.0]
+def test_in_clear_water_a_tracker_beats_a_blob_of_colour(totals: Totals) -> None:
+    blob = totals("tests.runs.trial.algorithms:Blob")[0.0]
+    esm = totals("esm")[0.0]
     assert esm is not None
     assert blob is not None
     assert esm < 1.0  # of a tracker without error it is 0
     assert blob > 3.0 * esm
-
-
-def totals(algorithm: str, out: Path) -> dict[float, float | None]:
-    plan = plan_of(algorithm, [("fog", 0.0), ("fog", 0.9)])
-    inputs, renderer = hash_inputs(plan)
-    [result] = run_all([Run(plan=plan, out=out, inputs=inputs, renderer=renderer)])
-    fogs = [value for value in result.numbers("fog") if value is not None]
-    return dict(zip(fogs, result.numbers("total"), strict=True))
 
 
 def plan_of(algorithm: str, levels: list[tuple[str, float]]) -> Plan:
@@ -60,11 +70,11 @@ def plan_of(algorithm: str, levels: list[tuple[str, float]]) -> Plan:
 
 
 @pytest.mark.slow
-def test_where_something_moves_frozen_is_worst_until_the_others_are_lost(tmp_path: Path) -> None:
-    frozen = totals("frozen", tmp_path / "frozen")
+def test_where_something_moves_frozen_is_worst_until_the_others_are_lost(totals: Totals) -> None:
+    frozen = totals("frozen")
     tracked = 0
     for name in TRACKERS:
-        for fog, total in totals(name, tmp_path / name).items():
+        for fog, total in totals(name).items():
             worst = frozen[fog]
             assert worst is not None
             if total is not None:

@@ -49,7 +49,7 @@ def test_images_are_as_wide_as_the_widest_viewer_shows_them(
     desk, now = Desk(frozenset({f"?image/{CAMERA}"}), messages), [0.0]
 
     def wall() -> float:
-        now[0] += 0.1
+        now[0] += 0.01  # one step in a few sends an image
         return now[0]
 
     session = LiveSession(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
