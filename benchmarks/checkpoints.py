@@ -37,7 +37,7 @@ def starts(model: SceneModel) -> dict[str, object]:
         began = time.process_time()
         simulation = Simulation(model, is_blind=True)
         bound = time.process_time()
-        simulation.start()
+        simulation.advance(0.0)
         ended = time.process_time()
         simulation.close()
         made.append(bound - began)
@@ -80,7 +80,7 @@ def measure() -> dict[str, object]:
         with uwsim.load(scene, is_blind=True) as simulation:
             simulation.advance(SECONDS)
             found[scene] = {
-                **starts(simulation.model),
+                **starts(simulation.world.model),
                 **checkpoints(simulation, scene),
             }
     return found
