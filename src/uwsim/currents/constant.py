@@ -31,11 +31,12 @@ class ConstantSpec(CurrentSpec):
         return Constant(self.velocity)
 
 
+@dataclass(frozen=True)
 class Constant(Current):
     """A uniform, steady velocity; no boundary layer, no turbulence."""
 
-    def __init__(self, velocity: tuple[float, float, float]) -> None:
-        self._velocity = velocity
+    components: tuple[float, float, float]
+    """The velocity of the water, in L [m/s]."""
 
     @property
     def is_uniform(self) -> bool:
@@ -45,11 +46,11 @@ class Constant(Current):
     @property
     def is_still(self) -> bool:
         """Whether its velocity is zero."""
-        return not any(self._velocity)
+        return not any(self.components)
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        return everywhere(points, *self._velocity)
+        return everywhere(points, *self.components)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return zeros, (n, 3) [m/s2]."""

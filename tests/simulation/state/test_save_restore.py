@@ -210,6 +210,19 @@ def test_a_copy_of_the_state_stays_and_has_bytes() -> None:
         assert simulation.time == 0.0
 
 
+def test_a_current_that_a_program_has_set_is_saved() -> None:
+    with uwsim.load("currents-scene") as simulation:
+        simulation.set_current((0.3, 0.0, 0.1))
+        simulation.advance(0.1)
+        saved = simulation.save()
+        simulation.advance(0.1)
+        later = simulation.state.copy()
+        simulation.set_current(None)
+        simulation.restore(saved)
+        simulation.advance(0.1)
+        assert simulation.state.copy() == later
+
+
 def test_a_current_of_a_programs_own_class_has_no_bytes() -> None:
     class Own(Constant):
         pass

@@ -28,6 +28,9 @@ ALLOWED = {
 }
 """Types allowed in bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
 
+PLAIN = (bool, int, float, str, bytes, tuple, type(None), np.generic, np.dtype)
+"""Types of which bytes are made as they are."""
+OWN_PACKAGES = ("uwsim.", "rosbags.")
 CHECKSUM = 4
 """Bytes of a checksum."""
 
@@ -81,15 +84,18 @@ def unpack(data: bytes, kind: type[T]) -> T:
 class _Flat(dict[type, Callable[[Any], Any]]):
     """What makes lists of a value, by its type: pickle takes longer for records and arrays.
 
-    A list in what it makes begins with a tag. Whatever is no record, array or container stays.
+    A list in what it makes begins with a tag. Numbers, texts, tuples and messages stay.
     """
 
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
-        self[kind] = _itself
         if issubclass(kind, Live):
             self[kind] = lambda part: _flat(part.value())
-        elif dataclasses.is_dataclass(kind) and "__slots__" in vars(kind):
+        elif _is_allowed(kind) and "__slots__" in vars(kind):
             self[kind] = _record_flattener(kind)
+        elif _is_allowed(kind) or issubclass(kind, PLAIN):
+            self[kind] = _itself
+        else:
+            raise TypeError(f"{kind.__module__}.{kind.__qualname__} has no place in bytes")
         return self[kind]
 
 
@@ -156,11 +162,20 @@ def _raised(flat: Any) -> Any:
 def _allowed_dataclass(module: str, name: str) -> Any:
     """Return a dataclass of uwsim or rosbags; raises UnpicklingError for all else."""
     found = None
-    if module.startswith(("uwsim.", "rosbags.")):
+    if module.startswith(OWN_PACKAGES):
         found = getattr(importlib.import_module(module), name, None)
-    if not isinstance(found, type) or not dataclasses.is_dataclass(found):
+    if not _is_allowed(found):
         raise pickle.UnpicklingError(f"{module}.{name} has no place in them")
     return found
+
+
+def _is_allowed(kind: object) -> bool:
+    """Whether this is a dataclass of uwsim or rosbags."""
+    return (
+        isinstance(kind, type)
+        and dataclasses.is_dataclass(kind)
+        and kind.__module__.startswith(OWN_PACKAGES)
+    )
 
 
 class _Unpickler(pickle.Unpickler):
