@@ -15,10 +15,6 @@ PACKAGE = Path(uwsim.__file__).parent
 LIMIT, LIMIT_OF_A_VIEW = 25, 16
 """Public names of a class, inherited ones included."""
 LARGE = {
-    "Bridge": (34, "the base of the bridges: what the bus calls, and what a peer calls"),
-    "Ros1Bridge": (37, "inherits from Bridge"),
-    "Ros2": (34, "inherits from Bridge"),
-    "WebBridge": (50, "inherits from Bridge; what a session may use is in SessionBridge"),
     "Craft": (27, "the state of an algorithm: 15 of them are numbers"),
     "Task": (26, "the state of an algorithm: 15 of them are numbers"),
 }
