@@ -76,7 +76,7 @@ def test_a_profile_over_depth_is_the_water_and_the_lift_is_that_at_the_vehicles_
     at_depth = profile.density_at(1.515)  # of the Girona 500
     volume = sum(body.volume for body in read_dynamics(resolved(scene))[0].bodies)
     lift = 9.81 * (at_depth - 1000.0) * volume
-    said = [one.message for one in Search(scene, read_robots(scene, ()), ()).found]
+    said = [one.message for one in Search(resolved(scene)).found]
     assert any(f"it is {lift:.3g} N lighter here" in one for one in said)
 
 
