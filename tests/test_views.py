@@ -114,6 +114,19 @@ def test_no_public_constructor_takes_options_of_any_type() -> None:
     assert wrong == []
 
 
+def test_what_belongs_together_is_passed_as_one() -> None:
+    """Scene, robots, dynamics ... are a `ResolvedScene`, `SimulatedScene` or `SceneModel`."""
+    parts = {"scene", "robots", "dynamics", "shapes", "data_path", "timestep", "compatibility"}
+    found = {
+        node.name
+        for path in sorted(PACKAGE.rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text()))
+        if isinstance(node, Function)
+        if len(parts & {each.arg for each in node.args.args + node.args.kwonlyargs}) > 2
+    }
+    assert found == {"load", "compile_scene", "scene_warnings"}  # which make one of a file's scene
+
+
 def private_uses(path: Path) -> Iterator[str]:
     """Yield where a module uses a private attribute of another object than ``self``."""
     for node in ast.walk(ast.parse(path.read_text())):

@@ -11,6 +11,7 @@ from tests.assets.test_limits import dae
 from uwsim.assets.collada_asset import read_collada_asset
 from uwsim.model.collision.scene_shapes import collision_shapes
 from uwsim.model.parts import parts_of
+from uwsim.model.resolved_scene import ResolvedScene
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.urdf.reader import read_urdf
@@ -50,8 +51,9 @@ def corners_of_robot(folder: Path, scale: str = "1 1 1") -> np.ndarray:
     from uwsim.scene.vehicle import VehicleSpec
 
     scene = SceneSpec(vehicles=(VehicleSpec(name="rov", file=str(robot.path)),))
-    (part,) = parts_of(scene, {0: robot}, ())
-    shape = collision_shapes(scene, {0: robot}, [0], {}, ())["vehicle/0/base_link"][0]
+    resolved = ResolvedScene(scene=scene, robots={0: robot})
+    (part,) = parts_of(resolved)
+    shape = collision_shapes(resolved, [0], {})["vehicle/0/base_link"][0]
     corners = placed(part)
     box = shape.body_from_shape.position + np.outer([-1.0, 1.0], np.array(shape.size))
     extent = np.ptp(corners, axis=0)
@@ -60,7 +62,8 @@ def corners_of_robot(folder: Path, scale: str = "1 1 1") -> np.ndarray:
 
 
 def corners_of_object(folder: Path, file: Path) -> np.ndarray:
-    (part,) = parts_of(SceneSpec(objects=(ObjectSpec(name="thing", file=str(file)),)), {}, ())
+    scene = SceneSpec(objects=(ObjectSpec(name="thing", file=str(file)),))
+    (part,) = parts_of(ResolvedScene(scene=scene, robots={}))
     return placed(part)
 
 
@@ -87,7 +90,8 @@ def test_a_robot_has_the_unit_and_a_scene_file_the_axis(
 
 def test_the_normals_of_a_scene_file_turn_with_its_faces(tmp_path: Path) -> None:
     file = write(tmp_path, stated("1", "Y_UP"))
-    (part,) = parts_of(SceneSpec(objects=(ObjectSpec(name="thing", file=str(file)),)), {}, ())
+    scene = SceneSpec(objects=(ObjectSpec(name="thing", file=str(file)),))
+    (part,) = parts_of(ResolvedScene(scene=scene, robots={}))
     assert np.abs(part.model.meshes[0].normals - [0.0, -1.0, 0.0]).max() < 1e-6
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -13,6 +14,7 @@ import pytest
 from uwsim.base.geometry import Pose
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
+from uwsim.model.resolved_scene import SimulatedScene
 from uwsim.physics import compiled_models
 from uwsim.physics import engine_model as compile_module
 from uwsim.physics.compiled_models import NoContent, cached_model, content_digest
@@ -52,6 +54,10 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path / "uwsim" / "compiled"
 
 
+def simulated(scene: SceneSpec, timestep: float, shapes: Any) -> SimulatedScene:
+    return SimulatedScene(scene=scene, robots={}, dynamics={}, shapes=shapes, timestep=timestep)
+
+
 def bytes_of(model: mujoco.MjModel) -> bytes:
     packed = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, packed)
@@ -59,7 +65,7 @@ def bytes_of(model: mujoco.MjModel) -> bytes:
 
 
 def model(timestep: float = 0.002, **changes: object) -> bytes:
-    return bytes_of(compile_engine_model(replace(SCENE, **changes), {}, {}, timestep, SHAPES))  # type: ignore[arg-type]
+    return bytes_of(compile_engine_model(simulated(replace(SCENE, **changes), timestep, SHAPES)))  # type: ignore[arg-type]
 
 
 def test_a_kept_model_is_read_and_not_compiled(
@@ -84,7 +90,7 @@ def test_another_scene_or_step_is_another_model(cache: Path) -> None:
 
 
 def test_few_shapes_leave_nothing_on_the_disk(cache: Path) -> None:
-    compile_engine_model(SCENE, {}, {}, 0.002, {object_body(0): STEPS[:5]})
+    compile_engine_model(simulated(SCENE, 0.002, {object_body(0): STEPS[:5]}))
     assert not cache.exists()
 
 

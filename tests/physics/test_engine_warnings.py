@@ -15,6 +15,7 @@ from uwsim.base.geometry import Pose
 from uwsim.errors import RunFailed
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
+from uwsim.model.resolved_scene import SimulatedScene
 from uwsim.physics.engine_model import compile_engine_model
 from uwsim.physics.engine_warnings import hush, say_too_fast, speeds_of, too_fast, why_untrue
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
@@ -67,7 +68,11 @@ def test_a_thin_thing_that_is_loose_may_turn_as_fast_as_it_rolls(radius: float, 
     thing = ObjectSpec(name="pin", file="", physics=PhysicsSpec(mass=0.01))
     rod = CollisionShape(kind="cylinder", size=(radius, 0.15), body_from_shape=Pose.identity())
     scene = SceneSpec(objects=(thing,), sim_params=SimParamsSpec(enable_physics=True))
-    model = compile_engine_model(scene, {}, {}, 0.002, {object_body(0): [rod]})
+    model = compile_engine_model(
+        SimulatedScene(
+            scene=scene, robots={}, dynamics={}, shapes={object_body(0): (rod,)}, timestep=0.002
+        )
+    )
     speeds = speeds_of(model)
     assert speeds.tolist() == [[0, 3, 100], [3, 3, limit]]
     assert too_fast(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.0, 0.0]), speeds) == -1

@@ -12,6 +12,7 @@ import pytest
 from uwsim.base.geometry import Pose
 from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
+from uwsim.model.resolved_scene import SimulatedScene
 from uwsim.physics.engine_model import compile_engine_model
 from uwsim.physics.free_objects import loose_link
 from uwsim.physics.restitution import bounce, contact_spring
@@ -45,7 +46,9 @@ def falling(
         objects=(thing, ground), sim_params=replace(sim, enable_physics=True, gravity=pull)
     )
     shapes = {object_body(0): [shape], object_body(1): [FLOOR]}
-    return compile_engine_model(scene, {}, {}, timestep, shapes)
+    return compile_engine_model(
+        SimulatedScene(scene=scene, robots={}, dynamics={}, shapes=shapes, timestep=timestep)
+    )
 
 
 def bounce_of(model: mujoco.MjModel) -> float:

@@ -11,6 +11,7 @@ import pytest
 
 from uwsim.errors import SceneError
 from uwsim.model.dynamics import Search, read_dynamics
+from uwsim.model.resolved_scene import ResolvedScene
 from uwsim.model.robots import read_robots
 from uwsim.scene.ocean_state import OceanStateSpec, ProfileSpec
 from uwsim.scene.reader import read_scene
@@ -29,8 +30,12 @@ def two(ocean: OceanStateSpec, *, turned: bool = False) -> SceneSpec:
     return replace(scene, vehicles=vehicles, ocean_state=ocean, ros_interfaces=())
 
 
+def resolved(scene: SceneSpec) -> ResolvedScene:
+    return ResolvedScene(scene=scene, robots=read_robots(scene, ()))
+
+
 def densities(scene: SceneSpec) -> dict[str, float]:
-    found = read_dynamics(scene, read_robots(scene, ()))
+    found = read_dynamics(resolved(scene))
     return {scene.vehicles[i].name: one.density for i, one in found.items()}
 
 
@@ -52,10 +57,9 @@ def test_temperature_and_salinity_give_a_density() -> None:
 
 def test_added_mass_and_drag_are_those_of_the_water_and_the_lift_is_reported() -> None:
     scene = two(OceanStateSpec(density=1028.0))
-    search = Search(scene, read_robots(scene, ()), ())
-    girona, own = search.dynamics[0], Search(
-        two(OceanStateSpec(density=1000.0)), read_robots(scene, ()), ()
-    ).dynamics[0]  # fmt: skip
+    search = Search(resolved(scene))
+    girona = search.dynamics[0]
+    own = Search(resolved(two(OceanStateSpec(density=1000.0)))).dynamics[0]
     for heavy, light in zip(girona.bodies, own.bodies, strict=True):
         assert heavy.added_mass == pytest.approx([1.028 * x for x in light.added_mass])
         assert heavy.volume == light.volume
@@ -70,9 +74,9 @@ def test_a_profile_over_depth_is_the_water_and_the_lift_is_that_at_the_vehicles_
     scene = two(OceanStateSpec(profile=profile))
     assert densities(scene)["rexrov"] == pytest.approx(998.2063, abs=1e-3)
     at_depth = profile.density_at(1.515)  # of the Girona 500
-    volume = sum(body.volume for body in read_dynamics(scene, read_robots(scene, ()))[0].bodies)
+    volume = sum(body.volume for body in read_dynamics(resolved(scene))[0].bodies)
     lift = 9.81 * (at_depth - 1000.0) * volume
-    said = [one.message for one in Search(scene, read_robots(scene, ()), ()).found]
+    said = [one.message for one in Search(resolved(scene)).found]
     assert any(f"it is {lift:.3g} N lighter here" in one for one in said)
 
 

@@ -101,22 +101,21 @@ def scene_warnings(
 ) -> list[Diagnostic]:
     """Return the warnings about a scene that is not compiled, with the lines of its file."""
     from ..model.dynamics import read_dynamics
+    from ..model.resolved_scene import ResolvedScene
     from ..model.robots import read_robots
     from .subjects import CheckedScene
 
     robots = read_robots(scene, data_path)
-    dynamics = read_dynamics(scene, robots, data_path)
-    return _apply(CheckedScene(scene, data_path, timestep=timestep, resolved=(robots, dynamics)))
+    dynamics = read_dynamics(ResolvedScene(scene=scene, robots=robots, data_path=data_path))
+    return _apply(CheckedScene(scene, data_path, timestep=timestep, found=(robots, dynamics)))
 
 
 def model_warnings(model: SceneModel) -> list[Diagnostic]:
     """Return the same of a scene that is compiled."""
     from .subjects import CheckedScene
 
-    resolved = (model.robots, model.dynamics)
-    return _apply(
-        CheckedScene(model.varied, model.data_path, timestep=model.timestep, resolved=resolved)
-    )
+    found = (model.robots, model.dynamics)
+    return _apply(CheckedScene(model.varied, model.data_path, timestep=model.timestep, found=found))
 
 
 def _apply(scene: CheckedScene) -> list[Diagnostic]:

@@ -14,6 +14,7 @@ from ..errors import Diagnostic, UwsimError
 from ..model.collision.scene_shapes import simulated_solids
 from ..model.dynamics import Search
 from ..model.placement import set_on_floor
+from ..model.resolved_scene import ResolvedScene
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec, stands_on_floor
@@ -81,7 +82,7 @@ class CheckedScene(Subject):
         data_path: folders in which files are looked for.
         document: of the file; None for a scene that is about to run.
         diagnostics: what the reader has reported; None for a scene that is about to run.
-        resolved: the robots and the hydrodynamics of its vehicles; None looks for them.
+        found: the robots and the hydrodynamics of its vehicles; None looks for them.
         timestep: length of a step [s].
     """
 
@@ -92,12 +93,12 @@ class CheckedScene(Subject):
         *,
         document: Document | None = None,
         diagnostics: Diagnostics | None = None,
-        resolved: tuple[Mapping[int, RobotSpec], Mapping[int, VehicleHydrodynamics]] | None = None,
+        found: tuple[Mapping[int, RobotSpec], Mapping[int, VehicleHydrodynamics]] | None = None,
         timestep: float = TIMESTEP,
     ) -> None:
         super().__init__(spec.path, diagnostics or Diagnostics(spec.path or "the scene"), data_path)
         self.spec, self.document, self.timestep = spec, document, timestep
-        self.is_run, self._resolved = document is None, resolved
+        self.is_run, self._found = document is None, found
 
     @cached_property
     def robot_search(self) -> RobotSearch:
@@ -107,22 +108,27 @@ class CheckedScene(Subject):
     @property
     def robots(self) -> Mapping[int, RobotSpec]:
         """The robot of each vehicle that has one, by its number."""
-        return self._resolved[0] if self._resolved else self.robot_search.robots
+        return self._found[0] if self._found else self.robot_search.robots
+
+    @property
+    def resolved(self) -> ResolvedScene:
+        """The same with the robots that it has."""
+        return ResolvedScene(scene=self.spec, robots=self.robots, data_path=self.data_path)
 
     def has_stand_in(self, index: int) -> bool:
         """Whether the robot of a vehicle stands for one that is not found."""
         name = self.spec.vehicles[index].file
-        return not self._resolved and name in self.robot_search.stand_ins
+        return not self._found and name in self.robot_search.stand_ins
 
     @cached_property
     def names(self) -> Search:
         """The names in it that belong to its hydrodynamics, looked up."""
-        return Search(self.spec, self.robots, self.data_path, is_thorough=True)
+        return Search(self.resolved, is_thorough=True)
 
     @property
     def dynamics(self) -> Mapping[int, VehicleHydrodynamics]:
         """The hydrodynamics of each vehicle that is simulated, by its number."""
-        return self._resolved[1] if self._resolved else self.names.dynamics
+        return self._found[1] if self._found else self.names.dynamics
 
     @property
     def is_valid(self) -> bool:
@@ -148,7 +154,7 @@ class CheckedScene(Subject):
         """The scene with everything placed on its floor; unchanged where that fails."""
         if len(self.robots) == len(self.spec.vehicles):
             with suppress(UwsimError):  # reported where floors are checked
-                return set_on_floor(self.spec, self.robots, self.data_path)
+                return set_on_floor(self.resolved)
         return self.spec
 
     @property

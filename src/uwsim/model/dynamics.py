@@ -20,7 +20,6 @@ from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle_into, set_errors
 from ..scene.hydrodynamics.vehicle_sets import find_vehicle
 from ..scene.settings import HydrodynamicsPlace, locate
-from ..scene.spec import SceneSpec
 from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics, Spec, diagnostic_at
@@ -31,6 +30,7 @@ from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from ..world import GRAVITY
 from .inertias import MAX_BUOYANCY, MIN_MASS, inertias_refused
 from .named_sensors import NamedSensors
+from .resolved_scene import ResolvedScene
 from .robots import find_file
 
 Severity = Literal["error", "warning"]
@@ -43,15 +43,13 @@ MIN_LIFT = 0.1
 """Smallest change of buoyancy by another density that is reported [N]."""
 
 
-def read_dynamics(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...] = ()
-) -> dict[int, VehicleHydrodynamics]:
+def read_dynamics(resolved: ResolvedScene) -> dict[int, VehicleHydrodynamics]:
     """Read the hydrodynamics of every vehicle that has ``u:dynamics``, by its number.
 
     Raises:
         SceneError: a name leads nowhere or a file is wrong; with every error.
     """
-    search = Search(scene, robots, data_path)
+    search = Search(resolved)
     if diagnostics := [diagnostic for diagnostic in search.found if diagnostic.severity == "error"]:
         raise SceneError(diagnostics)
     return search.dynamics
@@ -69,32 +67,24 @@ class Search:
     """Resolves the names, and collects what they refer to and those that are unknown.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle that has one, by its number.
-        data_path: folders in which files are looked for.
+        resolved: the scene, with the robot of each vehicle that has one.
         is_thorough: read currents whole; the user's own functions are not run.
     """
 
-    def __init__(
-        self,
-        scene: SceneSpec,
-        robots: Mapping[int, RobotSpec],
-        data_path: tuple[Path, ...],
-        *,
-        is_thorough: bool = False,
-    ) -> None:
+    def __init__(self, resolved: ResolvedScene, *, is_thorough: bool = False) -> None:
         self.dynamics: dict[int, VehicleHydrodynamics] = {}
         """Of each vehicle that is simulated, by its number."""
         self.found: list[Diagnostic] = []
         """All that is wrong or worth knowing."""
-        self._scene, self._data_path = scene, data_path
+        scene, robots = resolved.scene, resolved.robots
+        self._scene, self._data_path = scene, resolved.data_path
         self._sensors = NamedSensors(scene)
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.dynamics is not None and index in robots:
                 self._read(index, vehicle.dynamics, robots[index])
                 self._refuse_scale(vehicle)
             self._follow_thrusters(index, vehicle)
-        self.found += inertias_refused(scene, robots, self.dynamics)
+        self.found += inertias_refused(resolved, self.dynamics)
         self._settle_density()
         self._follow_interfaces()
         self._follow_currents(is_thorough)

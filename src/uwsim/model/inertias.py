@@ -10,9 +10,8 @@ from collections.abc import Iterator, Mapping
 from ..errors import Diagnostic
 from ..scene.hydrodynamics.checks import inertia_errors
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
-from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
 from ..schema import diagnostic_at
+from .resolved_scene import ResolvedScene
 
 MIN_MASS = 0.01
 """Of a link whose URDF gives none [kg]."""
@@ -23,20 +22,18 @@ MAX_BUOYANCY = 100.0
 
 
 def inertias_refused(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Mapping[int, VehicleHydrodynamics],
+    resolved: ResolvedScene, dynamics: Mapping[int, VehicleHydrodynamics]
 ) -> Iterator[Diagnostic]:
     """Report every inertia that cannot be simulated.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle that has one, by its number.
+        resolved: the scene, with the robot of each vehicle that has one.
         dynamics: of each vehicle that is simulated, by its number.
     """
+    scene = resolved.scene
     for index, vehicle in dynamics.items():
         theirs = {body.link for body in vehicle.bodies if body.inertia is not None}
-        for link in robots[index].links:
+        for link in resolved.robots[index].links:
             if link.name in theirs or not (link.mass > 0.0 and min(link.inertia[:3]) > 0.0):
                 continue  # what the URDF says of it is not used
             for said in inertia_errors(f"link {link.name!r}", link.inertia):

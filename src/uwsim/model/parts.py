@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,8 +22,9 @@ from ..devices.led_array import COLOURS, LedArraySpec
 from ..errors import AssetNotFound
 from ..scene.object import ObjectSpec
 from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec, VisualSpec
+from ..scene.urdf.robot import VisualSpec
 from ..scene.vehicle import VehicleSpec
+from .resolved_scene import ResolvedScene
 
 CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 THINNEST = 1e-4
@@ -52,15 +53,14 @@ class Part:
     """Ghosts (``vr``) are seen in the viewer, not by virtual cameras."""
 
 
-def parts_of(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
-) -> list[Part]:
+def parts_of(resolved: ResolvedScene) -> list[Part]:
     """All visible models of a scene; those of one link or object share a number and a name."""
+    scene, data_path = resolved.scene, resolved.data_path
     parts: list[Part] = []
     load = object_models(scene, data_path)
     number = 0
     for index, vehicle in enumerate(scene.vehicles):
-        robot = robots[index]
+        robot = resolved.robots[index]
         for link in robot.links:
             number += bool(link.visuals)
             for visual in link.visuals:

@@ -9,7 +9,6 @@ its mesh's materials.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,37 +21,31 @@ from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
 from ..scene.spec import SceneSpec, stands_on_floor
 from ..scene.urdf.kinematics import link_poses
-from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import diagnostic_at
 from .body_names import object_body
 from .collision.ground import Ground, triangles_of
 from .collision.scene_shapes import collision_shapes, standing_faces
+from .resolved_scene import ResolvedScene
 
 HULL = PhysicsSpec(collision_shape_type="trimesh")
 """Collision shapes of an object without ``<physics>``: the hulls of its materials."""
 
 
-def set_on_floor(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
-) -> SceneSpec:
+def set_on_floor(resolved: ResolvedScene) -> SceneSpec:
     """Return the scene with every ``u:onFloor`` resolved to a pose.
-
-    Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
-        data_path: folders in which files are looked for.
 
     Raises:
         SceneError: there is no ground under something; with every such place.
     """
+    scene = resolved.scene
     if not stands_on_floor(scene):
         return scene
-    floor = Floor(scene, robots, data_path)
+    floor = Floor(resolved)
     diagnostics: list[Diagnostic] = []
     vehicles, objects = list(scene.vehicles), list(scene.objects)
     for i, vehicle in enumerate(vehicles):
-        if vehicle.on_floor is not None and i in robots:
+        if vehicle.on_floor is not None and i in resolved.robots:
             placed = floor.pose_of_vehicle(i, vehicle, vehicle.on_floor)
             if placed is None:
                 diagnostics.append(floor.nothing_under("vehicle", vehicle))
@@ -84,22 +77,18 @@ class Floor:
     """The ground of a scene, and the poses of bodies at rest on it.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
-        data_path: folders in which files are looked for.
+        resolved: the scene.
     """
 
-    def __init__(
-        self, scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
-    ) -> None:
-        self._scene, self._robots, self._data_path = scene, robots, data_path
-        self.faces = ground_faces(scene, data_path)
+    def __init__(self, resolved: ResolvedScene) -> None:
+        self._resolved, self._scene = resolved, resolved.scene
+        self.faces = ground_faces(resolved.scene, resolved.data_path)
         self.ground = Ground(np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]))
 
     def body_of_vehicle(self, index: int, world_from_base: Pose) -> Array:
         """The boxes of a vehicle's links, (n, 3, 3) [m]; n is 0 where it has no shape."""
-        robot, vehicle = self._robots[index], self._scene.vehicles[index]
-        shapes = collision_shapes(self._scene, self._robots, [index], {}, self._data_path)
+        robot, vehicle = self._resolved.robots[index], self._scene.vehicles[index]
+        shapes = collision_shapes(self._resolved, [index], {})
         poses = link_poses(robot, vehicle.joint_values)
         found = [np.zeros((0, 3, 3))]
         for name, parts in shapes.items():
@@ -115,7 +104,7 @@ class Floor:
         physics = PhysicsSpec(
             collision_shape_type=given.collision_shape_type, collision_shape=given.collision_shape
         )  # loose, so that a trimesh is its hull
-        shapes = collision_shapes(self._scene, self._robots, [], {index: physics}, self._data_path)
+        shapes = collision_shapes(self._resolved, [], {index: physics})
         return triangles_of(shapes[object_body(index)], world_from_object)
 
     def pose_of_vehicle(self, index: int, vehicle: VehicleSpec, spec: OnFloorSpec) -> Pose | None:

@@ -16,10 +16,8 @@ from ..base.engine import mujoco
 from ..base.geometry import Pose, quaternion_from_rotation
 from ..devices.device import DeviceSpec
 from ..devices.object_picker import ObjectPickerSpec
-from ..scene.hydrodynamics import VehicleHydrodynamics
 from ..scene.mounts import MountFrames
 from ..scene.spec import SceneSpec
-from ..scene.urdf.robot import RobotSpec
 from ..sensors.sensor import BindsSensor, MountedSensor
 from .body_names import object_body, owner_of
 from .collision.scene_shapes import collision_shapes
@@ -27,38 +25,28 @@ from .collision.shapes import CollisionShape
 from .collision.solid_grounds import SolidGround, solid_grounds
 from .parts import Part, parts_of
 from .ray_bodies import RayBodies
+from .resolved_scene import SimulatedScene
 from .water_density import density_levels
 
 T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SceneModel:
+class SceneModel(SimulatedScene):
     """What follows from a scene, a seed, a timestep, folders and compatibility quirks.
 
     It is made by `uwsim.physics.compile_scene.compile_scene`, once for all simulations of it.
+    In its ``scene`` everything is placed: what stands on the floor (``<u:onFloor>``) has a pose.
     """
 
     source: SceneSpec
     """The scene as it was read, with its integrator."""
     varied: SceneSpec
     """The scene with the variations (``<u:vary>``) of the seed; lines are those of the file."""
-    scene: SceneSpec
-    """The same with everything placed: what stands on the floor (``<u:onFloor>``) has a pose."""
     seed: int
     """The seed of its variations."""
-    timestep: float
-    """The length of a step [s]."""
-    data_path: tuple[Path, ...]
-    """The folders in which files are looked for."""
     compatibility: frozenset[str]
     """The compatibility quirks that are on."""
-    robots: Mapping[int, RobotSpec]
-    """The robot of each vehicle, by its number in the scene."""
-    dynamics: Mapping[int, VehicleHydrodynamics]
-    """The hydrodynamics of each vehicle that is simulated, by its number."""
-    shapes: Mapping[str, tuple[CollisionShape, ...]]
-    """The collision shapes of what is simulated, by the name of its body."""
     engine_model: mujoco.MjModel
     """The model of the physics engine; each engine steps a copy."""
     _computed: dict[Callable[[SceneModel], Any], Any] = field(
@@ -92,7 +80,7 @@ class SceneModel:
     @cached_property
     def parts(self) -> tuple[Part, ...]:
         """The visible models and whose they are; loaded when they are first asked for."""
-        return tuple(parts_of(self.scene, self.robots, self.data_path))
+        return tuple(parts_of(self))
 
     @cached_property
     def mount_frames(self) -> tuple[MountFrames, ...]:
@@ -126,7 +114,7 @@ class SceneModel:
         """The collision shapes of everything that can be touched, simulated or not, by body."""
         scene = self.scene
         vehicles = range(len(scene.vehicles))
-        return collision_shapes(scene, self.robots, vehicles, scene.solid_objects, self.data_path)
+        return collision_shapes(self, vehicles, scene.solid_objects)
 
     @cached_property
     def placed_objects(self) -> Mapping[int, Pose]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from pathlib import Path
 
 from ..errors import BadSetting
 from ..model.collision.scene_shapes import simulated_shapes
 from ..model.dynamics import read_dynamics
 from ..model.placement import set_on_floor
+from ..model.resolved_scene import ResolvedScene, SimulatedScene
 from ..model.robots import read_robots
 from ..model.scene_model import SceneModel
 from ..scene.sim_params import Integrator
@@ -54,22 +56,22 @@ def compile_scene(
     folders = tuple(map(Path, data_path))
     source = with_integrator(scene, integrator)
     drawn = varied(source, seed)
-    robots = read_robots(drawn, folders)
-    placed = set_on_floor(drawn, robots, folders)
-    dynamics = read_dynamics(placed, robots, folders)
-    shapes = simulated_shapes(placed, robots, dynamics, folders)
+    read = ResolvedScene(scene=drawn, robots=read_robots(drawn, folders), data_path=folders)
+    placed = replace(read, scene=set_on_floor(read))
+    dynamics = read_dynamics(placed)
+    simulated = SimulatedScene(
+        **vars(placed),
+        dynamics=dynamics,
+        shapes=simulated_shapes(placed, dynamics),
+        timestep=timestep,
+    )
     return SceneModel(
+        **vars(simulated),
         source=source,
         varied=drawn,
-        scene=placed,
         seed=seed,
-        timestep=timestep,
-        data_path=folders,
         compatibility=compatibility,
-        robots=robots,
-        dynamics=dynamics,
-        shapes=shapes,
-        engine_model=compile_engine_model(placed, robots, dynamics, timestep, shapes),
+        engine_model=compile_engine_model(simulated),
     )
 
 

@@ -26,7 +26,7 @@ from ..model.collision.shapes import CollisionShape
 
 MIN_SHAPES = 500
 """Models of fewer shapes are compiled anew."""
-SOURCES = ("base", "schema", "devices", "scene", "model", "physics", "world.py")
+SOURCES = ("base", "schema", "devices", "scene", "model", "physics", "world")
 """Of this package, what models follow from."""
 PACKAGES = ("mujoco", "numpy", "scipy", "numba")
 NAME = "scene.mjb"

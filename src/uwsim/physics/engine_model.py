@@ -29,6 +29,7 @@ from ..model.body_names import (
 )
 from ..model.collision.shapes import CollisionShape
 from ..model.inertias import MIN_INERTIA, MIN_MASS
+from ..model.resolved_scene import SimulatedScene
 from ..scene.hydrodynamics import BodyHydrodynamics, FinSpec, ThrusterSpec, VehicleHydrodynamics
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
@@ -75,47 +76,30 @@ def vehicle_bit(index: int) -> int:
     return 2 << (index % 29)
 
 
-def compile_engine_model(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Mapping[int, VehicleHydrodynamics],
-    timestep: float,
-    shapes: Mapping[str, Sequence[CollisionShape]],
-) -> mujoco.MjModel:
+def compile_engine_model(simulated: SimulatedScene) -> mujoco.MjModel:
     """Build the MuJoCo model of a scene.
-
-    Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number in the scene.
-        dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
-        timestep: length of a step [s].
-        shapes: what can be touched, by the name of its body.
 
     Raises:
         BadHydrodynamics: with every error.
         BadSetting: the step is no time, or longer than the physics bears.
         SceneError: a loose object has next to no mass, or far too much buoyancy.
     """
-    _check_step(timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
+    scene, dynamics, shapes = simulated.scene, simulated.dynamics, simulated.shapes
+    _check_step(simulated.timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
     hush()
     return cached_model(
-        (scene, robots, dynamics, timestep, shapes),
+        (scene, simulated.robots, dynamics, simulated.timestep, shapes),
         sum(map(len, shapes.values())),
-        lambda: _compiled(scene, robots, dynamics, timestep, shapes),
+        lambda: _compiled(simulated),
     )
 
 
-def _compiled(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Mapping[int, VehicleHydrodynamics],
-    timestep: float,
-    shapes: Mapping[str, Sequence[CollisionShape]],
-) -> mujoco.MjModel:
-    """Build the model; the arguments are those of `compile_engine_model`."""
-    spec = _with_options(scene, timestep, is_simulated=bool(dynamics))
+def _compiled(simulated: SimulatedScene) -> mujoco.MjModel:
+    """Build the model."""
+    scene, dynamics, shapes = simulated.scene, simulated.dynamics, simulated.shapes
+    spec = _with_options(scene, simulated.timestep, is_simulated=bool(dynamics))
     world_from_localized = scene.world_from_localized
-    _add_vehicles(spec, scene, robots, dynamics)
+    _add_vehicles(spec, simulated)
     loose: dict[str, PhysicsSpec] = {}
     density = next(iter(dynamics.values())).density if dynamics else None
     for index, thing in enumerate(scene.objects):
@@ -144,7 +128,7 @@ def _compiled(
             for name, physics in loose.items()
         }
         _add_water(spec, scene, dynamics, wet)
-        _add_grips(spec, scene, robots, dynamics, loose)
+        _add_grips(spec, simulated, loose)
     try:
         model = spec.compile()
     except ValueError as error:
@@ -173,21 +157,16 @@ def _with_options(scene: SceneSpec, timestep: float, *, is_simulated: bool) -> m
     return spec
 
 
-def _add_vehicles(
-    spec: mujoco.MjSpec,
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Mapping[int, VehicleHydrodynamics],
-) -> None:
+def _add_vehicles(spec: mujoco.MjSpec, simulated: SimulatedScene) -> None:
     """Add every vehicle where the scene puts it; without dynamics its links weigh nothing."""
-    for index, vehicle in enumerate(scene.vehicles):
-        robot = robots[index]
+    for index, vehicle in enumerate(simulated.scene.vehicles):
+        robot = simulated.robots[index]
         links = {link.name: link for link in robot.links}
-        is_dynamic = index in dynamics
+        is_dynamic = index in simulated.dynamics
         base = _add_body(
             spec.worldbody,
             vehicle_body(index, robot.root),
-            scene.world_from_localized @ vehicle.localized_from_base,
+            simulated.scene.world_from_localized @ vehicle.localized_from_base,
             links[robot.root] if is_dynamic else None,
         )
         base.add_freejoint(name=vehicle_joint(index, ""))
@@ -294,18 +273,12 @@ def _add_children(
         _add_children(spec, child, robot, joint.child, index, links)
 
 
-def _add_grips(
-    spec: mujoco.MjSpec,
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Collection[int],
-    loose: Collection[str],
-) -> None:
+def _add_grips(spec: mujoco.MjSpec, simulated: SimulatedScene, loose: Collection[str]) -> None:
     """Add a constraint, not active, between each picker's link and each loose object."""
-    for index in dynamics:
-        pickers = scene.vehicles[index].parts_of(ObjectPickerSpec)
+    for index in simulated.dynamics:
+        pickers = simulated.scene.vehicles[index].parts_of(ObjectPickerSpec)
         for link in dict.fromkeys(picker.relative_to for picker in pickers):
-            if robots[index].link(link) is None:
+            if simulated.robots[index].link(link) is None:
                 continue
             for name in loose:
                 weld = spec.add_equality(

@@ -1,18 +1,7 @@
-"""The simulation and its step.
-
-.. code-block:: text
-
-    apply_commands -> step_devices -> advect_kinematic -> forces -> step_physics -> animate
-      -> update_contacts -> publish: samples that are due (images first), messages on the bus,
-         algorithms' callbacks -> observers
-
-Time is an integer count of steps. The tail of the step (sensors and after) also runs once at
-step 0, when the simulation is opened.
-"""
+"""A running scene, as programs use it."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -24,22 +13,18 @@ from ..base.record import assign
 from ..bus import Algorithm, Bus
 from ..errors import BadSetting, UwsimError
 from ..model.scene_model import SceneModel
-from ..network import nanoseconds
 from ..physics.compile_scene import recompile
 from ..rendering.rendered_image import RenderedImage
 from ..world import Flow
 from .access import arguments, placing
 from .access.boxes import OrientedBox, oriented_boxes
 from .access.topics import TopicAccess
-from .forces import engine_wrenches
 from .live_scene import LiveScene
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scenery.renderer_pool import RendererPool
 from .state.state import OwnIdentity, State
-
-MAX_RUN = 1000
-"""Steps that are taken at once at most: Ctrl-C is heard after them."""
+from .stepper import Stepper
 
 
 class Simulation:
@@ -87,19 +72,10 @@ class Simulation:
         """Open a model at step 0 and read some topics."""
         self.world = world = self._make_scene(model)
         """The live parts of the scene."""
-        scene, engine = model.scene, world.engine
-        self._engine, self._water, self._schedule = engine, world.water, world.schedule
-        self._devices, self._forces, self._contacts = world.devices, world.forces, world.contacts
-        self._network, self._below_ground = world.network, world.below_ground
-        self._image_timers = [images.timer for images in world.images.values()]
-        placed = [i for i in range(len(scene.vehicles)) if not engine.is_simulated(i)]
-        self._drifting = [world.vehicles[i] for i in placed]
-        self._wet_names = tuple(
-            "" if i is None else scene.vehicles[i].name for i in engine.submerged_vehicles()
-        )
+        self._stepper = Stepper(world, self._nodes, self._watchers)
         self._access = TopicAccess(self.bus, read)
         self._state = self._make_state()
-        self._animate()
+        self._stepper.animate()
 
     def _make_state(self) -> State:
         """Put together the records of all parts."""
@@ -184,57 +160,13 @@ class Simulation:
         """
         if not self._access.state.is_started:
             self._access.state.is_started = True
-            self._publish()
+            self._stepper.publish()
         if seconds is None:
-            self._advance()
+            self._stepper.advance()
             return
         left = round(arguments.checked_time(seconds) / self.timestep)
         while left > 0:
-            left -= self._advance(left)
-
-    def _advance(self, wanted: int = 1) -> int:
-        """Take a step, and of those wanted after it all that nothing comes between; how many."""
-        self._state.bus.step += 1
-        self._schedule.apply_commands()
-        self._step_devices()
-        self._advect_kinematic()
-        n = self._n_alone(wanted) if wanted > 1 else 1
-        self._step_physics(n)
-        self._animate()
-        self._contacts.update(self.step)
-        self._publish()
-        for look in self._watchers:
-            look()
-        return n
-
-    def _n_alone(self, wanted: int) -> int:
-        """How many steps from this one on the forces may act alone, of those wanted.
-
-        In the step after them a command, a sample, a timer or a device may be due; observers,
-        forces, water that is not the same everywhere and what drifts with it have to do in every
-        step.
-        """
-        engine, water, now = self._engine, self._water, self.step
-        delivery = self.bus.next_delivery
-        if (
-            delivery <= now
-            or self._watchers
-            or self._forces
-            or self._contacts.is_laid
-            or not engine.is_dynamic
-            or engine.moves_by_step
-            or not water.is_uniform
-            or (self._drifting and not water.is_still)
-        ):
-            return 1
-        dues = [delivery, self._schedule.state.due if self._network.is_idle else now]
-        dues += [timer.due for timer in self._image_timers]
-        dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
-        began = self.time - self.timestep
-        rests = [math.inf, *(device.rests_until(began) for device in self._devices)]
-        free = (min(rests) - began) // self.timestep - 1
-        n = min(wanted, MAX_RUN, min(dues) - now + 1, free)
-        return max(1, int(n))
+            left -= self._stepper.advance(left)
 
     def watch(self, look: Callable[[], None]) -> None:
         """Call ``look`` at the end of every step."""
@@ -316,7 +248,7 @@ class Simulation:
             UwsimError: the vehicle is kinematic.
         """
         vehicle = self.world.vehicles.find(name)
-        if not self._engine.is_simulated(vehicle.index):
+        if not self.world.engine.is_simulated(vehicle.index):
             raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
         return vehicle.velocity
 
@@ -363,58 +295,6 @@ class Simulation:
             BadSetting: these are not three numbers, or one exceeds the fastest current.
         """
         self.world.water.set(arguments.flow_of(velocity))
-
-    def _publish(self) -> None:
-        bus, step = self.bus, self.step
-        for timer in self._image_timers:
-            timer.tick(step)
-        self._network.advance(nanoseconds(self.time))
-        self._schedule.tick(step)
-        bus.deliver()
-        for node in self._nodes:
-            node.tick()
-        bus.deliver()
-
-    def _step_devices(self) -> None:
-        """Let devices act, at the start of the step."""
-        time = self.time - self.timestep
-        for device in self._devices:
-            device.step(time)
-
-    def _advect_kinematic(self) -> None:
-        """Advect kinematic vehicles with the water, as the original does."""
-        water = self._water
-        if water.is_still:
-            return
-        for vehicle in self._drifting:
-            here = vehicle.world_from_base
-            vehicle.drift(water.carried(here, self.time, self.timestep, vehicle.name))
-
-    def _step_physics(self, n: int) -> None:
-        """Advance the physics by some steps, in the flow of the water at their times."""
-        engine, water = self._engine, self._water
-        if self._forces:
-            engine.push(engine_wrenches(self._forces, self.time - self.timestep))
-        if not engine.is_dynamic:
-            engine.fall()
-            self._below_ground.look(self.step)
-            return
-        first, half = self.step, 0.5 * self.timestep  # forces act in the middle of a step
-        motion = None
-        if not water.is_still:
-            times = [(first + k) * self.timestep - half for k in range(n)]
-            motion = water.during(engine.submerged_positions, times, self._wet_names)
-        before = engine.n_steps
-        try:
-            engine.step(n, motion)
-        finally:
-            self._state.bus.step = first + max(0, engine.n_steps - before - 1)
-        self._below_ground.look(self.step)
-
-    def _animate(self) -> None:
-        """Move what devices animate."""
-        for device in self._devices:
-            device.animate(self.time)
 
     def attach(
         self,

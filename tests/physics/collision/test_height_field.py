@@ -14,6 +14,7 @@ from uwsim.model.collision import height_field as fields
 from uwsim.model.collision.ground import Ground
 from uwsim.model.collision.height_field import EXACT, TILE, HeightField, height_field
 from uwsim.model.collision.shapes import CollisionShape, shapes_of
+from uwsim.model.resolved_scene import SimulatedScene
 from uwsim.physics.engine_model import compile_engine_model
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.sim_params import SimParamsSpec
@@ -35,8 +36,9 @@ def compiled(
         )
         shapes[object_body(1)] = (body,)
     params = SimParamsSpec(enable_physics=True, gravity=(0.0, 0.0, -9.81))
+    scene = SceneSpec(objects=tuple(things), sim_params=params)
     return compile_engine_model(
-        SceneSpec(objects=tuple(things), sim_params=params), {}, {}, 0.002, shapes
+        SimulatedScene(scene=scene, robots={}, dynamics={}, shapes=shapes, timestep=0.002)
     )
 
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from tests.simulation.small_robots import joint, scene_of, shape, write_robot
 from uwsim.model.collision.scene_shapes import collision_shapes
+from uwsim.model.resolved_scene import ResolvedScene
 from uwsim.scene.urdf.reader import read_urdf
 from uwsim.scene.vehicle import VehicleSpec
 
@@ -29,6 +30,6 @@ def test_only_a_finger_is_touched_as_its_convex_mesh(tmp_path: Path) -> None:
     joints += joint("jaw", "palm finger", kind="continuous") + joint("glue", "palm tip")
     file = write_robot(tmp_path, links + joints)
     scene = scene_of(VehicleSpec(name="v", file=str(file)))
-    shapes = collision_shapes(scene, {0: read_urdf(file)}, [0], {}, ())
+    shapes = collision_shapes(ResolvedScene(scene=scene, robots={0: read_urdf(file)}), [0], {})
     kinds = {name.rpartition("/")[2]: [one.kind for one in each] for name, each in shapes.items()}
     assert kinds == {"base": ["box"], "palm": ["box"], "finger": ["hull"], "tip": ["box"]}

@@ -17,6 +17,7 @@ from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.checks import check_file
 from uwsim.checks.model.starts import Starts
+from uwsim.model.resolved_scene import ResolvedScene
 from uwsim.physics.kinematics.lift import SPEED
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import read_scene
@@ -33,6 +34,10 @@ def floor(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFacto
     """The same relief, as 5000 triangles and as 512."""
     n = 50 if request.param == "height field" else 16
     return ground(grid(tmp_path_factory.mktemp("floor"), relief, n=n))
+
+
+def resolved(scene: SceneSpec) -> ResolvedScene:
+    return ResolvedScene(scene=scene, robots={})
 
 
 def sunk(depth: float, name: str = "thing", x: float = 0.3, **physics: object) -> ObjectSpec:
@@ -73,7 +78,7 @@ def test_only_what_is_deeper_than_its_height_stays(floor: ObjectSpec) -> None:
 def test_an_accepted_start_or_one_that_is_shallow_is_left_to_contacts(floor: ObjectSpec) -> None:
     accepted = replace(sunk(0.1), accepts=("start",))
     rest = sunk(-0.5 * HEIGHT)
-    depths = StartDepths(SceneSpec(sim_params=UP, objects=(rest, floor)), {}, ())
+    depths = StartDepths(resolved(SceneSpec(sim_params=UP, objects=(rest, floor))))
     rise = depths.floor.ground.rise(depths.floor.body_of_object(0, rest.localized_from_object))
     assert rise is not None
     shallow = sunk(-0.5 * HEIGHT - rise + 0.015)
@@ -170,11 +175,11 @@ def test_check_names_a_position_that_clears_it(depth: float, frame: str, floor: 
         objects=(thing, replace(floor, orientation=flip)),
         vehicles=tuple(read_scene(SCENE).vehicles),
     )
-    said = Starts(scene, {}, ()).of_object(0)
+    said = Starts(resolved(scene)).of_object(0)
     found = re.search(r"expected above it, at z (-?\d+\.\d+): <u:onFloor/> sets it there", said)
     assert found, said
     clear = replace(thing, position=(at[0], at[1], float(found[1])))
-    assert Starts(replace(scene, objects=(clear, *scene.objects[1:])), {}, ()).of_object(0) == ""
+    assert Starts(resolved(replace(scene, objects=(clear, *scene.objects[1:])))).of_object(0) == ""
 
 
 @pytest.mark.parametrize("timestep", [0.002, 0.01])

@@ -35,7 +35,7 @@ def object_numbers(
             continue
         thing = scene.spec.objects[index]
         with suppress(UwsimError):  # reported where models are checked
-            shapes = collision_shapes(scene.spec, {}, (), {index: physics}, scene.data_path)
+            shapes = collision_shapes(scene.resolved, (), {index: physics})
             for warning, check in checks.items():
                 text = check(physics, shapes[object_body(index)])
                 if text and warning not in thing.accepts:

@@ -24,7 +24,7 @@ def object_shapes(scene: CheckedScene) -> Iterator[Diagnostic]:
     for index, physics in simulated_solids(spec, dynamics).items():
         thing = spec.objects[index]
         try:
-            made = collision_shapes(spec, {}, (), {index: physics}, scene.data_path)
+            made = collision_shapes(scene.resolved, (), {index: physics})
             if physics.is_loose:
                 yield from object_errors(thing, physics, made[object_body(index)], density)
         except UwsimError as error:
@@ -34,7 +34,7 @@ def object_shapes(scene: CheckedScene) -> Iterator[Diagnostic]:
 def missing_floors(scene: CheckedScene) -> Iterable[Diagnostic]:
     """Return what of a scene is to stand on a floor that is not there."""
     try:
-        set_on_floor(scene.spec, scene.robots, scene.data_path)
+        set_on_floor(scene.resolved)
     except SceneError as error:
         return error.diagnostics
     except UwsimError:  # reported where robots and models are checked

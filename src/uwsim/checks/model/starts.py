@@ -7,18 +7,16 @@ about. Not looked at: vehicles inside one another.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import suppress
-from pathlib import Path
 
 import numpy as np
 
 from ...base.geometry import Pose
 from ...errors import Diagnostic, UwsimError
+from ...model.resolved_scene import ResolvedScene
 from ...scene.accepted_warnings import unless_meant
 from ...scene.object import ObjectSpec
-from ...scene.spec import SceneSpec
-from ...scene.urdf.robot import RobotSpec
 from ...scene.vehicle import VehicleSpec
 from ...simulation.collision.start_depths import StartDepth, StartDepths
 from ..subjects import MAX_LOOSE, CheckedScene
@@ -31,7 +29,7 @@ def start_poses(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of vehicles and free objects that begin in or under the ground, or above the water."""
     loose = [index for index, solid in scene.spec.solid_objects.items() if solid.is_loose]
     with suppress(UwsimError):  # reported where models are checked
-        starts = Starts(scene.spec, scene.robots, scene.data_path)
+        starts = Starts(scene.resolved)
         for i in scene.checked_vehicles:
             yield from _start(scene, "vehicle", scene.spec.vehicles[i], starts.of_vehicle, i)
         for i in loose[:MAX_LOOSE]:
@@ -54,19 +52,15 @@ class Starts:
     """The start poses of a scene's vehicles and objects.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
-        data_path: folders in which files are looked for.
+        resolved: the scene.
 
     Raises:
         UwsimError: a mesh cannot be read.
     """
 
-    def __init__(
-        self, scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
-    ) -> None:
-        self._scene = scene
-        self._depths = StartDepths(scene, robots, data_path)
+    def __init__(self, resolved: ResolvedScene) -> None:
+        self._scene = resolved.scene
+        self._depths = StartDepths(resolved)
 
     def of_vehicle(self, index: int) -> str:
         """Warn of the start pose of a vehicle."""

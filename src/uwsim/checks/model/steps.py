@@ -30,7 +30,7 @@ def thin_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
     density = next(iter(scene.dynamics.values())).density
     for index, physics in scene.loose_objects.items():
         with suppress(UwsimError):  # reported where models are checked
-            shapes = collision_shapes(scene.spec, {}, (), {index: physics}, scene.data_path)
+            shapes = collision_shapes(scene.resolved, (), {index: physics})
             text = thin_said(physics, shapes[object_body(index)], density, scene.timestep)
             if text:
                 thing = scene.spec.objects[index]

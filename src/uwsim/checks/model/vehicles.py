@@ -102,7 +102,7 @@ def vehicle_numbers(
         vehicle, robot = scene.spec.vehicles[index], scene.robots[index]
         hull = None
         with suppress(UwsimError):  # reported where models are checked
-            hull = hull_of(scene.spec, scene.robots, index, scene.data_path)
+            hull = hull_of(scene.resolved, index)
         texts: list[tuple[VehicleWarning, str, str]] = []
         if hull is not None:
             texts += [(name, "file", check(hull, robot)) for name, check in of_hull.items()]

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.linear import length
-from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
-from ...scene.urdf.robot import RobotSpec
+from ..resolved_scene import ResolvedScene
 from .ground import triangles_of
 from .scene_shapes import collision_shapes
 
@@ -69,23 +67,19 @@ class Hull:
         return float(length(beyond))
 
 
-def hull_of(
-    scene: SceneSpec, robots: Mapping[int, RobotSpec], index: int, data_path: tuple[Path, ...]
-) -> Hull | None:
+def hull_of(scene: ResolvedScene, index: int) -> Hull | None:
     """Measure a vehicle, its joints as in the file; None where it has no shape.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
+        scene: the scene.
         index: number of the vehicle.
-        data_path: folders in which files are looked for.
 
     Raises:
         UwsimError: a mesh cannot be read.
     """
-    poses = link_poses(robots[index], scene.vehicles[index].joint_values)
+    poses = link_poses(scene.robots[index], scene.scene.vehicles[index].joint_values)
     links: dict[str, LinkBox] = {}
-    for name, shapes in collision_shapes(scene, robots, [index], {}, data_path).items():
+    for name, shapes in collision_shapes(scene, [index], {}).items():
         link = name.split("/", 2)[2]
         corners = triangles_of(shapes, poses[link]).reshape(-1, 3)  # in the base's frame
         volume = sum(8.0 * float(np.prod(shape.size)) for shape in shapes)

@@ -28,6 +28,7 @@ from ...scene.urdf.robot import RobotSpec, VisualSpec
 from ...scene.vehicle import VehicleSpec
 from ..body_names import object_body, vehicle_body
 from ..parts import object_models, visual_model
+from ..resolved_scene import ResolvedScene
 from .fixed_mesh import FixedMesh
 from .ground import triangles_of
 from .shapes import (
@@ -41,25 +42,21 @@ from .shapes import (
 
 
 def simulated_shapes(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    dynamics: Collection[int],
-    data_path: tuple[Path, ...],
+    resolved: ResolvedScene, dynamics: Collection[int]
 ) -> dict[str, tuple[CollisionShape, ...]]:
     """Make the collision shapes of the engine; none where nothing is simulated.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
+        resolved: the scene.
         dynamics: numbers of the vehicles that are simulated.
-        data_path: folders in which files are looked for.
     """
+    scene = resolved.scene
     if scene.has_uwsim_physics:
-        return collision_shapes(scene, robots, robots, scene.solid_objects, data_path)
+        return collision_shapes(resolved, resolved.robots, scene.solid_objects)
     solid = simulated_solids(scene, dynamics)
     if not solid and len(dynamics) < 2:
         return {}
-    return collision_shapes(scene, robots, dynamics, solid, data_path)
+    return collision_shapes(resolved, dynamics, solid)
 
 
 def simulated_solids(scene: SceneSpec, dynamics: Collection[int]) -> Mapping[int, PhysicsSpec]:
@@ -70,21 +67,16 @@ def simulated_solids(scene: SceneSpec, dynamics: Collection[int]) -> Mapping[int
 
 
 def collision_shapes(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    vehicles: Collection[int],
-    objects: Mapping[int, PhysicsSpec],
-    data_path: tuple[Path, ...],
+    resolved: ResolvedScene, vehicles: Collection[int], objects: Mapping[int, PhysicsSpec]
 ) -> dict[str, tuple[CollisionShape, ...]]:
     """Make the shapes of a scene, by the name of their body in the model.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
+        resolved: the scene.
         vehicles: numbers of those that can be touched.
         objects: what each object that can be touched is, by its number.
-        data_path: folders in which files are looked for.
     """
+    scene, data_path = resolved.scene, resolved.data_path
     shapes: dict[str, tuple[CollisionShape, ...]] = {}
     load = object_models(scene, data_path)
     for index, physics in objects.items():
@@ -98,7 +90,7 @@ def collision_shapes(
             error=thing.contact_error,
         )
     for index in vehicles:
-        robot = robots[index]
+        robot = resolved.robots[index]
         fingers = _fingers(robot)
         stretches = _stretches(robot, scene.vehicles[index])
         for link in robot.links:

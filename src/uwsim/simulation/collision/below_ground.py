@@ -12,7 +12,7 @@ below it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import NoReturn
@@ -28,8 +28,6 @@ from ...model.collision.shapes import CollisionShape, bounds
 from ...model.collision.solid_grounds import SolidGround
 from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
-from ...scene.spec import SceneSpec
-from ...scene.urdf.robot import RobotSpec
 
 PERIOD = 0.5
 """Time between two looks [s]."""
@@ -76,7 +74,7 @@ class BelowGround:
     def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._timestep = model.timestep
         self._period = max(1, round(PERIOD / self._timestep))
-        self._bodies = [*_bodies(model.scene, model.robots, model.shapes, engine)]
+        self._bodies = [*_bodies(model, engine)]
         self._grounds = model.grounds if self._bodies else ()
         self._start = [body.places() for body in self._bodies]
         middles = np.array([places[0] for places in self._start]).reshape(-1, 3)
@@ -142,15 +140,11 @@ class BelowGround:
         )
 
 
-def _bodies(
-    scene: SceneSpec,
-    robots: Mapping[int, RobotSpec],
-    shapes: Mapping[str, Sequence[CollisionShape]],
-    engine: Engine,
-) -> Iterator[_Body]:
+def _bodies(model: SceneModel, engine: Engine) -> Iterator[_Body]:
     """Simulated vehicles, by their bases, and loose objects."""
+    scene, shapes = model.scene, model.shapes
     for i, vehicle in enumerate(scene.vehicles):
-        name = vehicle_body(i, robots[i].root)
+        name = vehicle_body(i, model.robots[i].root)
         if engine.is_simulated(i) and name in shapes:
             yield _body(vehicle.name, partial(engine.poses.vehicle, i), shapes[name])
     for i, thing in enumerate(scene.objects):

@@ -9,19 +9,16 @@ it is.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
 from ...base.geometry import Array, Pose
 from ...model.collision.ground import Ground
 from ...model.placement import Floor
+from ...model.resolved_scene import ResolvedScene
 from ...model.scene_model import SceneModel
 from ...physics.engine import Engine, Kind
-from ...scene.spec import SceneSpec
-from ...scene.urdf.robot import RobotSpec
 
 SUNK = 0.1
 """Share of its height by which a body may begin in the ground; contacts push it out of less."""
@@ -49,19 +46,15 @@ class StartDepths:
     """The start poses of a scene's vehicles and objects.
 
     Args:
-        scene: spec of the scene.
-        robots: the robot of each vehicle, by its number.
-        data_path: folders in which files are looked for.
+        resolved: the scene.
 
     Raises:
         UwsimError: a mesh cannot be read.
     """
 
-    def __init__(
-        self, scene: SceneSpec, robots: Mapping[int, RobotSpec], data_path: tuple[Path, ...]
-    ) -> None:
-        self._scene = scene
-        self.floor = Floor(scene, robots, data_path)
+    def __init__(self, resolved: ResolvedScene) -> None:
+        self._scene = scene = resolved.scene
+        self.floor = Floor(resolved)
         """The ground, and the shapes of bodies."""
         self._grounds = {
             scene.objects[index].name: Ground(faces) for index, faces in self.floor.faces.items()
@@ -115,7 +108,7 @@ def _start_lifts(model: SceneModel) -> list[tuple[Kind, int, float]]:
     if not touching:
         return lifts
     scene = model.scene
-    depths = StartDepths(scene, model.robots, model.data_path)
+    depths = StartDepths(model)
     for kind, index in touching:
         spec = scene.vehicles[index] if kind == "vehicle" else scene.objects[index]
         if "start" in spec.accepts:

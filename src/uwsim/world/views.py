@@ -1,182 +1,20 @@
-"""Protocols of the simulation as measures, triggers, updaters and sensors see it.
-
-Positions are in W, the world frame inside (z up); ``world_from_localized`` leads to L, the frame
-of files, topics and results. Everything handed out is a copy.
-"""
+"""A scene as measures, updaters, sensors, devices and forces see it: one Protocol each."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, runtime_checkable
+from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
-from .acoustics import Material, SeaWater
-from .base.geodesy import Geodetic
-from .base.geometry import Intrinsics, Pose
-from .bus import Bus
-from .network import Network
-from .rays import Balls, Hits
-
-TIMESTEP = 0.002
-"""Default length of a physics step [s]."""
-GRAVITY = 9.81
-"""Acceleration of free fall [m/s2]."""
-
-
-@dataclass(frozen=True)
-class Box:
-    """An axis-aligned bounding box in the frame of its body."""
-
-    lower: tuple[float, float, float]
-    """Smallest coordinates [m]."""
-    upper: tuple[float, float, float]
-    """Largest coordinates [m]."""
-
-    def corners(self) -> npt.NDArray[np.float64]:
-        """The eight corners, (8, 3) [m]."""
-        low, high = np.array(self.lower), np.array(self.upper)
-        picks = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
-        corners: npt.NDArray[np.float64] = np.where(picks == 1, high, low)
-        return corners
-
-
-class Body(Protocol):
-    """A node with a name and a pose: a vehicle, a link or an object."""
-
-    @property
-    def name(self) -> str:
-        """The route by which it was looked up."""
-
-    @property
-    def world_from_body(self) -> Pose:
-        """Where it is now (objects: the mesh frame; links: the visual frame)."""
-
-    @property
-    def box(self) -> Box | None:
-        """Local bounding box of its meshes; None when it has none."""
-
-
-@dataclass(frozen=True, eq=False)
-class BodyMotion:
-    """How a body moves over ground; in W."""
-
-    velocity: npt.NDArray[np.float64]
-    """Of its origin, (3,) [m/s]."""
-    angular_velocity: npt.NDArray[np.float64]
-    """Of the body, (3,) [rad/s]."""
-    acceleration: npt.NDArray[np.float64]
-    """Of its origin, (3,) [m/s2]."""
-
-
-class MovingBody(Body, Protocol):
-    """A frame on a link; the motion of the link and the contacts on it can be read."""
-
-    def motion(self) -> BodyMotion:
-        """Return how it moves now.
-
-        Of a simulated vehicle that is the engine's. Another one moves in jumps: each counts as made
-        evenly over the time since the one before (`uwsim.physics.kinematics.placed_motion`).
-        """
-
-    def contact_wrench(self) -> npt.NDArray[np.float64]:
-        """Return force and torque about its origin of the contacts on its link, (6,) [N, N m].
-
-        In its axes, in the last step; 0 where the scene has no physics.
-        """
-
-    def joint_wrench(self) -> npt.NDArray[np.float64]:
-        """Return what its link, and all beyond it, does to the joint that carries it, (6,).
-
-        Force [N] and torque about its origin [N m], in its axes, in the last step, with the water
-        on these links; 0 for a vehicle that is not simulated.
-        """
-
-
-class Camera(Protocol):
-    """A virtual camera of a vehicle."""
-
-    @property
-    def name(self) -> str:
-        """Its name in the scene."""
-
-    @property
-    def intrinsics(self) -> Intrinsics:
-        """Its pinhole."""
-
-    @property
-    def world_from_camera(self) -> Pose:
-        """Where it is now; OpenGL axes."""
-
-    @property
-    def n_images(self) -> int | None:
-        """Number of images due on its topics so far, read or not; None if it has no topic."""
-
-
-@dataclass(frozen=True)
-class Contact:
-    """One point at which a body touches another, at the present step."""
-
-    approach_speed: float
-    """Relative velocity of the two along their normal, above 0 while they close [m/s]."""
-    own_speed: float
-    """The part of it that is the body's own motion [m/s]."""
-    is_first: bool
-    """Whether the engine lists the body as the first of the two."""
-    other: str = ""
-    """Name of what it touches."""
-    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Where, in W [m]; the origin for contacts that the engine does not simulate."""
-
-
-class Actuators(Protocol):
-    """The actuators of a simulated vehicle: its thrusters, then the motors of its joints."""
-
-    @property
-    def thrusters(self) -> tuple[str, ...]:
-        """Names of its thrusters."""
-
-    @property
-    def joints(self) -> tuple[str, ...]:
-        """Names of its joints, those that mimic included."""
-
-    @property
-    def greatest_power(self) -> float:
-        """Electric power of all thrusters at their greatest thrusts [W]."""
-
-    def powers(self) -> npt.NDArray[np.float64]:
-        """Electric power of the thrusters, then of the joints, (n,) [W]."""
-
-
-@runtime_checkable
-class Flow(Protocol):
-    """Moving water, such as those in `uwsim.currents`; everything in L."""
-
-    @property
-    def is_uniform(self) -> bool:
-        """Whether it is the same at every point."""
-
-    @property
-    def is_still(self) -> bool:
-        """Whether it never moves at all."""
-
-    def velocity(
-        self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
-    ) -> npt.NDArray[np.float64]:
-        """Return the water's velocity at ``points`` (n, 3) [m], ``time`` [s]: (n, 3) [m/s]."""
-
-    def acceleration(
-        self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
-    ) -> npt.NDArray[np.float64]:
-        """Return how fast that changes at a fixed point, (n, 3) [m/s2]."""
-
-    def motion(
-        self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
-    ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Return both."""
+from ..acoustics import SeaWater
+from ..base.geodesy import Geodetic
+from ..base.geometry import Intrinsics, Pose
+from ..bus import Bus
+from ..network import Network
+from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays
 
 
 class TimedWorld(Protocol):
@@ -274,37 +112,6 @@ class Stage(TimedWorld, Protocol):
 
     def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
-
-
-class Rays(Protocol):
-    """Ray casting against the surfaces of a scene."""
-
-    @property
-    def vehicles(self) -> Sequence[str]:
-        """Name of the vehicle that each surface belongs to, by its number; or empty."""
-
-    @property
-    def materials(self) -> Sequence[Material]:
-        """Acoustic material of each surface, by its number."""
-
-    def cast(
-        self,
-        world_from_sensor: Pose,
-        directions: npt.NDArray[np.float64],
-        reach: float,
-        begins: npt.NDArray[np.float64] | None = None,
-    ) -> Hits:
-        """Cast rays from the origin of a sensor; returns the first hit of each.
-
-        Args:
-            world_from_sensor: where the sensor is.
-            directions: unit vectors in its frame, (n, 3).
-            reach: how far the rays go [m].
-            begins: from where on each ray hits, (n,) [m]; without it from the origin.
-        """
-
-    def balls(self) -> Balls:
-        """Balls that cover each surface, where they are now; heaps of sand have none."""
 
 
 class DeviceWorld(TimedWorld, Protocol):
@@ -424,29 +231,6 @@ class SensorWorld(TimedWorld, Protocol):
         Args:
             world_from_camera: where the camera is; OpenGL axes.
             intrinsics: its pinhole.
-        """
-
-
-class Attachment(Protocol):
-    """A frame fixed to a body, at whose origin a force acts: on a vehicle, a link or an object."""
-
-    @property
-    def name(self) -> str:
-        """The name of the body."""
-
-    @property
-    def vehicle(self) -> str:
-        """The name of the vehicle that it is on; empty on an object."""
-
-    @property
-    def world_from_body(self) -> Pose:
-        """Where the frame is now; its axes are those of the body."""
-
-    def motion(self) -> BodyMotion:
-        """Return how its origin moves now, over ground, in W.
-
-        Of a simulated vehicle and of a loose object that is the engine's. Another vehicle moves as
-        `MovingBody.motion` says; another object counts as at rest.
         """
 
 

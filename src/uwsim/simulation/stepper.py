@@ -1,0 +1,161 @@
+"""The step of a simulation.
+
+.. code-block:: text
+
+    apply_commands -> step_devices -> advect_kinematic -> forces -> step_physics -> animate
+      -> update_contacts -> publish: samples that are due (images first), messages on the bus,
+         algorithms' callbacks -> observers
+
+Time is an integer count of steps. The tail of the step (sensors and after) also runs once at
+step 0, when a simulation is started.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+
+from ..network import nanoseconds
+from .forces import engine_wrenches
+from .live_scene import LiveScene
+from .nodes.node import InProcessNode
+
+MAX_RUN = 1000
+"""Steps that are taken at once at most: Ctrl-C is heard after them."""
+
+
+class Stepper:
+    """Takes the steps of a simulation.
+
+    Args:
+        world: the live parts of the scene.
+        nodes: the attached algorithms; more may come.
+        watchers: called at the end of every step; more may come.
+    """
+
+    def __init__(
+        self,
+        world: LiveScene,
+        nodes: Sequence[InProcessNode],
+        watchers: Sequence[Callable[[], None]],
+    ) -> None:
+        self._nodes, self._watchers = nodes, watchers
+        self._bus, self._timestep = world.bus, world.model.timestep
+        self._engine, self._water, self._schedule = world.engine, world.water, world.schedule
+        self._devices, self._forces, self._contacts = world.devices, world.forces, world.contacts
+        self._network, self._below_ground = world.network, world.below_ground
+        self._image_timers = [images.timer for images in world.images.values()]
+        vehicles, engine = world.model.scene.vehicles, world.engine
+        placed = [i for i in range(len(vehicles)) if not engine.is_simulated(i)]
+        self._drifting = [world.vehicles[i] for i in placed]
+        self._wet_names = tuple(
+            "" if i is None else vehicles[i].name for i in engine.submerged_vehicles()
+        )
+
+    @property
+    def _step(self) -> int:
+        return self._bus.state.step
+
+    @property
+    def _time(self) -> float:
+        return self._bus.state.step * self._timestep
+
+    def advance(self, wanted: int = 1) -> int:
+        """Take a step, and of those wanted after it all that nothing comes between.
+
+        Returns how many it took.
+        """
+        self._bus.state.step += 1
+        self._schedule.apply_commands()
+        self._step_devices()
+        self._advect_kinematic()
+        n = self._n_alone(wanted) if wanted > 1 else 1
+        self._step_physics(n)
+        self.animate()
+        self._contacts.update(self._step)
+        self.publish()
+        for look in self._watchers:
+            look()
+        return n
+
+    def _n_alone(self, wanted: int) -> int:
+        """How many steps from this one on the forces may act alone, of those wanted.
+
+        In the step after them a command, a sample, a timer or a device may be due; observers,
+        forces, water that is not the same everywhere and what drifts with it have to do in every
+        step.
+        """
+        engine, water, now = self._engine, self._water, self._step
+        delivery = self._bus.next_delivery
+        if (
+            delivery <= now
+            or self._watchers
+            or self._forces
+            or self._contacts.is_laid
+            or not engine.is_dynamic
+            or engine.moves_by_step
+            or not water.is_uniform
+            or (self._drifting and not water.is_still)
+        ):
+            return 1
+        dues = [delivery, self._schedule.state.due if self._network.is_idle else now]
+        dues += [timer.due for timer in self._image_timers]
+        dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
+        began = self._time - self._timestep
+        rests = [math.inf, *(device.rests_until(began) for device in self._devices)]
+        free = (min(rests) - began) // self._timestep - 1
+        n = min(wanted, MAX_RUN, min(dues) - now + 1, free)
+        return max(1, int(n))
+
+    def publish(self) -> None:
+        """Take samples that are due, deliver messages and call algorithms."""
+        bus, step = self._bus, self._step
+        for timer in self._image_timers:
+            timer.tick(step)
+        self._network.advance(nanoseconds(self._time))
+        self._schedule.tick(step)
+        bus.deliver()
+        for node in self._nodes:
+            node.tick()
+        bus.deliver()
+
+    def _step_devices(self) -> None:
+        """Let devices act, at the start of the step."""
+        time = self._time - self._timestep
+        for device in self._devices:
+            device.step(time)
+
+    def _advect_kinematic(self) -> None:
+        """Advect kinematic vehicles with the water, as the original does."""
+        water = self._water
+        if water.is_still:
+            return
+        for vehicle in self._drifting:
+            here = vehicle.world_from_base
+            vehicle.drift(water.carried(here, self._time, self._timestep, vehicle.name))
+
+    def _step_physics(self, n: int) -> None:
+        """Advance the physics by some steps, in the flow of the water at their times."""
+        engine, water = self._engine, self._water
+        if self._forces:
+            engine.push(engine_wrenches(self._forces, self._time - self._timestep))
+        if not engine.is_dynamic:
+            engine.fall()
+            self._below_ground.look(self._step)
+            return
+        first, half = self._step, 0.5 * self._timestep  # forces act in the middle of a step
+        motion = None
+        if not water.is_still:
+            times = [(first + k) * self._timestep - half for k in range(n)]
+            motion = water.during(engine.submerged_positions, times, self._wet_names)
+        before = engine.n_steps
+        try:
+            engine.step(n, motion)
+        finally:
+            self._bus.state.step = first + max(0, engine.n_steps - before - 1)
+        self._below_ground.look(self._step)
+
+    def animate(self) -> None:
+        """Move what devices animate."""
+        for device in self._devices:
+            device.animate(self._time)

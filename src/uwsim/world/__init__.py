@@ -1,0 +1,44 @@
+"""Protocols of the simulation as measures, triggers, updaters and sensors see it.
+
+Positions are in W, the world frame inside (z up); ``world_from_localized`` leads to L, the frame
+of files, topics and results. Everything handed out is a copy.
+"""
+
+from __future__ import annotations
+
+from .parts import (
+    GRAVITY,
+    TIMESTEP,
+    Actuators,
+    Attachment,
+    Body,
+    BodyMotion,
+    Box,
+    Camera,
+    Contact,
+    Flow,
+    MovingBody,
+    Rays,
+)
+from .views import DeviceWorld, ForceWorld, SensorWorld, Stage, TimedWorld, World
+
+__all__ = [
+    "GRAVITY",
+    "TIMESTEP",
+    "Actuators",
+    "Attachment",
+    "Body",
+    "BodyMotion",
+    "Box",
+    "Camera",
+    "Contact",
+    "DeviceWorld",
+    "Flow",
+    "ForceWorld",
+    "MovingBody",
+    "Rays",
+    "SensorWorld",
+    "Stage",
+    "TimedWorld",
+    "World",
+]
