@@ -14,15 +14,6 @@ import uwsim
 PACKAGE = Path(uwsim.__file__).parent
 LIMIT, LIMIT_OF_A_VIEW = 25, 16
 """Public names of a class, inherited ones included."""
-LARGE = {
-    "Bridge": (34, "the base of the bridges: what the bus calls, and what a peer calls"),
-    "Ros1Bridge": (37, "inherits from Bridge"),
-    "Ros2": (34, "inherits from Bridge"),
-    "WebBridge": (50, "inherits from Bridge; what a session may use is in SessionBridge"),
-    "Craft": (27, "the state of an algorithm: 15 of them are numbers"),
-    "Task": (26, "the state of an algorithm: 15 of them are numbers"),
-}
-"""Classes that exceed the limit -> by how much they may, and why; the list only shrinks."""
 VIEWS = {
     "MeasureView": "World",
     "StageView": "Stage",
@@ -92,7 +83,7 @@ def test_no_class_has_too_many_public_names() -> None:
         name: max(len(public_names(*each)) for each in nodes) for name, nodes in classes().items()
     }
     large = {name: size for name, size in sizes.items() if size > LIMIT}
-    assert large == {name: size for name, (size, _) in LARGE.items()}
+    assert large == {}
 
 
 @pytest.mark.parametrize(("view", "protocol"), VIEWS.items())

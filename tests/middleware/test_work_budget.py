@@ -11,9 +11,9 @@ from uwsim.bus import Bus
 from uwsim.errors import BadMessage
 from uwsim.messages import Empty, EmptyResponse, Twist
 from uwsim.middleware.bridge import Bridge
+from uwsim.middleware.exchange.waiting_calls import AT_ONCE, MAX_CALLS
 from uwsim.middleware.json_encoding import from_json
 from uwsim.middleware.log import Log
-from uwsim.middleware.waiting_calls import AT_ONCE, MAX_CALLS
 from uwsim.middleware.web.session import MAX_KEYS, read_frame
 from uwsim.middleware.work_budget import WorkBudget
 

@@ -34,7 +34,9 @@ class ClockTopic:
         *,
         period: float,
     ) -> None:
-        self._time, self._publish, self._is_read = time, publish, is_read
+        self.time = time
+        """Returns the simulation time [s]."""
+        self._publish, self._is_read = publish, is_read
         self.period = period
         """Shortest simulation time between two messages [s]."""
         self._last = -math.inf
@@ -42,7 +44,7 @@ class ClockTopic:
     @property
     def is_due(self) -> bool:
         """Whether it is time for the next message, also because time went back."""
-        return not self._last <= self._time() + 1e-9 < self._last + self.period
+        return not self._last <= self.time() + 1e-9 < self._last + self.period
 
     @property
     def is_read(self) -> bool:
@@ -51,7 +53,7 @@ class ClockTopic:
 
     def send(self) -> None:
         """Tell the time."""
-        self._last = self._time()
+        self._last = self.time()
         self._publish()
 
     def send_at_next_step(self) -> None:

@@ -4,14 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from uwsim.algorithms.grasp.arm import Arm5e
-from uwsim.algorithms.grasp.craft import Craft
-from uwsim.algorithms.grasp.station import Station
+from uwsim.algorithms.grasp.craft import Wrist
 from uwsim.messages import Vector3, Wrench, WrenchStamped
-
-
-def craft() -> Craft:
-    return Craft(Station(kp=0.6, ki=0.03, feeds_forward=True, limit=0.3), Arm5e())
 
 
 def pull(force: float) -> WrenchStamped:
@@ -19,13 +13,13 @@ def pull(force: float) -> WrenchStamped:
 
 
 def test_without_a_sensor_the_load_is_not_known() -> None:
-    one = craft()
+    one = Wrist()
     one.tare()
     assert one.load is None
 
 
 def test_the_load_is_the_force_since_the_tare_smoothed_over_samples() -> None:
-    one = craft()
+    one = Wrist()
     one.on_wrist(pull(30.0))
     one.tare()
     assert one.load == pytest.approx(0.0)

@@ -251,7 +251,7 @@ def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish()
         put("estimate", Float64(data=value), by)
     put("speed", Float64(data=0.5), "node /another_part")
     assert "takes part" in str(run.called(OTHER))
-    assert run.outside.n_arrived == {"estimate": 1, "status": 1, "speed": 1}
+    assert run.outside.arrivals.n_arrived == {"estimate": 1, "status": 1, "speed": 1}
     run.outside.step()
     assert [message.data for message in run.estimates.take()] == [1.0]
     assert [message.data for message in run.status.take()] == ["tracking"]

@@ -14,7 +14,7 @@ from uwsim.bus import Bus, TopicEnds
 from uwsim.errors import BadSetting, ClientLost, NeverStarted
 from uwsim.messages import Float64, GTpublish, GTpublishResponse, String
 from uwsim.messages.services import Service
-from uwsim.middleware.bridge import Bridge
+from uwsim.middleware.bridge import Bridge, TransportTraits
 from uwsim.middleware.lockstep.client import (
     MAX_TEXT,
     MAX_WAITING,
@@ -241,9 +241,9 @@ def test_a_service_that_is_not_answered_ends_the_run_and_a_wrong_answer_is_an_er
 def test_topics_that_a_client_publishes_itself_are_not_waited_for() -> None:
     bus = Bus()
     outside = Outside(bus, is_silent)
-    outside.must_meet = True  # type: ignore[misc]
+    outside.traits = TransportTraits(must_meet=True)  # type: ignore[misc]
     for topic in (TICK, "depth"):  # what it reads of others
-        outside.want(topic)
+        outside.demand.want(topic)
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
     own = {"/mine": "std_msgs/Float64"}
     outside.says(JOIN, client="a", topics=["/depth", "/mine"], publishes=own)
@@ -298,9 +298,9 @@ def test_a_client_that_leaves_ends_the_run_at_once() -> None:
 
 def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -> None:
     bus = Bus()
-    outside = Outside(bus, lambda outside, tick: outside.unwant(TICK))
-    outside.sees_leaving = True  # type: ignore[misc]
-    outside.want(TICK)
+    outside = Outside(bus, lambda outside, tick: outside.demand.unwant(TICK))
+    outside.traits = TransportTraits(sees_leaving=True)  # type: ignore[misc]
+    outside.demand.want(TICK)
     kind = "underwater_sensor_msgs/srv/GTpublish"
     nodes = started(bus, outside, "a", services={"/init": kind})
     bus.publisher("depth", Float64)(Float64(data=1.0))

@@ -50,7 +50,7 @@ class Outside(Bridge):
 
     def _publish_clock(self) -> None:
         self.said.append("clock")
-        self.on_clock(self.clock())
+        self.on_clock(self.clock_topic.time())
 
 
 @pytest.fixture(autouse=True)
@@ -77,7 +77,7 @@ class Sea:
         )
 
     def start(self) -> None:
-        self.outside.want("depth")
+        self.outside.demand.want("depth")
         self.node.run(self.client)
         assert self.node.error is None
 
@@ -150,7 +150,8 @@ def test_two_outputs_follow_one_input() -> None:
     for value in (1.0, 2.0, 3.0):
         sea.say(Float64(data=value))
         assert sea.step() == [value]
-    assert (sea.outside.n_arrived["cmd"], sea.outside.n_arrived["status"]) == (3, 3)
+    n_arrived = sea.outside.arrivals.n_arrived
+    assert (n_arrived["cmd"], n_arrived["status"]) == (3, 3)
 
 
 def test_of_two_outputs_the_one_that_is_missing_is_named() -> None:
@@ -174,7 +175,7 @@ def test_a_node_that_answers_nothing_until_it_is_initialised_is_waited_for_from_
     for value in range(n_silent):
         sea.say(Float64(data=float(value)))
         assert sea.step() == []
-    sea.outside.n_called += 1  # autoInit
+    sea.outside.outside_services.n_called += 1  # autoInit
     sea.outside.on_message = answer_on(sea, "cmd", "status")
     for value in (10.0, 11.0):
         sea.say(Float64(data=value))
@@ -191,7 +192,7 @@ def test_an_initialised_node_that_answers_nothing_ends_the_run() -> None:
     sea.start()
     sea.say(Float64(data=1.0))
     sea.step()
-    sea.outside.n_called += 1
+    sea.outside.outside_services.n_called += 1
     sea.say(Float64(data=2.0))
     with pytest.raises(ClientLost, match="did not publish on /cmd"):
         sea.step()
@@ -242,7 +243,7 @@ def test_what_came_while_time_stood_is_not_taken_for_what_is_due() -> None:
     sea.outside.on_clock = lambda time: sea.outside.put("cmd", Float64(data=-1.0))
     sea.start()
     sea.outside.on_clock = lambda time: None
-    assert sea.outside.n_arrived["cmd"] > 0
+    assert sea.outside.arrivals.n_arrived["cmd"] > 0
     for _ in range(4):
         sea.step()
     with pytest.raises(ClientLost):

@@ -61,11 +61,13 @@ def test_the_time_that_it_integrates_is_that_of_the_simulation(
             assert bridge.wait(LIMIT)
 
             def step() -> None:
-                n_before = bridge.n_arrived["integrated"]
+                n_before = bridge.arrivals.n_arrived["integrated"]
                 bus.step += 1
                 bus.deliver()
                 bridge.step()
-                bridge.wait_for(lambda: bridge.n_arrived["integrated"] > n_before, ANSWER_S)
+                bridge.wait_for(
+                    lambda: bridge.arrivals.n_arrived["integrated"] > n_before, ANSWER_S
+                )
                 bridge.wait_for(lambda: False, SLEEP_S)
 
             def integrated() -> float:

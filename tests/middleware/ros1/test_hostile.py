@@ -198,7 +198,7 @@ def test_a_flood_of_messages_waits_in_the_sockets(
     connection = publisher.accept()
     connection.sendall(framed(to_ros1(Float64(data=1.0))) * N_FLOOD)
     until(lambda: any("faster than it is read" in line for line in graph.printed))
-    assert 0 < sim.n_arrived["cmd"] < N_FLOOD
+    assert 0 < sim.arrivals.n_arrived["cmd"] < N_FLOOD
     connection.close()
     publisher.close()
 
@@ -216,13 +216,13 @@ def test_a_node_that_the_run_waits_for_does_not_wait(
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     connection.sendall(framed(to_ros1(Float64(data=1.0))) * N_FLOOD)
-    until(lambda: sim.n_arrived["cmd"] == N_FLOOD)
+    until(lambda: sim.arrivals.n_arrived["cmd"] == N_FLOOD)
     connection.close()
     publisher.close()
 
 
 def _newest(sim: Ros1Bridge, topic: str) -> float | None:
-    queue = sim._incoming.get(topic)
+    queue = sim.arrivals._incoming.get(topic)
     items = list(queue._items) if queue else []
     return items[-1][0][0].data if items else None  # type: ignore[attr-defined]
 

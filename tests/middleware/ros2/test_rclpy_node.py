@@ -123,7 +123,9 @@ spin_until(lambda: False)
         got.extend(each.twist.linear.x for each in inbox.take())
 
     step()
-    assert not simulator.bridge._n_wanted["rov/twist"], "the simulation's own reader is no demand"
+    assert not simulator.bridge.demand.is_wanted("rov/twist"), (
+        "the simulation's own reader is no demand"
+    )
     with peer(source.replace("3.0 in got", "len(got) > 20"), simulator.domain):
         until(lambda: 0.0 in got, step)
         for _ in range(20):

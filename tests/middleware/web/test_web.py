@@ -212,7 +212,7 @@ def test_images_come_as_json_as_png_and_as_cbor(setting: Setting) -> None:
     for compression in ("none", "png", "cbor"):
         clients[compression] = setting.client()
         send(clients[compression], op="subscribe", topic="/image", compression=compression)
-    setting.step_until(lambda: len(setting.bridge._readers.get("image", ())) == 3)
+    setting.step_until(lambda: len(setting.bridge._readers.of("image")) == 3)
     setting.step_until(lambda: setting.bus.has_readers("image"))
     say(Image(height=2, width=2, encoding="rgb8", step=6, data=pixels))
     setting.bus.deliver()
@@ -248,7 +248,7 @@ def test_a_reader_that_stalls_costs_a_known_amount_of_memory(setting: Setting) -
     for _ in range(300):
         say(Image(height=480, width=640, step=1920, data=np.zeros(921_600, np.uint8)))
         setting.bus.deliver()
-    ((session, _),) = setting.bridge._readers["image"]
+    ((session, _),) = setting.bridge._readers.of("image")
     assert session._queue._n_bytes <= 64 * 2**20
     assert session._queue.n_dropped > 0
     assert any("too slowly" in line for line in setting.lines)
@@ -300,7 +300,7 @@ def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setti
     for _ in range(2000):
         flooder.send(frame)
     assert setting.ask(other, service="/rosapi/nodes")["result"] is True
-    setting.step_until(lambda: setting.bridge.n_arrived["twist"] == 2000)
+    setting.step_until(lambda: setting.bridge.arrivals.n_arrived["twist"] == 2000)
     setting.bridge.step()
     assert inbox.last is not None
 
@@ -331,8 +331,8 @@ def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
     thread.start()
     most = 0
     until_ = time.monotonic() + LIMIT
-    while setting.bridge.n_arrived["text"] < n:  # while it does not step
-        most = max(most, len(setting.bridge._incoming.get("text", ())))
+    while setting.bridge.arrivals.n_arrived["text"] < n:  # while it does not step
+        most = max(most, len(setting.bridge.arrivals._incoming.get("text", ())))
         assert time.monotonic() < until_, "they never came"
         time.sleep(0.01)
     thread.join()
@@ -359,7 +359,7 @@ def test_a_publisher_that_breaks_off_in_the_middle_of_a_frame_is_forgotten(
     setting.step_until(lambda: not setting.bridge._sessions)
     other = setting.client()
     other.socket.sendall(frame)
-    setting.step_until(lambda: setting.bridge.n_arrived["text"] == 2)
+    setting.step_until(lambda: setting.bridge.arrivals.n_arrived["text"] == 2)
 
 
 def test_bytes_that_are_no_http_a_large_frame_and_a_vanished_peer_do_no_harm(
@@ -451,7 +451,7 @@ def test_a_service_of_a_client_that_does_not_answer_holds_up_who_calls_it_alone(
     setting.bridge.step()
     offerer, caller = setting.client(), setting.client()
     send(offerer, op="advertise_service", service="/slow", type=kind)
-    setting.step_until(lambda: "slow" in setting.bridge.services)
+    setting.step_until(lambda: "slow" in setting.bridge.graph.services)
     send(caller, op="call_service", id="1", service="/slow", args={"groundTruth": [1.0]})
     began = time.monotonic()
     asked: list[Any] = []
@@ -489,7 +489,7 @@ def test_a_message_to_one_client_reaches_no_other(setting: Setting) -> None:
     clients = [setting.client() for _ in range(2)]
     for client in clients:
         send(client, op="subscribe", topic="/tick", id="t")
-    setting.step_until(lambda: len(setting.bridge._readers.get("tick", ())) == 2)
+    setting.step_until(lambda: len(setting.bridge._readers.of("tick")) == 2)
     name = f"client 127.0.0.1:{clients[0].local_address[1]}"
     setting.bridge.send_to(name, "tick", String(data="no"))
     setting.bridge.send("tick", String(data="all"))

@@ -55,7 +55,7 @@ def test_what_a_run_waits_for_is_read_at_once(sync: str, rests: list[float]) -> 
             admission.admit(f"client 127.0.0.1:{client.local_address[1]}")
             for _ in range(n):
                 client.send(json.dumps({"op": "publish", "topic": "/twist", "msg": {}}))
-            until(lambda: bridge.n_arrived["twist"] == n)
+            until(lambda: bridge.arrivals.n_arrived["twist"] == n)
     finally:
         bridge.close()
     assert bool(rests) == (sync == "none")
@@ -89,7 +89,7 @@ def test_a_flood_is_read_in_few_bursts(rests: list[float]) -> None:
         with connect(f"ws://127.0.0.1:{bridge.port}") as flooder:
             for _ in range(n):
                 flooder.send(json.dumps({"op": "publish", "topic": "/twist", "msg": {}}))
-            until(lambda: bridge.n_arrived["twist"] == n)
+            until(lambda: bridge.arrivals.n_arrived["twist"] == n)
     finally:
         bridge.close()
     assert 0 < len(rests) < n / 5

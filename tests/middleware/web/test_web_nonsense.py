@@ -70,7 +70,7 @@ def test_a_join_of_nonsense_leaves_its_client_connected(
         message = {"op": "publish", "topic": f"/{JOIN}", "msg": {"data": "[" * 200_000}}
         client.send(json.dumps(message))
         client.send(json.dumps(message))
-        until(lambda: bridge.n_arrived[JOIN] == 2)
+        until(lambda: bridge.arrivals.n_arrived[JOIN] == 2)
     assert "Traceback" not in capfd.readouterr().err
 
 

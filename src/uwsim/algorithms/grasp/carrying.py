@@ -31,7 +31,7 @@ class Lift(Phase):
         """Raise the goal; the box must not fall."""
         risen, speed = self._risen(task.now - self._began, task)
         task.go(self._start - np.array([0.0, 0.0, risen]), np.array([0.0, 0.0, speed]))
-        if not task.holds_something:
+        if not task.craft.jaw.holds_something:
             task.why = "dropped: the jaw closed while the box was lifted"
             return "retry"
         above = float(self._start[2] - task.craft.pose.position[2])
@@ -70,7 +70,7 @@ class Hold(Phase):
     def step(self, task: Task) -> str | None:
         """Wait; the box must not fall."""
         task.go(self._place)
-        if not (task.holds_something and task.carries_something):
+        if not (task.craft.jaw.holds_something and task.carries_something):
             task.why = "dropped: jaw and wrist lost the box while it was held"
             return "retry"
         return "retreat" if task.elapsed > task.hold else None
@@ -92,7 +92,7 @@ class Retreat(Phase):
         """Raise the goal."""
         risen = min(0.1 * task.elapsed, 0.5)
         task.go(self._start - np.array([0.0, 0.0, risen]), np.array([0.0, 0.0, -0.1]))
-        if not (task.holds_something and task.carries_something):
+        if not (task.craft.jaw.holds_something and task.carries_something):
             task.why = "dropped: jaw and wrist lost the box while it was brought up"
             return "retry"
         return "done" if risen >= 0.5 else None
@@ -109,7 +109,7 @@ class Retry(Phase):
         """Open; rise from where it is."""
         task.failures += 1
         craft = task.craft
-        craft.jaw_wanted, craft.grip_goal = OPEN, None
+        craft.jaw.wanted, craft.grip_goal = OPEN, None
         self._start: Array = craft.pose.position.copy()
         self._has_forgotten = False
 

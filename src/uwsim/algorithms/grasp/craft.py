@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import length, turned
 from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
-from .arm import DOWN, FOLDED, JAW, JOINTS, OPEN, Kinematics
+from .arm import CLOSED, DOWN, FOLDED, JAW, JOINTS, OPEN, Kinematics
 from .station import Motion, StationLaw
 
 MAX_REACH = 0.08
@@ -18,8 +19,71 @@ JOINT_STEP = 0.004
 """Smaller changes of the arm's command are not sent [rad]."""
 WRIST_SHARE = 0.1
 """Share of a sample of the wrist's force in the smoothed one: 0.2 s at 50 Hz."""
+GRIPPED = 0.02
+"""Fingers that stand further open than closed by this have something between them [rad]."""
+PRESSED = 2.0
+"""Least torque of their drive while they press [N m]."""
 STILL = 0.02
 """A joint that is slower stands still [rad/s]."""
+
+
+class Jaw:
+    """Two fingers with one drive, as its joint states tell."""
+
+    def __init__(self) -> None:
+        self.wanted = OPEN
+        """The fingers' position wanted [rad]."""
+        self.position = 0.0
+        """The fingers' position [rad]."""
+        self._speed = 0.0  # of the fingers [rad/s]
+        self._effort = 0.0  # torque of the drive, as its current tells [N m]
+
+    def take(
+        self,
+        positions: Mapping[str, float],
+        speeds: Mapping[str, float],
+        efforts: Mapping[str, float],
+    ) -> None:
+        """Take the states of joints: positions [rad], speeds [rad/s] and torques [N m] by name."""
+        self.position, self._speed = positions[JAW], speeds.get(JAW, 0.0)
+        self._effort = abs(efforts.get(JAW, 0.0))
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the fingers move."""
+        return abs(self._speed) > STILL
+
+    @property
+    def holds_something(self) -> bool:
+        """Whether the fingers press, and are kept apart by something."""
+        return self.position > CLOSED + GRIPPED and self._effort > PRESSED
+
+
+class Wrist:
+    """The force on the wrist, smoothed; an arm without the sensor has no samples."""
+
+    def __init__(self) -> None:
+        self._force: Array | None = None  # smoothed, in the sensor's axes, (3,) [N]
+        self._tare: Array | None = None
+
+    def on_wrist(self, message: WrenchStamped) -> None:
+        """Take a sample of the force sensor in the wrist."""
+        force = message.wrench.force
+        sample = np.array([force.x, force.y, force.z])
+        self._force = (
+            sample if self._force is None else self._force + WRIST_SHARE * (sample - self._force)
+        )
+
+    def tare(self) -> None:
+        """Take the wrist's force now as that of the arm alone."""
+        self._tare = self._force
+
+    @property
+    def load(self) -> float | None:
+        """Force that hangs on the wrist since `tare` [N]; None without a sensor."""
+        if self._force is None or self._tare is None:
+            return None
+        return length(self._force - self._tare)
 
 
 class Craft:
@@ -47,19 +111,12 @@ class Craft:
         """Heading of the axis along which the jaw closes, navigation frame [rad]."""
         self.posture: Array = FOLDED.copy()
         """The arm's joints wanted, (4,) [rad]."""
-        self.jaw_wanted = OPEN
-        """The fingers' position wanted [rad]."""
         self.joints: Array = FOLDED.copy()
         """The arm's joints, (4,) [rad]."""
-        self.jaw = 0.0
-        """The fingers' position [rad]."""
-        self.jaw_speed = 0.0
-        """Of the fingers [rad/s]."""
-        self.jaw_effort = 0.0
-        """Torque of the fingers' drive, as its current tells [N m]."""
-        self.wrist: Array | None = None
-        """Force on the wrist, smoothed, in the sensor's axes, (3,) [N]; None: it has no sensor."""
-        self._tare: Array | None = None
+        self.jaw = Jaw()
+        """What it grips with."""
+        self.wrist = Wrist()
+        """What the force sensor of the arm feels."""
         self._sent: Array = np.full(5, math.inf)
 
     @property
@@ -97,27 +154,7 @@ class Craft:
         efforts = dict(zip(message.name, message.effort.tolist(), strict=False))
         if all(name in where for name in (*JOINTS, JAW)):
             self.joints = np.array([where[name] for name in JOINTS])
-            self.jaw, self.jaw_speed = where[JAW], speeds.get(JAW, 0.0)
-            self.jaw_effort = abs(efforts.get(JAW, 0.0))
-
-    def on_wrist(self, message: WrenchStamped) -> None:
-        """Take a sample of the force sensor in the wrist."""
-        force = message.wrench.force
-        sample = np.array([force.x, force.y, force.z])
-        self.wrist = (
-            sample if self.wrist is None else self.wrist + WRIST_SHARE * (sample - self.wrist)
-        )
-
-    def tare(self) -> None:
-        """Take the wrist's force now as that of the arm alone."""
-        self._tare = self.wrist
-
-    @property
-    def load(self) -> float | None:
-        """Force that hangs on the wrist since `tare` [N]; None without a sensor."""
-        if self.wrist is None or self._tare is None:
-            return None
-        return length(self.wrist - self._tare)
+            self.jaw.take(where, speeds, efforts)
 
     def twist(self, time: float, dt: float) -> TwistStamped:
         """Return the twist that leads to the goal."""
@@ -144,7 +181,7 @@ class Craft:
         """Return the command of arm and jaw; None where nothing changed."""
         if self.grip_goal is not None:
             self.posture = self._compensated(self.grip_goal)
-        wanted = np.array([*self.posture.tolist(), self.jaw_wanted])
+        wanted = np.array([*self.posture.tolist(), self.jaw.wanted])
         if np.abs(wanted - self._sent).max() < JOINT_STEP:
             return None
         self._sent = wanted

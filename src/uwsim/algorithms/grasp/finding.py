@@ -86,6 +86,6 @@ class Pregrasp(Phase):
         """Wait for the arm."""
         task.station(ABOVE + 0.1)
         craft = task.craft
-        craft.jaw_wanted = OPEN
+        craft.jaw.wanted = OPEN
         craft.posture = np.array([*DOWN[:3].tolist(), craft.wrist_for(task.closes)])
         return "align" if craft.is_still and task.elapsed > 1.0 else None

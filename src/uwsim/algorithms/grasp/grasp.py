@@ -180,7 +180,7 @@ class Grasp:
     def _subscribe(self, node: Node) -> None:
         self._navigator = self.navigation(node)
         node.subscribe(self.text("joint_topic"), JointState, self.craft.on_joints)
-        node.subscribe(self.text("wrist_topic"), WrenchStamped, self.craft.on_wrist)
+        node.subscribe(self.text("wrist_topic"), WrenchStamped, self.craft.wrist.on_wrist)
         node.subscribe(self.text("info_topic"), CameraInfo, self._on_info)
         node.subscribe(self.text("image_topic"), Image, self._on_image)
 

@@ -70,16 +70,17 @@ class Close(Phase):
 
     def enter(self, task: Task) -> None:
         """Close; the arm stays as it is, the vehicle over the handle; the wrist carries no load."""
-        task.craft.tare()
+        task.craft.wrist.tare()
         task.craft.grip_goal = None
-        task.craft.jaw_wanted = CLOSED
+        task.craft.jaw.wanted = CLOSED
 
     def step(self, task: Task) -> str | None:
         """Wait until the fingers stand still."""
         task.station(0.0, settled=True)
-        if task.elapsed < 2.0 or abs(task.craft.jaw_speed) > 0.02:
+        if task.elapsed < 2.0 or task.craft.jaw.is_moving:
             return None
-        if task.holds_something:
+        if task.craft.jaw.holds_something:
             return "lift"
-        task.why = f"missed: the jaw closed to {task.craft.jaw:.3f} rad, there is nothing in it"
+        position = task.craft.jaw.position
+        task.why = f"missed: the jaw closed to {position:.3f} rad, there is nothing in it"
         return "retry"

@@ -8,7 +8,6 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from ...base.geometry import Array
-from .arm import CLOSED
 from .craft import Craft
 from .perception import GraspModel, ObjectPerception
 from .station import horizontal
@@ -16,10 +15,6 @@ from .target import Target
 
 ABOVE = 0.30
 """Height of the grip over the handle from which it begins to descend [m]."""
-GRIPPED = 0.02
-"""Fingers that stand further open than closed by this have something between them [rad]."""
-PRESSED = 2.0
-"""Least torque of their drive while they press [N m]."""
 
 
 class Task:
@@ -77,14 +72,9 @@ class Task:
         return self.model.closes(self.target.pose)
 
     @property
-    def holds_something(self) -> bool:
-        """Whether the fingers press, and are kept apart by something."""
-        return self.craft.jaw > CLOSED + GRIPPED and self.craft.jaw_effort > PRESSED
-
-    @property
     def carries_something(self) -> bool:
         """Whether the wrist carries a weight; taken for true where it has no sensor."""
-        load = self.craft.load
+        load = self.craft.wrist.load
         return load is None or load > self._min_load
 
     def is_target_lost(self, patience: float) -> bool:

@@ -86,7 +86,7 @@ class LockStepClient:
         self._node = node
         bridge = self._bridge
         bridge.step()
-        if bridge.invites:
+        if bridge.traits.invites:
             invitation = {"client": self._name, "tick": 0, "run": self._run}
             bridge.send(TICK, String(data=json.dumps(invitation)))
         joined = self._joined()
@@ -150,7 +150,8 @@ class LockStepClient:
         read = [topic.lstrip("/") for topic in topics]
         met = [TICK, *(topic for topic in read if topic not in own and self._is_sent(topic))]
         if not bridge.wait_for(
-            lambda: not bridge.must_meet or all(map(bridge.is_wanted, met)), self._limit
+            lambda: not bridge.traits.must_meet or all(map(bridge.demand.is_wanted, met)),
+            self._limit,
         ):
             raise NeverStarted(
                 f"Client {self._name!r} has joined, and does not subscribe to all of its topics."
@@ -317,7 +318,9 @@ class LockStepClient:
         has_said = any(
             said.get("left") and not self._is_other(said, by) for said, by in tuple(self._joins)
         )
-        if has_said or (self._bridge.sees_leaving and not self._bridge.is_wanted(TICK)):
+        if has_said or (
+            self._bridge.traits.sees_leaving and not self._bridge.demand.is_wanted(TICK)
+        ):
             now = self._node.now
             raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")
 
@@ -334,9 +337,9 @@ class LockStepClient:
         """Say what came in the place of the answer to a tick."""
         if self._acks:
             said = given(self._acks[0], "published")
+            n_arrived = self._bridge.arrivals.n_arrived
             late = [
-                f"{n} messages on {topic}, of which {self._bridge.n_arrived[topic.lstrip('/')]} "
-                "have come"
+                f"{n} messages on {topic}, of which {n_arrived[topic.lstrip('/')]} have come"
                 for topic, n in said.items()
                 if not self._has_arrived({"published": {topic: n}})
             ]
@@ -357,7 +360,7 @@ class LockStepClient:
     def _has_arrived(self, answer: dict[str, Any]) -> bool:
         """Whether all messages that an answer announces are there."""
         return all(
-            self._bridge.n_arrived[topic.lstrip("/")] >= n
+            self._bridge.arrivals.n_arrived[topic.lstrip("/")] >= n
             for topic, n in given(answer, "published").items()
         )
 
@@ -409,7 +412,7 @@ def lockstep_clients(
     for topic in (JOIN, ACK):
         bridge.read_all(topic)
         bridge.bus.subscribe(topic, String, _nothing)  # so that transports subscribe outside
-        bridge.tap(topic, partial(hear, topic))
+        bridge.arrivals.tap(topic, partial(hear, topic))
     bridge.bus.publisher(TICK, String)
     return tuple(clients.values())
 

@@ -73,7 +73,7 @@ class OutputClient(OutsideProgram):
             self._read(output)
         for topic in dict.fromkeys(o.follows for o in spec.outputs if o.follows is not None):
             node.subscribe(topic, object, self._counter(topic))
-        self._n_called = bridge.n_called
+        self._n_called = bridge.outside_services.n_called
         bridge.step()
         if not self._stand(spec.limit, until=lambda: not self._missing()):
             raise NeverStarted(
@@ -81,7 +81,7 @@ class OutputClient(OutsideProgram):
                 "wall time (--client-limit)."
             )
         self._stand(STAND_S, until=_never)
-        self._before.update(bridge.n_arrived)
+        self._before.update(bridge.arrivals.n_arrived)
         node.every(self._timestep, self._barrier)
 
     def _stand(self, limit: float, until: Callable[[], bool]) -> bool:
@@ -111,7 +111,7 @@ class OutputClient(OutsideProgram):
         bridge, outputs = self._bridge, self._spec.outputs
         nobody = [f"nobody publishes /{o.topic}" for o in outputs if not bridge.is_fed(o.topic)]
         inputs = dict.fromkeys(o.follows for o in outputs if o.follows is not None)
-        nobody += [f"nobody reads /{name}" for name in inputs if not bridge.is_wanted(name)]
+        nobody += [f"nobody reads /{name}" for name in inputs if not bridge.demand.is_wanted(name)]
         has_timer = any(o.rate is not None for o in outputs)
         if has_timer and not bridge.clock_topic.is_read:
             nobody.append("nobody reads /clock (use_sim_time must be true before the node starts)")
@@ -124,9 +124,9 @@ class OutputClient(OutsideProgram):
         if due == self._due and not bridge.clock_topic.is_due:
             return
         before, self._due = self._due, due
-        if bridge.n_sent > self._n_sent and self._spec.settling:
+        if bridge.demand.n_sent > self._n_sent and self._spec.settling:
             bridge.wait_for(_never, self._spec.settling)
-        self._n_sent = bridge.n_sent
+        self._n_sent = bridge.demand.n_sent
         bridge.clock_topic.send()
         for output in self._spec.outputs:
             topic, n = output.topic, due[output.topic]
@@ -153,7 +153,7 @@ class OutputClient(OutsideProgram):
         """
         self._begun.add(topic)
         self._bridge.wait_for(_never, FIRST_S)
-        self._before[topic] = self._bridge.n_arrived[topic] - n_due
+        self._before[topic] = self._bridge.arrivals.n_arrived[topic] - n_due
 
     def _await_first(self, topic: str, n_given: int, *, has_input: bool) -> None:
         """Wait for the first message of an output that follows an input.
@@ -171,7 +171,7 @@ class OutputClient(OutsideProgram):
             ClientLost: there is still no answer, and the limit has passed.
         """
         bridge, limit = self._bridge, self._spec.limit
-        is_called = bridge.n_called > self._n_called
+        is_called = bridge.outside_services.n_called > self._n_called
         if has_input:
             left = limit if is_called else min(FIRST_S, limit - self._waited[topic])
             began = time.monotonic()
@@ -186,7 +186,7 @@ class OutputClient(OutsideProgram):
         """Take in what is answered now; inputs that remain without an answer never have one."""
         self._begun.add(topic)
         bridge, start = self._bridge, self._before[topic]
-        while (n := bridge.n_arrived[topic] - start) < n_given:
+        while (n := bridge.arrivals.n_arrived[topic] - start) < n_given:
             if not bridge.wait_for(partial(self._has_arrived, topic, n + 1), FIRST_S):
                 break
         self._unanswered[topic] = max(0, n_given - n)
@@ -194,7 +194,7 @@ class OutputClient(OutsideProgram):
 
     def _refuse_more(self, topic: str, n_due: int) -> None:
         """Refuse outputs that are not due; raises ClientLost."""
-        n = self._bridge.n_arrived[topic] - self._before[topic]
+        n = self._bridge.arrivals.n_arrived[topic] - self._before[topic]
         if n > n_due + self._unanswered[topic]:
             raise ClientLost(
                 f"Client {self.name!r} has published {n} messages on /{topic} by "
@@ -210,7 +210,7 @@ class OutputClient(OutsideProgram):
         return math.floor(self._node.now * output.rate + 1e-6)
 
     def _has_arrived(self, topic: str, n: int) -> bool:
-        return self._bridge.n_arrived[topic] >= self._before[topic] + n
+        return self._bridge.arrivals.n_arrived[topic] >= self._before[topic] + n
 
 
 def check_outputs(outputs: Sequence[OutputSpec], bus: Bus) -> None:

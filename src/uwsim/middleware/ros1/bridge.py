@@ -20,7 +20,7 @@ from typing import Any, cast
 from ...bus import Bus, TopicEnds
 from ...errors import BadSetting, UwsimError
 from ...messages.services import Service
-from ..bridge import LATCHED, Bridge
+from ..bridge import LATCHED, Bridge, TransportTraits
 from ..clock_topic import ROS_PERIOD
 from ..lockstep.topics import TICK
 from ..log import Log
@@ -67,8 +67,7 @@ class Ros1Bridge(Bridge):
         waits: how long it waits for peers.
     """
 
-    must_meet = sees_leaving = True
-    clock_period = ROS_PERIOD
+    traits = TransportTraits(must_meet=True, sees_leaving=True, clock_period=ROS_PERIOD)
 
     def __init__(
         self,
@@ -107,7 +106,9 @@ class Ros1Bridge(Bridge):
         self._registrar = Registrar(
             master, node, self.uri, self.log, self._update, parameters=parameters, poll=waits.poll
         )
-        self._stop_elsewhere = bus.services.serve_elsewhere(self._is_offered_outside, self._ask)
+        self._stop_elsewhere = bus.services.serve_elsewhere(
+            self._is_offered_outside, self.outside_services.ask
+        )
         self._register()
 
     def wait(self, timeout: float) -> bool:
@@ -173,7 +174,7 @@ class Ros1Bridge(Bridge):
     def _publish_clock(self) -> None:
         """Publish the time, if anybody reads it."""
         if self._clock_is_read():
-            self._clock.send(self._clock.kind.message(clock=clock_time(self.clock())))
+            self._clock.send(self._clock.kind.message(clock=clock_time(self.clock_topic.time())))
 
     def _clock_is_read(self) -> bool:
         """Whether anybody has subscribed to ``/clock``."""
@@ -237,7 +238,7 @@ class Ros1Bridge(Bridge):
             return refusal
         if publication in (self._clock, self._rosout):
             return publication.serve
-        return partial(publication.serve, count=partial(self._add_want, publication.topic))
+        return partial(publication.serve, count=partial(self.demand.change, publication.topic))
 
     def _choose_service(self, header: dict[str, str]) -> Serve | str:
         name = header["service"]
@@ -324,7 +325,7 @@ class Ros1Bridge(Bridge):
 
     def _getArrived(self, caller: str) -> Answer:  # noqa: N802
         """How many messages have come by topic: of uwsim, for programs in lock-step."""
-        return [1, "", dict(self.n_arrived)]
+        return [1, "", dict(self.arrivals.n_arrived)]
 
     def _paramUpdate(self, caller: str, key: str, value: Any) -> Answer:  # noqa: N802
         return [1, "", 0]

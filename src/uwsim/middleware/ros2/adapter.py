@@ -16,7 +16,7 @@ from ...base.message_fields import size_of
 from ...bus import Bus, TopicEnds
 from ...errors import BadMessage, UwsimError
 from ...messages.services import Service
-from ..bridge import LATCHED, Bridge
+from ..bridge import LATCHED, Bridge, TransportTraits
 from ..clock_topic import ROS_PERIOD
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
@@ -41,8 +41,7 @@ class Ros2(Bridge):
         log: where events are reported.
     """
 
-    must_meet = invites = True
-    clock_period = ROS_PERIOD
+    traits = TransportTraits(must_meet=True, invites=True, clock_period=ROS_PERIOD)
 
     def __init__(self, bus: Bus, clock: Callable[[], float], node: Ros2Node, log: Log) -> None:
         super().__init__(bus, clock, log)
@@ -57,7 +56,7 @@ class Ros2(Bridge):
         self._n_clocks = 0
         self._add_writer(CLOCK, self._clock_class, self._on_clocks)
         node.tell()
-        self._stop_elsewhere = bus.services.serve_elsewhere(node.offers, self._ask)
+        self._stop_elsewhere = bus.services.serve_elsewhere(node.offers, self.outside_services.ask)
         self._thread = threading.Thread(target=self._write, name="uwsim-ros2-out", daemon=True)
         self._thread.start()
 
@@ -71,7 +70,7 @@ class Ros2(Bridge):
         for name in sorted(set(self._readers) - set(read)):
             self._readers.pop(name).close()
         for name in sorted(set(published) - set(self._writers)):
-            self._add_writer(name, published[name].type, _Demand(self, name, self._node.lease))
+            self._add_writer(name, published[name].type, _ReaderCount(self, name, self._node.lease))
         for name in sorted(set(read) - set(self._readers)):
             self._add_reader(name, read[name].type)
         self._node.tell()
@@ -127,7 +126,7 @@ class Ros2(Bridge):
     def _publish_clock(self) -> None:
         """Publish the time, if anybody reads it."""
         if self._n_clocks:
-            self.send(CLOCK, self._clock_class(clock=clock_time(self.clock())))
+            self.send(CLOCK, self._clock_class(clock=clock_time(self.clock_topic.time())))
 
     def _clock_is_read(self) -> bool:
         """Whether a reader matches the writer of ``/clock``."""
@@ -204,7 +203,7 @@ class Ros2(Bridge):
                 )
 
 
-class _Demand:
+class _ReaderCount:
     """Tells a bridge how many outside read a topic, from their changing number."""
 
     def __init__(self, bridge: Bridge, topic: str, lease: str) -> None:
@@ -212,9 +211,9 @@ class _Demand:
 
     def __call__(self, n_readers: int) -> None:
         for _ in range(n_readers - self._n):
-            self._bridge.want(self._topic)
+            self._bridge.demand.want(self._topic)
         for _ in range(self._n - n_readers):
-            self._bridge.unwant(self._topic)
+            self._bridge.demand.unwant(self._topic)
         if n_readers < self._n:
             self._bridge.log.say(
                 f"/{self._topic}: a reader has left, or was not heard of {self._lease}",

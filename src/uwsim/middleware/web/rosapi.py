@@ -16,7 +16,7 @@ from rosbags.interfaces import Nodetype
 from ...errors import BadMessage, UnknownName, UwsimError
 from ..stamps import clock_time
 from ..types import PLACEHOLDER, full_name, message_class, ros2_store, service, wire_type
-from .contract import Graph
+from .graph import WebGraph
 
 NODE = "/uwsim"
 ROSOUT = "rosout"
@@ -24,127 +24,127 @@ ROSOUT = "rosout"
 ROSOUT_TYPE = "rcl_interfaces/msg/Log"
 
 
-def _topic_types(bridge: Graph) -> dict[str, str]:
-    return {ROSOUT: ROSOUT_TYPE, **bridge.types()}
+def _topic_types(graph: WebGraph) -> dict[str, str]:
+    return {ROSOUT: ROSOUT_TYPE, **graph.types()}
 
 
-def _topics(bridge: Graph, args: Any) -> dict[str, Any]:
-    types = _topic_types(bridge)
+def _topics(graph: WebGraph, args: Any) -> dict[str, Any]:
+    types = _topic_types(graph)
     return {"topics": [f"/{name}" for name in types], "types": list(types.values())}
 
 
-def _topics_and_raw_types(bridge: Graph, args: Any) -> dict[str, Any]:
-    found = _topics(bridge, args)
+def _topics_and_raw_types(graph: WebGraph, args: Any) -> dict[str, Any]:
+    found = _topics(graph, args)
     wires = [wire_type(message_class(name)) for name in found["types"]]
     return {**found, "typedefs_full_text": [wire.ros2_definition if wire else "" for wire in wires]}
 
 
-def _topic_type(bridge: Graph, args: Any) -> dict[str, Any]:
-    return {"type": _topic_types(bridge).get(_name(args, "topic"), "")}
+def _topic_type(graph: WebGraph, args: Any) -> dict[str, Any]:
+    return {"type": _topic_types(graph).get(_name(args, "topic"), "")}
 
 
-def _topics_for_type(bridge: Graph, args: Any) -> dict[str, Any]:
+def _topics_for_type(graph: WebGraph, args: Any) -> dict[str, Any]:
     requested = full_name(_text(args, "type"))
-    types = _topic_types(bridge).items()
+    types = _topic_types(graph).items()
     return {"topics": [f"/{name}" for name, type in types if type == requested]}
 
 
-def _services(bridge: Graph, args: Any) -> dict[str, Any]:
-    return {"services": [f"/{name}" for name in (*sorted(bridge.services), *sorted(SERVICES))]}
+def _services(graph: WebGraph, args: Any) -> dict[str, Any]:
+    return {"services": [f"/{name}" for name in (*sorted(graph.services), *sorted(SERVICES))]}
 
 
-def _service_type(bridge: Graph, args: Any) -> dict[str, Any]:
-    found = bridge.services.get(_name(args, "service"))
+def _service_type(graph: WebGraph, args: Any) -> dict[str, Any]:
+    found = graph.services.get(_name(args, "service"))
     return {"type": found.name if found else ""}
 
 
-def _services_for_type(bridge: Graph, args: Any) -> dict[str, Any]:
+def _services_for_type(graph: WebGraph, args: Any) -> dict[str, Any]:
     requested = None
     with suppress(UnknownName):
         requested = service(_text(args, "type"))
-    found = sorted(name for name, each in bridge.services.items() if each is requested)
+    found = sorted(name for name, each in graph.services.items() if each is requested)
     return {"services": [f"/{name}" for name in found]}
 
 
-def _service_node(bridge: Graph, args: Any) -> dict[str, Any]:
+def _service_node(graph: WebGraph, args: Any) -> dict[str, Any]:
     name = _name(args, "service")
-    return {"node": NODE if name in bridge.services or name in SERVICES else ""}
+    return {"node": NODE if name in graph.services or name in SERVICES else ""}
 
 
-def _service_providers(bridge: Graph, args: Any) -> dict[str, Any]:
-    node = _service_node(bridge, args)["node"]
+def _service_providers(graph: WebGraph, args: Any) -> dict[str, Any]:
+    node = _service_node(graph, args)["node"]
     return {"providers": [node] if node else []}
 
 
-def _service_host(bridge: Graph, args: Any) -> dict[str, Any]:
-    return {"host": "localhost" if _service_node(bridge, args)["node"] else ""}
+def _service_host(graph: WebGraph, args: Any) -> dict[str, Any]:
+    return {"host": "localhost" if _service_node(graph, args)["node"] else ""}
 
 
-def _publishers(bridge: Graph, args: Any) -> dict[str, Any]:
+def _publishers(graph: WebGraph, args: Any) -> dict[str, Any]:
     name = _name(args, "topic")
-    own = [NODE] if bridge.is_published(name) or name == ROSOUT else []
-    return {"publishers": [*own, *bridge.clients_publishing(name)]}
+    own = [NODE] if graph.is_published(name) or name == ROSOUT else []
+    return {"publishers": [*own, *graph.clients_publishing(name)]}
 
 
-def _subscribers(bridge: Graph, args: Any) -> dict[str, Any]:
+def _subscribers(graph: WebGraph, args: Any) -> dict[str, Any]:
     name = _name(args, "topic")
-    own = [NODE] if bridge.is_subscribed(name) else []
-    return {"subscribers": [*own, *bridge.clients_reading(name)]}
+    own = [NODE] if graph.is_subscribed(name) else []
+    return {"subscribers": [*own, *graph.clients_reading(name)]}
 
 
-def _nodes(bridge: Graph, args: Any) -> dict[str, Any]:
+def _nodes(graph: WebGraph, args: Any) -> dict[str, Any]:
     return {"nodes": [NODE]}
 
 
-def _node_details(bridge: Graph, args: Any) -> dict[str, Any]:
+def _node_details(graph: WebGraph, args: Any) -> dict[str, Any]:
     if _text(args, "node").strip("/") != NODE.strip("/"):
         return {"subscribing": [], "publishing": [], "services": []}
-    names = bridge.types()
+    names = graph.types()
     return {
-        "subscribing": [f"/{name}" for name in names if bridge.is_subscribed(name)],
-        "publishing": [f"/{ROSOUT}", *(f"/{n}" for n in names if bridge.is_published(n))],
-        "services": _services(bridge, args)["services"],
+        "subscribing": [f"/{name}" for name in names if graph.is_subscribed(name)],
+        "publishing": [f"/{ROSOUT}", *(f"/{n}" for n in names if graph.is_published(n))],
+        "services": _services(graph, args)["services"],
     }
 
 
-def _message_details(bridge: Graph, args: Any) -> dict[str, Any]:
+def _message_details(graph: WebGraph, args: Any) -> dict[str, Any]:
     return {"typedefs": typedefs(full_name(_text(args, "type")))}
 
 
-def _service_details(half: str) -> Callable[[Graph, Any], dict[str, Any]]:
-    def answer(bridge: Graph, args: Any) -> dict[str, Any]:
+def _service_details(half: str) -> Callable[[WebGraph, Any], dict[str, Any]]:
+    def answer(graph: WebGraph, args: Any) -> dict[str, Any]:
         return {"typedefs": typedefs(f"{service(_text(args, 'type')).name}_{half}")}
 
     return answer
 
 
-def _time(bridge: Graph, args: Any) -> dict[str, Any]:
-    now = clock_time(bridge.clock())
+def _time(graph: WebGraph, args: Any) -> dict[str, Any]:
+    now = clock_time(graph.clock())
     return {"time": {"sec": now.sec, "nanosec": now.nanosec}}
 
 
-def _version(bridge: Graph, args: Any) -> dict[str, Any]:
+def _version(graph: WebGraph, args: Any) -> dict[str, Any]:
     return {"version": 2, "distro": "jazzy"}
 
 
-def _no_parameters(bridge: Graph, args: Any) -> dict[str, Any]:
+def _no_parameters(graph: WebGraph, args: Any) -> dict[str, Any]:
     return {"names": []}
 
 
-def _no_parameter(bridge: Graph, args: Any) -> dict[str, Any]:
+def _no_parameter(graph: WebGraph, args: Any) -> dict[str, Any]:
     default = args.get("default", "") if isinstance(args, dict) else ""
     return {"value": str(default)}
 
 
-def _has_no_parameter(bridge: Graph, args: Any) -> dict[str, Any]:
+def _has_no_parameter(graph: WebGraph, args: Any) -> dict[str, Any]:
     return {"exists": False}
 
 
-def _refuse_parameter(bridge: Graph, args: Any) -> dict[str, Any]:
+def _refuse_parameter(graph: WebGraph, args: Any) -> dict[str, Any]:
     raise BadMessage("The simulation has no parameters; --set changes values of a scene.")
 
 
-def _no_action_servers(bridge: Graph, args: Any) -> dict[str, Any]:
+def _no_action_servers(graph: WebGraph, args: Any) -> dict[str, Any]:
     return {"action_servers": []}
 
 
@@ -207,10 +207,10 @@ def _name(args: Any, key: str) -> str:
     return _text(args, key).strip().lstrip("/")
 
 
-def answer(bridge: Graph, name: str, args: Any) -> tuple[bool, Any]:
+def answer(graph: WebGraph, name: str, args: Any) -> tuple[bool, Any]:
     """Return whether a request of `SERVICES` succeeded, and the values or the reason."""
     try:
-        return True, SERVICES[name](bridge, args)
+        return True, SERVICES[name](graph, args)
     except UwsimError as error:
         return False, str(error)
 
@@ -241,4 +241,4 @@ SERVICES: dict[str, Callable[[Any, Any], dict[str, Any]]] = {
     "rosapi/topics_and_raw_types": _topics_and_raw_types,
     "rosapi/topics_for_type": _topics_for_type,
 }
-"""Name -> what answers, with the bridge and the arguments."""
+"""Name -> what answers, with the graph and the arguments."""

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Future
 from contextlib import suppress
 from functools import partial
-from typing import Any, ClassVar, cast
+from typing import Any, cast
 from urllib.parse import parse_qs, urlsplit
 
 from websockets.asyncio.server import Server, ServerConnection, serve
@@ -21,21 +21,21 @@ from websockets.http11 import Request, Response
 
 from ...base.message_fields import size_of
 from ...bus import Bus, TopicEnds
-from ...errors import BadSetting, UnknownName, UwsimError
-from ...messages import CompressedImage, Image, TFMessage
-from ...messages.compressed import as_jpeg
+from ...errors import BadSetting
 from ...messages.services import Service
-from ..bridge import LATCHED, Bridge
+from ..bridge import Bridge, TransportTraits
 from ..limited_connection import ConnectionLimits, LimitedConnection
 from ..log import Log
 from ..stamps import clock_time
-from ..types import message_class, ros2_store, wire_type
+from ..types import message_class, ros2_store
 from ..work_budget import WorkBudget
-from .contract import Client, Subscription
-from .frame_republisher import FEEDBACK, SOURCES, FrameRepublisher, feedback
+from .client_services import ClientServices
+from .graph import WebGraph
 from .options import WebOptions
 from .outgoing import Outgoing
-from .session import Session
+from .readers import CLOCK, WebReaders
+from .republications import Republications
+from .session import Session, SessionParts
 
 LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
 """Origins of pages that may connect unless others are named: those of this computer."""
@@ -55,9 +55,6 @@ PING, PING_LIMIT = 20.0, 300.0
 """How often a client is asked whether it is there, and how long it may take to answer [s]."""
 CLOSING = 2.0
 """How long closing may take [s of wall time]."""
-CLOCK = "clock"
-COMPRESSED = "/compressed"
-"""The end of the topic that carries the images of another topic as JPEG."""
 
 
 class WebBridge(Bridge):
@@ -73,7 +70,7 @@ class WebBridge(Bridge):
         BadSetting: it cannot listen there.
     """
 
-    SENDS_BACK: ClassVar[bool] = True
+    traits = TransportTraits(sends_back=True)
 
     def __init__(
         self,
@@ -84,18 +81,21 @@ class WebBridge(Bridge):
     ) -> None:
         super().__init__(bus, clock, log or Log("web"))
         self._options = options
-        self._readers: dict[str, tuple[tuple[Client, Subscription], ...]] = {}
-        self._latched: dict[str, Outgoing] = {}
-        self._ends: Mapping[str, TopicEnds] = {}
-        self.services: Mapping[str, Service] = {}
-        """Services of the bus."""
-        self._offerers: dict[str, tuple[Client, ...]] = {}
         self._sessions: set[Session] = set()
+        self.graph = WebGraph(clock, self._sessions)
+        """What clients may ask about."""
+        self._readers = WebReaders(self.graph, self.demand, self.clock_topic)
+        self._client_services = ClientServices(self.outside_services, lambda: self.admission)
+        self._republications = Republications(self.demand, self._readers, clock)
+        self._parts = SessionParts(
+            graph=self.graph,
+            readers=self._readers,
+            services=self._client_services,
+            republications=self._republications,
+        )
         self._limits = ConnectionLimits(
             CLIENT_SHARE, CLIENT_BURST, WorkBudget(ALL_SHARE, ALL_BURST)
         )
-        self._republisher = FrameRepublisher()
-        self._republications: dict[Client, list[str]] = {}
         self._loop = asyncio.new_event_loop()
         self._listening: Future[int] = Future()
         self._ended: asyncio.Event | None = None
@@ -114,42 +114,20 @@ class WebBridge(Bridge):
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Note what is there; clients ask."""
-        self._ends = dict(topics)
+        self.graph.topics = dict(topics)
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Note what is there; clients ask."""
-        self.services = dict(services)
+        self.graph.services = dict(services)
 
     def send(self, topic: str, message: object) -> None:
         """Give a message to all who read its topic."""
-        is_latched = topic in LATCHED
-        if is_latched or topic in self._readers:
-            outgoing = Outgoing(topic, message, size_of(message))
-            if is_latched:  # before the readers are looked at: who comes meanwhile finds it here
-                self._latched[topic] = outgoing
-            self._post(topic, outgoing)
-        if isinstance(message, Image) and (derived := topic + COMPRESSED) in self._readers:
-            self._post(derived, Outgoing(derived, message, size_of(message), as_jpeg))
-        if topic in SOURCES and self._republications and isinstance(message, TFMessage):
-            self._republisher.take(message)
-            for request, frames in self._republisher.due(self.clock()):
-                if request.goal:
-                    wrap = feedback(request.goal)
-                    self._post(FEEDBACK, Outgoing(FEEDBACK, frames, size_of(frames), wrap=wrap))
-                else:
-                    self._post(request.topic, Outgoing(request.topic, frames, size_of(frames)))
+        self._readers.send(topic, message)
+        self._republications.send(topic, message)
 
     def send_to(self, by: str, topic: str, message: object) -> None:
         """Give a message to one client, if it reads the topic."""
-        outgoing = Outgoing(topic, message, size_of(message))
-        for session, subscription in self._readers.get(topic, ()):
-            if session.name == by:
-                session.post(subscription, outgoing)
-
-    def _post(self, topic: str, outgoing: Outgoing) -> None:
-        """Give what is sent on a topic to its readers."""
-        for session, subscription in self._readers.get(topic, ()):
-            session.post(subscription, outgoing)
+        self._readers.post(topic, Outgoing(topic, message, size_of(message)), only=by)
 
     def _tick(self) -> None:
         """Serve those who came before the first step, and tell the time when it is due.
@@ -163,9 +141,9 @@ class WebBridge(Bridge):
 
     def _publish_clock(self) -> None:
         """Publish ``/clock`` for those who read it."""
-        if CLOCK in self._readers and CLOCK not in self._ends:
+        if CLOCK in self._readers and CLOCK not in self.graph.topics:
             clock = message_class("rosgraph_msgs/Clock")
-            self.send(CLOCK, clock(clock=clock_time(self.clock())))
+            self.send(CLOCK, clock(clock=clock_time(self.clock_topic.time())))
 
     def _clock_is_read(self) -> bool:
         """Whether a client has subscribed to ``/clock``."""
@@ -183,10 +161,7 @@ class WebBridge(Bridge):
 
     def call_outside(self, name: str, request: object) -> Future[object]:
         """Call a service of a client."""
-        offerers = self._offerers.get(name)
-        if not offerers:
-            raise UwsimError(f"Service /{name}: who offered it has left.")
-        return offerers[0].call(name, request)
+        return self._client_services.call(name, request)
 
     def close(self) -> None:
         """Close all connections and the port."""
@@ -195,130 +170,6 @@ class WebBridge(Bridge):
                 self._loop.call_soon_threadsafe(self._ended.set)
         self._thread.join(2 * CLOSING)
         super().close()
-
-    def type_of(self, topic: str) -> type | None:
-        """The class of the messages of a topic; None if it is not known."""
-        ends = self._ends.get(topic)
-        if ends is None and self._image_of(topic) is not None:
-            return CompressedImage
-        return None if ends is None else ends.type
-
-    def types(self) -> dict[str, str]:
-        """Topic -> name of its type in ROS 2, sorted by topic."""
-        found = {}
-        for name in sorted(self._ends):
-            wire = wire_type(self._ends[name].type)
-            if wire is not None:
-                found[name] = wire.ros2_name
-            derived = name + COMPRESSED
-            if derived not in self._ends and self._image_of(derived) is not None:
-                found[derived] = CompressedImage.__msgtype__
-        return found
-
-    def _image_of(self, topic: str) -> str | None:
-        """The published images that a topic of compressed images is made of; None if none."""
-        source = topic.removesuffix(COMPRESSED)
-        ends = self._ends.get(source) if source != topic else None
-        return source if ends and ends.type is Image and ends.is_published else None
-
-    def is_published(self, topic: str) -> bool:
-        """Whether anybody publishes a topic."""
-        ends = self._ends.get(topic)
-        return self._image_of(topic) is not None or (ends is not None and ends.is_published)
-
-    def is_subscribed(self, topic: str) -> bool:
-        """Whether anybody in the simulation reads a topic."""
-        ends = self._ends.get(topic)
-        return ends is not None and ends.is_read
-
-    def clients_publishing(self, topic: str) -> list[str]:
-        """The names of the clients that have advertised a topic, as names of nodes."""
-        found = [each.name for each in tuple(self._sessions) if each.advertises(topic)]
-        return sorted(map(_node_name, found))
-
-    def clients_reading(self, topic: str) -> list[str]:
-        """The names of the clients that have subscribed to a topic, as names of nodes."""
-        found = [each.name for each in tuple(self._sessions) if each.reads(topic)]
-        return sorted(map(_node_name, found))
-
-    def republish(self, arguments: object, session: Client, goal: str = "") -> str:
-        """Publish transforms for a client; returns the topic. In the thread of the server.
-
-        For a goal they are published as its feedback.
-
-        Raises:
-            BadMessage: the request is not valid.
-        """
-        topic = self._republisher.request(arguments, goal).topic
-        if session not in self._republications:
-            for source in SOURCES:
-                self.want(source)
-        mine = [*self._republications.get(session, []), topic]
-        self._republications = {**self._republications, session: mine}
-        return topic
-
-    def cancel_republication(self, goal: str) -> None:
-        """End the transforms for a goal. In the thread of the server."""
-        topic = self._republisher.goal_topic(goal)
-        if topic is not None:
-            self._republisher.withdraw(topic)
-
-    def end_republications(self, session: Client) -> None:
-        """Publish no more transforms for a client. In the thread of the server."""
-        for topic in self._republications.get(session, []):
-            self._republisher.withdraw(topic)
-        if session in self._republications:
-            self._republications = {
-                each: topics for each, topics in self._republications.items() if each != session
-            }
-            for source in SOURCES:
-                self.unwant(source)
-
-    def service_named(self, name: str) -> Service:
-        """Return the type of a service of the bus; UnknownName if it is not there."""
-        if name not in self.services:
-            raise UnknownName("service", f"/{name}", [f"/{each}" for each in self.services])
-        return self.services[name]
-
-    def read(self, topic: str, session: Client, subscription: Subscription) -> None:
-        """A client subscribes. In the thread of the server."""
-        latched = self._latched.get(topic)
-        self._readers[topic] = (*self._readers.get(topic, ()), (session, subscription))
-        if latched is not None:
-            session.post(subscription, latched)
-        if topic == CLOCK:
-            self.clock_topic.send_at_next_step()
-        else:
-            if topic not in self._ends:
-                subscription.source = self._image_of(topic) or topic
-            self.want(subscription.source)
-
-    def unread(self, topic: str, session: Client, subscription: Subscription) -> None:
-        """A client does so no more. In the thread of the server."""
-        left = tuple(each for each in self._readers.get(topic, ()) if each[1] is not subscription)
-        if left:
-            self._readers[topic] = left
-        else:
-            self._readers.pop(topic, None)
-        if topic != CLOCK:
-            self.unwant(subscription.source)
-
-    def offer_of(self, name: str, service: Service, session: Client) -> None:
-        """A client offers a service; of several, the first is called. Any thread."""
-        later = partial(self.offer_of, name, service, session)
-        if self.admission and not self.admission.may_offer(name, session.name, later):
-            return
-        self._offerers[name] = (*self._offerers.get(name, ()), session)
-        self.offer(name, service)
-
-    def withdraw_of(self, name: str, session: Client) -> None:
-        """A client offers it no more. In the thread of the server."""
-        offerers = self._offerers.pop(name, ())
-        left = tuple(each for each in offerers if each is not session)
-        if left:
-            self._offerers[name] = left
-        elif offerers:
-            self.withdraw(name)
 
     def _serve_all(self) -> None:
         """Serve until `close`; the thread of the server."""
@@ -378,7 +229,7 @@ class WebBridge(Bridge):
         """Serve one client until it leaves."""
         assert isinstance(connection, LimitedConnection)
         name = f"client {_peer(connection)}"
-        session = Session(self, self._loop, name)
+        session = Session(self, self._parts, self._loop, name)
         self._sessions.add(session)
         self.log.say(f"{name} has come", kind="has come")
         writer = asyncio.create_task(_write(connection, session))
@@ -420,11 +271,6 @@ async def _write(connection: ServerConnection, session: Session) -> None:
     with suppress(ConnectionClosed):
         while True:
             await connection.send(await session.next_frame())
-
-
-def _node_name(client: str) -> str:
-    """The name of a client as the name of a node: ``/client_127_0_0_1_40312``."""
-    return "/" + re.sub(r"[^A-Za-z0-9_]", "_", client)
 
 
 def _token_of(request: Request) -> bytes:

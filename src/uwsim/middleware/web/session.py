@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
+from dataclasses import dataclass
 from typing import Any, cast
 
 from ...base.peer_json import read_peer_json
@@ -19,11 +20,15 @@ from ..lockstep.topics import JOIN
 from ..stamps import inward, outward
 from ..types import message_class, service, service_of, wire_type
 from . import rosapi
+from .client_services import ClientServices
 from .contract import SessionBridge, Subscription
 from .frame_republisher import ACTION_TOPICS, CANCEL, GOAL
 from .frame_republisher import SERVICE as REPUBLISH
+from .graph import WebGraph
 from .outgoing import COMPRESSIONS, Outgoing
 from .queue import MAX_MESSAGES, Lane, OutQueue
+from .readers import WebReaders
+from .republications import Republications
 
 MAX_KEYS = 200_000
 """Fields that a frame may have, those of messages in lists counted each; twice as many opening
@@ -32,17 +37,38 @@ MAX_NAMES = 1000
 """Topics and services that one client may use."""
 
 
+@dataclass(frozen=True, kw_only=True)
+class SessionParts:
+    """What the clients of a bridge share."""
+
+    graph: WebGraph
+    """What they may ask about."""
+    readers: WebReaders
+    """Topics that they read."""
+    services: ClientServices
+    """Services that they offer."""
+    republications: Republications
+    """Transforms that they have asked for."""
+
+
 class Session:
     """Handles the operations of one client; in the thread of the server, but for `post`.
 
     Args:
         bridge: to the bus.
+        parts: of the bridge.
         loop: of the server.
         name: for the log.
     """
 
-    def __init__(self, bridge: SessionBridge, loop: asyncio.AbstractEventLoop, name: str) -> None:
-        self._bridge, self._loop, self._name = bridge, loop, name
+    def __init__(
+        self,
+        bridge: SessionBridge,
+        parts: SessionParts,
+        loop: asyncio.AbstractEventLoop,
+        name: str,
+    ) -> None:
+        self._bridge, self._parts, self._loop, self._name = bridge, parts, loop, name
         self._something = asyncio.Event()
         self._queue = OutQueue(self._wake)
         self._replies = Lane(length=10 * MAX_MESSAGES)
@@ -147,9 +173,9 @@ class Session:
         for topic in list(self._subscriptions):
             self._drop(topic)
         for name in self._services:
-            self._bridge.withdraw_of(name, self)
+            self._parts.services.withdraw(name, self)
         self._services.clear()
-        self._bridge.end_republications(self)
+        self._parts.republications.end(self)
         with self._lock:
             self._has_left = True  # from here on, no call waits for it
         for future, _ in self._asked.values():
@@ -165,10 +191,10 @@ class Session:
 
     def _advertise(self, asked: dict[str, Any]) -> None:
         topic = name_in(asked, "topic")
-        if topic in ACTION_TOPICS and self._bridge.type_of(topic) is None:
+        if topic in ACTION_TOPICS and self._parts.graph.type_of(topic) is None:
             return
         cls = message_class(text_in(asked, "type"))
-        known = self._bridge.type_of(topic)
+        known = self._parts.graph.type_of(topic)
         if known is not None and known is not cls:
             theirs = wire_type(known)
             raise BadMessage(
@@ -183,7 +209,7 @@ class Session:
 
     def _publish(self, asked: dict[str, Any]) -> None:
         topic = name_in(asked, "topic")
-        cls = self._advertised.get(topic) or self._bridge.type_of(topic)
+        cls = self._advertised.get(topic) or self._parts.graph.type_of(topic)
         if cls is None and topic in ACTION_TOPICS:
             self._republish(topic, asked.get("msg"))
             return
@@ -202,9 +228,9 @@ class Session:
             goal = goal_id.get("id") if isinstance(goal_id, dict) else None
             if not isinstance(goal, str) or not 0 < len(goal) <= 500:
                 raise BadMessage(f"/{topic}: goal_id.id is no name.")
-            self._bridge.republish(fields.get("goal"), self, goal)
+            self._parts.republications.begin(fields.get("goal"), self, goal)
         elif topic == CANCEL:
-            self._bridge.cancel_republication(str(fields.get("id", "")))
+            self._parts.republications.cancel(str(fields.get("id", "")))
 
     def _subscribe(self, asked: dict[str, Any]) -> None:
         topic = name_in(asked, "topic")
@@ -212,7 +238,7 @@ class Session:
         if compression not in COMPRESSIONS:
             known = ", ".join(COMPRESSIONS)
             raise BadMessage(f"There is no compression {compression!r:.100}; there are {known}.")
-        carried = self._bridge.type_of(topic)
+        carried = self._parts.graph.type_of(topic)
         is_named = carried is not None and bool(asked.get("type"))
         if is_named and message_class(text_in(asked, "type")) != carried:
             raise BadMessage(f"Topic /{topic} does not carry {asked['type']}.")
@@ -224,7 +250,7 @@ class Session:
             lane = Lane(compression=compression, length=min(length, MAX_MESSAGES))
             found = Subscription(topic=topic, lane=lane, throttle=throttle)
             self._subscriptions[topic] = found
-            self._bridge.read(topic, self, found)
+            self._parts.readers.read(topic, self, found)
         found.ids.add(asked.get("id") if isinstance(asked.get("id"), str) else None)
         found.throttle = min(found.throttle, throttle)
 
@@ -242,22 +268,22 @@ class Session:
 
     def _drop(self, topic: str) -> None:
         found = self._subscriptions.pop(topic)
-        self._bridge.unread(topic, self, found)
+        self._parts.readers.unread(topic, found)
         self._queue.forget(found.lane)
 
     def _call_service(self, asked: dict[str, Any]) -> None:
         name = name_in(asked, "service")
         answer = {"op": "service_response", "service": f"/{name}", "id": asked.get("id")}
         if name in rosapi.SERVICES:
-            succeeded, values = rosapi.answer(self._bridge, name, asked.get("args") or {})
+            succeeded, values = rosapi.answer(self._parts.graph, name, asked.get("args") or {})
             self.reply({**answer, "values": values, "result": succeeded})
             return
-        if name == REPUBLISH and name not in self._bridge.services:
-            topic = self._bridge.republish(asked.get("args"), self)
+        if name == REPUBLISH and name not in self._parts.graph.services:
+            topic = self._parts.republications.begin(asked.get("args"), self)
             self.reply({**answer, "values": {"topic_name": f"/{topic}"}, "result": True})
             return
         try:
-            of = self._bridge.service_named(name)
+            of = self._parts.graph.service_named(name)
             values = asked.get("args", {})
             request: object = from_json(of.request, {} if isinstance(values, list) else values)
         except UwsimError as error:
@@ -278,13 +304,13 @@ class Session:
         name, of = name_in(asked, "service"), service(text_in(asked, "type"))
         self._limit(self._services)
         self._services.add(name)
-        self._bridge.offer_of(name, of, self)
+        self._parts.services.offer(name, of, self)
 
     def _unadvertise_service(self, asked: dict[str, Any]) -> None:
         name = name_in(asked, "service")
         if name in self._services:
             self._services.discard(name)
-            self._bridge.withdraw_of(name, self)
+            self._parts.services.withdraw(name, self)
 
     def _service_response(self, asked: dict[str, Any]) -> None:
         future, cls = self._asked.pop(str(asked.get("id")), (None, None))

@@ -7,7 +7,7 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
 
-from .work_budget import WorkBudget
+from ..work_budget import WorkBudget
 
 MAX_CALLS = 1000
 """Calls that may wait for the end of a step."""

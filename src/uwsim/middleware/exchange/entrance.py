@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..bus import Bus
-from ..errors import BadMessage, UwsimError
-from .log import Log
+from ...bus import Bus
+from ...errors import BadMessage, UwsimError
+from ..log import Log
 
 
 class Entrance:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from concurrent.futures import Future
 
-from ..bus import Services
-from ..errors import UwsimError
+from ...bus import Services
+from ...errors import UwsimError
 
 Take = Callable[[object, "Future[object]"], None]
 """Called with a request, and the future that is to have its response."""
