@@ -404,6 +404,10 @@ def fail(*_: object) -> None:
     raise ZeroDivisionError("of mine")
 
 
+def refuse(_: object) -> None:
+    raise UnknownName("body", "nowhere", ())
+
+
 @pytest.mark.parametrize(
     "answer",
     [
@@ -418,6 +422,7 @@ def fail(*_: object) -> None:
         lambda attachment: [(None, [math.nan] * 6)],
         fail,
         lambda attachment: map(fail, [attachment]),
+        refuse,
     ],
 )
 @pytest.mark.parametrize("is_bundled", [True, False])

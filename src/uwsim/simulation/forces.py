@@ -72,9 +72,9 @@ def engine_wrenches(
                     )
                 if attachment.engine_body is not None:
                     yield attachment.engine_body, attachment.on_body, wrench
-        except UwsimError:
-            raise
         except (Exception, SystemExit) as error:  # errors of third-party code
+            if isinstance(error, UwsimError) and not _is_inside_force(error):
+                raise
             raise _failed(spec, returned, error, time) from error
 
 
@@ -82,8 +82,7 @@ def _failed(
     spec: ForceSpec, returned: object, error: BaseException, time: float
 ) -> SimulationFailed:
     """Return the error for what a force has raised, or for what it gives being no pairs."""
-    trace = error.__traceback__
-    if trace is not None and trace.tb_next is not None:  # inside the force
+    if _is_inside_force(error):
         return SimulationFailed(
             f"{_shown_force(spec)} raised {type_and_text(error)} at {time:.6g} s."
         )
@@ -91,6 +90,11 @@ def _failed(
         f"{_shown_force(spec)} returned {shown(returned)} at {time:.6g} s; expected pairs of an "
         f"attachment and six finite numbers [N, N m] ({type_and_text(error)})."
     )
+
+
+def _is_inside_force(error: BaseException) -> bool:
+    """Whether code that `engine_wrenches` has called raised an error, not its own lines."""
+    return error.__traceback__ is not None and error.__traceback__.tb_next is not None
 
 
 def _shown_force(spec: ForceSpec) -> str:
