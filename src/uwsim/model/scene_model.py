@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -65,8 +66,11 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def digest(self) -> str:
-        """The hash of the scene, with its variations; of the spec, wherever its file lies."""
-        return digest_of(self.scene)
+        """The hash of the scene, its hydrodynamics and the engine's model, wherever files lie."""
+        engine = np.zeros(mujoco.mj_sizeModel(self.engine_model), np.uint8)
+        mujoco.mj_saveModel(self.engine_model, None, engine)
+        hash_of_engine = hashlib.sha256(engine.tobytes()).hexdigest()
+        return digest_of((self.scene, list(self.dynamics.items()), hash_of_engine))
 
     @cached_property
     def shape_owners(self) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:

@@ -22,9 +22,9 @@ from .access.topics import TopicAccess
 from .live_scene import LiveScene
 from .nodes.calls import Calls
 from .nodes.node import InProcessNode
+from .scene_stepper import SceneStepper
 from .scenery.renderer_pool import RendererPool
 from .state.state import OwnIdentity, State
-from .stepper import Stepper
 
 
 class Simulation:
@@ -72,7 +72,7 @@ class Simulation:
         """Open a model at step 0 and read some topics."""
         self.world = world = self._make_scene(model)
         """The live parts of the scene."""
-        self._stepper = Stepper(world, self._nodes, self._watchers)
+        self._stepper = SceneStepper(world, self._nodes, self._watchers)
         self._access = TopicAccess(self.bus, read)
         self._state = self._make_state()
         self._stepper.animate()
@@ -345,11 +345,23 @@ class Simulation:
 
         Raises:
             UwsimError: the bytes are damaged, of another scene, seed or timestep, or of another
-                version.
+                version; or other algorithms are attached. The simulation stays as it is.
         """
         state = data if isinstance(data, State) else State.from_bytes(data)
-        assign(self.state, state)
-        self.world.scenery.redraw()
+        names, saved = ([node.name for node in each.nodes] for each in (self.state, state))
+        if names != saved:
+            raise UwsimError(
+                f"The saved simulation has the algorithms {saved}, this one has {names}; attach "
+                "the same in the same order before it is restored."
+            )
+        before = self.state.copy()
+        try:
+            assign(self.state, state)
+        except BaseException:
+            assign(self.state, before)
+            raise
+        finally:
+            self.world.scenery.redraw()
 
     def close(self) -> None:
         """Release the graphics context and disconnect the algorithms."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -47,7 +48,8 @@ class FakeSimulation:
     """Moves as ``bump`` says."""
 
     def __init__(self) -> None:
-        self.motion, self.images = FakeMotion(), {"/camera": FakeImages()}
+        engine = SimpleNamespace(motion=FakeMotion())
+        self.world = SimpleNamespace(engine=engine, images={"/camera": FakeImages()})
         self.look: Callable[[], None] = lambda: None
 
     def watch(self, look: Callable[[], None]) -> None:

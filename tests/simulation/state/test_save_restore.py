@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import pickle
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
 import uwsim
+from uwsim.cli import main
 from uwsim.currents import Constant
 from uwsim.messages import CameraInfo, TwistStamped, Vector3
 from uwsim.simulation.state.saved_bytes import with_checksum
@@ -242,3 +244,86 @@ def test_bytes_of_another_version_are_refused_though_its_records_are_others() ->
     record = [0, "uwsim.simulation.state.state:State", "one field"]
     with pytest.raises(uwsim.UwsimError, match="was not saved by uwsim"):
         uwsim.State.from_bytes(with_checksum(pickle.dumps(("0.0.1", record))))
+
+
+class Counts:
+    """Counts the ticks of its timer."""
+
+    def __init__(self, *, fails_at: int = 1000) -> None:
+        self.n, self.fails_at = 0, fails_at
+
+    def start(self, node: uwsim.Node) -> None:
+        node.every(0.1, self.tick)
+
+    def tick(self) -> None:
+        self.n += 1
+        if self.n == self.fails_at:
+            raise ValueError("it fails")
+
+    def save(self) -> bytes:
+        return bytes([self.n])
+
+    def restore(self, data: bytes) -> None:
+        (self.n,) = data
+
+
+def test_a_restore_that_is_refused_changes_nothing() -> None:
+    with uwsim.load("currents-scene") as plain, uwsim.load("currents-scene") as other:
+        plain.advance(0.3)
+        saved = plain.save()
+        other.attach(Counts())
+        other.advance(1.0)
+        before = other.save()
+        with pytest.raises(uwsim.UwsimError, match=r"algorithms \[\], this one has \['Counts'\]"):
+            other.restore(saved)
+        with pytest.raises(uwsim.UwsimError, match=r"\['Counts'\], this one has \[\]"):
+            plain.restore(before)
+        assert (other.save(), plain.save()) == (before, saved)
+
+
+def test_what_an_algorithm_refuses_to_restore_changes_nothing() -> None:
+    with uwsim.load("currents-scene") as simulation:
+        counts = Counts()
+        simulation.attach(counts)
+        simulation.advance(0.3)
+        saved = simulation.state.copy()
+        simulation.advance(0.3)
+        before, saved.nodes[0].algorithm = simulation.save(), b"ab"  # type: ignore[assignment]
+        with pytest.raises(ValueError, match="too many values"):
+            simulation.restore(saved)
+        assert simulation.save() == before
+
+
+def test_an_algorithm_that_has_failed_since_goes_on() -> None:
+    with uwsim.load("currents-scene") as simulation:
+        counts = Counts(fails_at=4)
+        simulation.attach(counts)
+        simulation.advance(0.2)
+        saved = simulation.save()
+        with pytest.raises(ValueError, match="it fails"):
+            simulation.advance(0.3)
+        simulation.restore(saved)
+        counts.fails_at = 1000
+        simulation.advance(1.0)
+        assert counts.n == 13
+
+
+def test_a_state_of_other_hydrodynamics_is_refused(tmp_path: Path) -> None:
+    folders = [tmp_path / "one", tmp_path / "two"]
+    for folder in folders:
+        folder.mkdir()
+        main(["copy", "currents-scene", str(folder)])
+    (file,) = folders[1].glob("g500*.xml")
+    file.write_text(file.read_text().replace("<mass>", "<mass>1", 1))
+    with uwsim.load(folders[0] / "currents-scene.xml") as simulation:
+        saved = simulation.save()
+    refused = pytest.raises(uwsim.UwsimError, match="not of this scene")
+    with uwsim.load(folders[1] / "currents-scene.xml") as other, refused:
+        other.restore(saved)
+
+
+@pytest.mark.parametrize("data", [None, 3, "saved", memoryview(b"ab")])
+def test_what_is_no_bytes_is_refused(data: Any) -> None:
+    refused = pytest.raises(uwsim.UwsimError, match="is no saved simulation; expected bytes")
+    with uwsim.load("currents-scene") as simulation, refused:
+        simulation.restore(data)

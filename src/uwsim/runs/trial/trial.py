@@ -284,15 +284,9 @@ class _Execution:
                     f"{never}: algorithm {node.name!r} {node.how} before: {legible(node.error)}"
                 )
             if simulation.time - began >= patience:
-                raise NeverStarted(
-                    " ".join(
-                        [
-                            f"{never}: {self._triggers.why_not(patience)}. Does algorithm "
-                            f"{node.name!r} see to it?",
-                            *node.unfed(),
-                        ]
-                    )
-                )
+                why = self._triggers.why_not(patience)
+                doubt = f"{never}: {why}. Does algorithm {node.name!r} see to it?"
+                raise NeverStarted(" ".join([doubt, *node.unfed()]))
             simulation.advance()
         return simulation.time > began
 

@@ -97,12 +97,18 @@ class NodeTimerState(Record):
 class NodeState(Record):
     """What changes of an attached algorithm and its node."""
 
+    name: str
+    """The name of the algorithm."""
     random: np.random.Generator
     """The generator of the algorithm."""
     timers: list[NodeTimerState] = field(default_factory=list)
     """How far its timers are."""
     algorithm: AlgorithmState | None = None
     """Its own state; None before it was started."""
+    error: str | None = None
+    """What it raised, if it did, and where; or why it was stopped."""
+    how: str = "raised"
+    """What came before `error`: it raised, or was stopped."""
 
 
 class _Timer:
@@ -146,7 +152,7 @@ class InProcessNode:
         self._heard: dict[str, Callable[[], str | None]] = {}
         self._published: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
-        self.state = NodeState(random)
+        self.state = NodeState(name, random)
         """What changes of it."""
         own = {key: value for key, value in parameters.items() if key != "latency_s"}
         self._parameters = ReadParameters(own)
@@ -156,10 +162,16 @@ class InProcessNode:
         self._algorithm: type = object
         self.name = name
         """Name of the algorithm."""
-        self.error: str | None = None
+
+    @property
+    def error(self) -> str | None:
         """What it raised, if it did, and where; or why it was stopped."""
-        self.how = "raised"
+        return self.state.error
+
+    @property
+    def how(self) -> str:
         """What came before `error`: it raised, or was stopped."""
+        return self.state.how
 
     @property
     def now(self) -> float:
@@ -285,7 +297,7 @@ class InProcessNode:
         self._timers.clear()
 
     def _guard(self, callback: Callable[..., object], *arguments: object) -> object:
-        if self.error is not None:
+        if self.state.error is not None:
             return None
         self._thread = threading.get_ident()
         try:
@@ -299,9 +311,9 @@ class InProcessNode:
         """Keep what a third-party program raised; called in its except clause."""
         if is_of_user(error) or isinstance(error, ClientLost):
             raise error
-        self.error = what_broke(error, self._algorithm)
+        self.state.error = what_broke(error, self._algorithm)
         if isinstance(error, Stopped):
-            self.how = STOPPED
+            self.state.how = STOPPED
         if self._raises:
             raise error
 
@@ -315,5 +327,5 @@ class InProcessNode:
             self._break_rule(f"topic {topic!r} is for observers of the run")
 
     def _break_rule(self, message: str) -> NoReturn:
-        self.error = self.error or f"NotAllowed: {message}"
+        self.state.error = self.state.error or f"NotAllowed: {message}"
         raise NotAllowed(message)

@@ -66,6 +66,8 @@ def unpack(data: bytes, kind: type[T]) -> T:
     Raises:
         UwsimError: these are no such bytes, or another version of uwsim wrote them.
     """
+    if not isinstance(data, bytes):
+        raise UwsimError(f"A {type(data).__name__} is no saved simulation; expected bytes.")
     payload = data[:-CHECKSUM]
     if len(data) <= CHECKSUM or with_checksum(payload) != data:
         raise UwsimError("These bytes are no saved simulation, or they were changed.")

@@ -79,7 +79,9 @@ class State(Record):
     """All that changes of a simulation while it runs.
 
     `uwsim.Simulation.state` is that of the running simulation and changes with it; a `copy` does
-    not. Two states are equal if all their numbers are, to the bit.
+    not, but it shares messages, which nobody may change once they are published. Two states are
+    equal if all their numbers are, to the bit. These include frames of bodies, which are computed
+    when they are asked for: `Simulation.pose` or an image makes a state another one.
 
     Not part of it: callbacks, the hash of the images published so far, and what algorithms keep
     that offer no ``save`` and ``restore``.

@@ -24,7 +24,7 @@ MAX_RUN = 1000
 """Steps that are taken at once at most: Ctrl-C is heard after them."""
 
 
-class Stepper:
+class SceneStepper:
     """Takes the steps of a simulation.
 
     Args:
