@@ -17,7 +17,8 @@ from tests.support.failing import Raises
 from tests.support.short_benchmark import write_benchmark
 from uwsim.bus import Node
 from uwsim.cli import main
-from uwsim.errors import RunFailed
+from uwsim.currents import Constant
+from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Empty, TwistStamped, Vector3
 from uwsim.results.directory import alone_in
 
@@ -286,6 +287,83 @@ def test_a_run_that_failed_in_python_is_resumed_by_the_command(tmp_path: Path) -
 def test_a_level_that_is_no_number_is_refused(value: object) -> None:
     with pytest.raises(uwsim.UwsimError, match="expected numbers"):
         uwsim.bench("visibility", levels={"fog": [value]})  # type: ignore[list-item]
+
+
+HUGE = 10**400
+
+
+@pytest.mark.parametrize(
+    ("argument", "value"),
+    [
+        ("levels", {3: [0.5]}),
+        ("levels", {"fog": []}),
+        ("levels", {"fog": [HUGE]}),
+        ("levels", {"fog": None}),
+        ("seeds", ["1"]),
+        ("seeds", [1.5]),
+        ("algorithm", 3),
+        ("algorithm", Tuned()),
+        ("out", 3),
+        ("data_path", 3),
+        ("data_path", [3]),
+        ("on_progress", 3),
+    ],
+)
+def test_an_argument_of_a_wrong_type_is_refused_by_its_name(
+    argument: str, value: object, tmp_path: Path
+) -> None:
+    given: dict[str, Any] = {argument: value}
+    with pytest.raises(BadSetting, match=f"^{argument}=.*: expected .*$"):
+        uwsim.bench(write_benchmark(tmp_path, "0.2"), **given)
+
+
+@pytest.mark.parametrize("number", [HUGE, 10**5000], ids=["400 digits", "5000 digits"])
+def test_a_number_that_is_too_great_is_refused_in_a_line(number: int) -> None:
+    with uwsim.load("currents-scene") as simulation:
+        for call in (simulation.set_fog, simulation.set_light, simulation.advance):
+            with pytest.raises(BadSetting, match=rf"^{call.__name__}\(.*\): expected a .*>= 0"):
+                call(number)
+        with pytest.raises(BadSetting, match=r"^set_current\(.*\): expected three numbers"):
+            simulation.set_current((number, 0.0, 0.0))
+
+
+class Swirl(Constant):
+    """A flow of a program, which gives what it is told to."""
+
+    def __init__(self, answer: object) -> None:
+        super().__init__((0.1, 0.0, 0.0))
+        object.__setattr__(self, "answer", answer)
+
+    def motion(self, points: Any, time: float, vehicles: Any = ()) -> Any:
+        answer: Any = vars(self)["answer"]
+        return answer() if callable(answer) else answer
+
+    def velocity(self, points: Any, time: float, vehicles: Any = ()) -> Any:
+        return self.motion(points, time)
+
+
+def divide() -> float:
+    return 1 / 0
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        (divide, "raised ZeroDivisionError: division by zero at 0.*"),
+        (None, "returned None at .* s; expected .*"),
+        (np.zeros((7, 2)), "returned .* expected .*"),
+        ((np.zeros(2), np.zeros(2)), "returned .* expected .*"),
+        ("up", "returned 'up' .* expected .*"),
+    ],
+)
+@pytest.mark.parametrize("scene", ["currents-scene", "visibility-scene"])
+def test_a_flow_that_fails_is_an_error_with_its_class(
+    scene: str, answer: object, said: str
+) -> None:
+    with uwsim.load(scene, is_blind=True) as simulation:
+        simulation.set_current(Swirl(answer))
+        with pytest.raises(uwsim.UwsimError, match=rf"^set_current: Swirl(\.\w+)? {said}$"):
+            simulation.advance(0.1)
 
 
 THIRDS = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-scene.xml" u:algorithm="frozen">

@@ -8,15 +8,16 @@ that names the file, the line and the nearest right name.
 from __future__ import annotations
 
 import math
+import os
 import tempfile
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
-from numbers import Real
+from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import AllErrors, BadSetting, Diagnostic
+from .errors import AllErrors, BadSetting, Diagnostic, shown
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
@@ -65,7 +66,7 @@ def load(
     from .simulation import Simulation
     from .simulation.access.arguments import checked_seed
 
-    folders = tuple(Path(folder) for folder in data_path)
+    folders = _folders_of(data_path)
     settings = _checked_settings(settings)
     if isinstance(scene, str | Path):
         arguments = xacro_arguments(settings.items())
@@ -123,17 +124,22 @@ def bench(
     from .runs.planning.plan_request import PlanRequest
 
     name, kind = _name_and_class(algorithm)
+    if out is not None and not isinstance(out, str | os.PathLike):
+        raise BadSetting(f"out={shown(out)}: expected a directory, as 'one.result', or None.")
+    if on_progress is not None and not callable(on_progress):
+        raise BadSetting(f"on_progress={shown(on_progress)}: expected a function, or None.")
+    first_seed = _first_of(seeds)
     request = PlanRequest(
         benchmark=str(benchmark),
         scene=None if scene is None else str(scene),
         algorithm=name,
         algorithm_class=kind,
         in_process=kind is not None,
-        seed=_first_of(seeds),
+        seed=first_seed,
         repeat=len(seeds),
-        levels=_pairs_of(levels or {}),
+        levels=_pairs_of({} if levels is None else levels),
         settings=[f"{path}={value}" for path, value in _checked_settings(settings).items()],
-        data_path=tuple(Path(folder) for folder in data_path),
+        data_path=_folders_of(data_path),
     )
     return _execute_request(request, workers, out, on_progress)
 
@@ -170,9 +176,14 @@ def _execute_request(
 def _name_and_class(
     algorithm: str | type[Algorithm] | None,
 ) -> tuple[str | None, type[Algorithm] | None]:
-    """Return the name of an algorithm, and its class if that is given."""
+    """Return the name of an algorithm, and its class if that is given; BadSetting if none is."""
     if algorithm is None or isinstance(algorithm, str):
         return algorithm, None
+    if not isinstance(algorithm, type):
+        raise BadSetting(
+            f"algorithm={shown(algorithm)}: expected a name, 'module:Class', or a class, not an "
+            "object."
+        )
     return f"{algorithm.__module__}:{algorithm.__qualname__}", algorithm
 
 
@@ -201,28 +212,56 @@ def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Se
     )
 
 
+def _folders_of(data_path: Sequence[str | Path]) -> tuple[Path, ...]:
+    """Return folders in which files are looked for; BadSetting if these are none."""
+    if isinstance(data_path, str) or not isinstance(data_path, Collection):
+        raise BadSetting(f"data_path={shown(data_path)}: expected folders, as ['meshes'].")
+    for folder in data_path:
+        if not isinstance(folder, str | os.PathLike):
+            raise BadSetting(f"data_path=[{shown(folder)}]: expected folders, as ['meshes'].")
+    return tuple(Path(folder) for folder in data_path)
+
+
 def _pairs_of(levels: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
-    """Return the names and values of levels; BadSetting if one is not a number."""
+    """Return the names and values of levels; BadSetting if one has none, or not a number."""
     pairs: list[tuple[str, float]] = []
-    if not isinstance(levels, Mapping) or any(isinstance(v, Real) for v in levels.values()):
-        raise BadSetting(f"levels={levels!r:.200}: expected names and lists, as {{'fog': [0.5]}}.")
+    if not isinstance(levels, Mapping) or not all(
+        isinstance(name, str) and isinstance(values, Collection) for name, values in levels.items()
+    ):
+        raise BadSetting(f"levels={shown(levels)}: expected names and lists, as {{'fog': [0.5]}}.")
     for name, values in levels.items():
-        for value in values:
-            is_number = isinstance(value, Real) and not isinstance(value, bool)
-            if not is_number or not math.isfinite(value):
-                raise BadSetting(f"levels={{{name!r}: [{value!r}]}}: expected numbers.")
-            pairs.append((name, float(value)))
+        numbers = [_finite_number(value) for value in values]
+        for value, number in zip(values, numbers, strict=True):
+            if number is None:
+                raise BadSetting(f"levels={{{name!r}: [{shown(value)}]}}: expected numbers.")
+            pairs.append((name, number))
+        if not numbers:
+            raise BadSetting(f"levels={{{name!r}: []}}: expected one number at least.")
     return pairs
+
+
+def _finite_number(value: object) -> float | None:
+    """Return a number as a float; None for what is none, or not finite, or too great."""
+    if not isinstance(value, Real) or isinstance(value, bool):
+        return None
+    try:
+        number = float(value)
+    except OverflowError:
+        return None
+    return number if math.isfinite(number) else None
 
 
 def _first_of(seeds: Sequence[int]) -> int:
     """Return the first of some consecutive seeds; BadSetting if they are not."""
     if isinstance(seeds, int):
-        raise BadSetting(f"seeds={seeds}: expected a sequence, such as ({seeds},) or range(6).")
-    first = next(iter(seeds), -1)
-    if first < 0 or list(seeds) != list(range(first, first + len(seeds))):
+        given = shown(seeds)
+        raise BadSetting(f"seeds={given}: expected a sequence, such as ({given},) or range(6).")
+    given_seeds = list(seeds) if isinstance(seeds, Collection) else []
+    are_whole = all(isinstance(s, Integral) and not isinstance(s, bool) for s in given_seeds)
+    first = int(given_seeds[0]) if given_seeds and are_whole else -1
+    if first < 0 or given_seeds != list(range(first, first + len(given_seeds))):
         raise BadSetting(
-            f"seeds={list(seeds)[:10]}: expected consecutive seeds >= 0, such as (0,) or range(6)."
+            f"seeds={shown(seeds)}: expected consecutive seeds >= 0, such as (0,) or range(6)."
         )
     return first
 
@@ -279,7 +318,7 @@ def check(
     from .assets.bundled import bundled_or
     from .checks import check_file
 
-    folders = tuple(Path(folder) for folder in data_path)
+    folders = _folders_of(data_path)
     given = {name: str(value) for name, value in (arguments or {}).items()}
     return tuple(
         diagnostic

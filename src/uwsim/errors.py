@@ -37,6 +37,8 @@ MAX_LISTED = 16
 MAX_NAME = 200
 """The longest text for which a name is looked for [characters]: peers send longer ones."""
 N_NEAREST = 3
+MAX_SHOWN = 80
+"""The longest text of a value of foreign code in a message [characters]."""
 
 
 class UwsimError(Exception):
@@ -222,6 +224,15 @@ def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
 def type_and_text(error: BaseException) -> str:
     """Return the type and the text of an exception of foreign code as one line."""
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
+
+
+def shown(found: object) -> str:
+    """Return the text of a value of foreign code as one line, cut where it is long."""
+    try:
+        text = " ".join(repr(found).split())
+    except Exception:  # its own repr raises, or it is a whole number of too many digits
+        return f"a {type(found).__name__}"
+    return text if len(text) <= MAX_SHOWN else text[: MAX_SHOWN - 3] + "..."
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -14,10 +14,11 @@ import pytest
 
 import uwsim.checks.model
 import uwsim.checks.scene
+from tests.support.short_benchmark import write_benchmark
 from uwsim.checks import benchmarks, check_file, model_warnings, robots, scene_warnings, table
 from uwsim.checks.rule import Need, Rule
 from uwsim.checks.subjects import CheckedScene
-from uwsim.errors import Diagnostic
+from uwsim.errors import Diagnostic, UwsimError
 from uwsim.physics.compile_scene import compile_scene
 from uwsim.scene.reader import read_scene
 
@@ -114,6 +115,36 @@ def test_a_run_applies_the_rules_for_runs_alone(
     scene = read_scene(written(tmp_path))
     assert scene_warnings(scene, ()) == model_warnings(compile_scene(scene)) == []
     assert applied == (2 * list(Need) if in_runs else [])
+
+
+def give_text(subject: object) -> list[Any]:
+    return ["a text"]
+
+
+def fail(subject: object) -> list[Diagnostic]:
+    raise KeyError("lost")
+
+
+@pytest.mark.parametrize("find", [give_text, fail, partial(fail)])
+@pytest.mark.parametrize("kind", ["SCENE_RULES", "ROBOT_RULES", "BENCHMARK_RULES"])
+@pytest.mark.parametrize("need", [Need.SPEC, Need.FILES])
+def test_a_rule_that_fails_is_named_in_a_line(
+    find: Any, kind: str, need: Need, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = written(tmp_path)
+    if kind == "BENCHMARK_RULES":
+        need, path = Need.SPEC, write_benchmark(tmp_path, "0.2")
+    elif kind == "ROBOT_RULES":
+        path = tmp_path / "robot.urdf"
+        path.write_text('<robot name="rov"> <link name="base_link"/> </robot>')
+    monkeypatch.setattr(table, kind, (Rule(find, need, in_runs=True),))
+    said = r"gives 'a text'; expected a Diagnostic|raised KeyError: 'lost'"
+    named = r"The rule tests\.checks\.test_table\.(give_text|fail)"
+    with pytest.raises(UwsimError, match=rf"^{named} ({said})\.$"):
+        check_file(path)
+    if kind == "SCENE_RULES":
+        with pytest.raises(UwsimError, match=named):
+            scene_warnings(read_scene(path), ())
 
 
 def test_a_run_and_check_report_the_same_warning_of_a_rule(tmp_path: Path) -> None:

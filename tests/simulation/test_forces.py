@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -27,6 +27,7 @@ from uwsim.scene.sim_params import SimParamsSpec
 from uwsim.scene.spec import SceneSpec
 from uwsim.scene.writer import write_scene
 from uwsim.simulation import Simulation
+from uwsim.simulation.world_views.force_view import ForceView
 from uwsim.world import Attachment, ForceWorld
 
 NOMINAL = read_scene(SCENE).nominal
@@ -391,9 +392,58 @@ def test_a_force_that_is_no_six_numbers_ends_the_run_with_its_name(
 ) -> None:
     with (
         falling(box(), forces=(PullSpec(body="box", wrench=wrench),)) as simulation,
-        pytest.raises(SimulationFailed, match=r"Pull acts on 'box' with \[.*at 0 s; expected six"),
+        pytest.raises(
+            SimulationFailed,
+            match=r"'pull' \(PullSpec\) acts on 'box' with \[.*at 0 s; expected six",
+        ),
     ):
         simulation.advance()
+
+
+def fail(*_: object) -> None:
+    raise ZeroDivisionError("of mine")
+
+
+def refuse(_: object) -> None:
+    raise UnknownName("body", "nowhere", ())
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        lambda attachment: None,
+        lambda attachment: "no wrench",
+        lambda attachment: (attachment, np.zeros(6)),
+        lambda attachment: [(attachment, np.array([None] * 6))],
+        lambda attachment: [(attachment, np.zeros(6, complex))],
+        lambda attachment: [(attachment, [1.0, [2.0], 3.0, 4.0, 5.0, 6.0])],
+        lambda attachment: [(attachment, "123456")],
+        lambda attachment: [(attachment, [10**400] * 6)],
+        lambda attachment: [(None, [math.nan] * 6)],
+        fail,
+        lambda attachment: map(fail, [attachment]),
+        refuse,
+    ],
+)
+@pytest.mark.parametrize("is_bundled", [True, False])
+def test_a_force_that_fails_is_named_with_the_time(
+    answer: Callable[[Attachment], Any],
+    is_bundled: bool,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    if is_bundled:
+        simulation = open_scene(read_scene(scene_file(tmp_path)), is_blind=True)
+        named = r"The force 'latch' \(<u:dockingMagnet>\)"
+    else:
+        simulation = falling(box(), forces=(PullSpec(body="box", wrench=(0.0,) * 6),))
+        named = r"The force 'pull' \(PullSpec\)"
+    with simulation:
+        attachment = ForceView(simulation.world).attach("girona500" if is_bundled else "box")
+        force = simulation.world.forces[0]
+        monkeypatch.setattr(force, "wrenches", lambda time: answer(attachment))
+        with pytest.raises(UwsimError, match=rf"^{named} (raised|returned|acts on) .* at 0 s.*$"):
+            simulation.advance()
 
 
 def test_an_object_is_found_although_a_link_has_its_name() -> None:
@@ -419,7 +469,9 @@ def test_the_frame_of_an_object_is_that_of_its_mesh() -> None:
 def test_a_force_that_acts_on_what_it_has_not_attached_is_an_error() -> None:
     with falling(box(), forces=(PullSpec(body="box", wrench=(0.0,) * 6),)) as simulation:
         simulation.world.forces[0].attachment = simulation.world.bodies.find("box")
-        with pytest.raises(UwsimError, match=r"acts on a SceneBody; expected what attach\(\)"):
+        with pytest.raises(
+            UwsimError, match=r"acts on a SceneBody at 0 s; expected what attach\(\)"
+        ):
             simulation.advance()
 
 

@@ -133,7 +133,7 @@ def _apply(scene: CheckedScene) -> list[Diagnostic]:
             continue
         if need is Need.MODEL and Need.VALID in wrong:
             continue
-        reported = chain.from_iterable(rule.find(scene) for rule in group)
+        reported = chain.from_iterable(rule.apply(scene) for rule in group)
         if need is Need.SPEC:
             scene.extend(reported)
         listed = scene.diagnostics.all() if need is Need.SPEC else list(reported)
@@ -206,7 +206,7 @@ def _check_benchmark(
                 benchmark = CheckedBenchmark(
                     spec, Diagnostics(file), tables, is_whole=not _has_error(found)
                 )
-                found += _apply_in_scene(benchmark, scene, data_path, arguments)
+                found += _apply_in_scene(benchmark, scene, data_path, plugins, arguments)
     except PluginError as error:
         return list(error.diagnostics)
     return sorted(found, key=lambda each: (each.line is None, each.line or 0))
@@ -216,9 +216,11 @@ def _apply_in_scene(
     benchmark: CheckedBenchmark,
     scene: Path | None,
     data_path: tuple[Path, ...],
+    plugins: tuple[Plugin, ...],
     arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
     """Apply the rules about a benchmark, and those about its names in its scene."""
+    from ..benchmark.plugin import attribute_errors_to
     from ..physics.compile_scene import compile_scene
     from ..scene.reader import read_scene
     from ..simulation import Simulation
@@ -226,7 +228,10 @@ def _apply_in_scene(
 
     def apply(need: Need) -> list[Diagnostic]:
         return [
-            each for rule in BENCHMARK_RULES if rule.needs is need for each in rule.find(benchmark)
+            each
+            for rule in BENCHMARK_RULES
+            if rule.needs is need
+            for each in rule.apply(benchmark, attribute_errors_to(plugins))
         ]
 
     found, spec = apply(Need.SPEC), benchmark.spec

@@ -34,7 +34,7 @@ def check_robot(
         return diagnostics.all()
     robot = CheckedRobot(spec, diagnostics, data_path)
     for rule in rules:
-        diagnostics.extend(rule.find(robot))
+        diagnostics.extend(rule.apply(robot))
     return [*spec.expansion.warnings, *diagnostics.all()]
 
 

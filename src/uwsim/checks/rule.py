@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import partial
 from typing import Generic, TypeVar
 
-from ..errors import Diagnostic
+from ..errors import Diagnostic, UwsimError, shown, type_and_text
 
 S = TypeVar("S")
 
@@ -39,3 +41,34 @@ class Rule(Generic[S]):
     """Whether ``uwsim check`` applies it."""
     in_runs: bool = False
     """Whether a run applies it before it begins, for its warnings."""
+
+    @property
+    def name(self) -> str:
+        """Module and name of its function."""
+        function = self.find.func if isinstance(self.find, partial) else self.find
+        return f"{function.__module__}.{getattr(function, '__qualname__', type(function).__name__)}"
+
+    def apply(
+        self, subject: S, within: AbstractContextManager[None] | None = None
+    ) -> Iterator[Diagnostic]:
+        """Yield what it finds.
+
+        Args:
+            subject: what it is about.
+            within: of the block in which the rule is asked; it may explain what is raised there.
+
+        Raises:
+            UwsimError: the rule raises, or gives something else; names its function.
+        """
+        try:
+            with within or nullcontext():
+                for each in self.find(subject):
+                    if not isinstance(each, Diagnostic):
+                        raise UwsimError(
+                            f"The rule {self.name} gives {shown(each)}; expected a Diagnostic."
+                        )
+                    yield each
+        except UwsimError:
+            raise
+        except Exception as error:
+            raise UwsimError(f"The rule {self.name} raised {type_and_text(error)}.") from error

@@ -25,7 +25,7 @@ import numpy as np
 from ..base.files.modules import located
 from ..base.files.python_sources import sources_of
 from ..base.geometry import Array
-from ..errors import BadSetting, did_you_mean
+from ..errors import BadSetting, did_you_mean, shown
 from ..schema import element
 from .current import MAX_SPEED, Current, CurrentSpec, Place
 
@@ -147,7 +147,7 @@ class PythonFunction(Current):
             x = y = z = math.nan
         if not (abs(x) <= MAX_SPEED and abs(y) <= MAX_SPEED and abs(z) <= MAX_SPEED):
             raise BadSetting(
-                f"The current {self._name!r} returned {_shown(returned)} {place}; "
+                f"The current {self._name!r} returned {shown(returned)} {place}; "
                 f"expected three numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
             )
         return x, y, z
@@ -155,12 +155,3 @@ class PythonFunction(Current):
 
 def _returned(error: BaseException) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split()):.200}"
-
-
-def _shown(returned: object) -> str:
-    """Return what the third-party function returned, in one short line."""
-    try:
-        text = " ".join(repr(returned).split())
-    except Exception:  # its own repr raises
-        text = f"a {type(returned).__name__}"
-    return text if len(text) <= 80 else text[:77] + "..."

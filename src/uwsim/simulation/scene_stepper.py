@@ -42,7 +42,8 @@ class SceneStepper:
         self._nodes, self._watchers = nodes, watchers
         self._bus, self._timestep = world.bus, world.model.timestep
         self._engine, self._water, self._schedule = world.engine, world.water, world.schedule
-        self._devices, self._forces, self._contacts = world.devices, world.forces, world.contacts
+        self._devices, self._contacts = world.devices, world.contacts
+        self._forces = tuple(zip(world.model.scene.forces, world.forces, strict=True))
         self._network, self._below_ground = world.network, world.below_ground
         self._image_timers = [images.timer for images in world.images.values()]
         vehicles, engine = world.model.scene.vehicles, world.engine

@@ -11,7 +11,7 @@ from typing import Any, Self
 from ..base.geometry import Array, Pose
 from ..base.record import assign
 from ..bus import Algorithm, Bus
-from ..errors import BadSetting, UwsimError
+from ..errors import BadSetting, UwsimError, shown
 from ..model.scene_model import SceneModel
 from ..physics.compile_scene import recompile
 from ..rendering.rendered_image import RenderedImage
@@ -53,7 +53,7 @@ class Simulation:
         if not isinstance(model, SceneModel):
             raise BadSetting(
                 f"A Simulation is made of what compile_scene returns, not of "
-                f"a {type(model).__name__}: {arguments.shown(model)}."
+                f"a {type(model).__name__}: {shown(model)}."
             )
         self._own_pool = RendererPool()
         self._make_scene = partial(
@@ -164,7 +164,7 @@ class Simulation:
         if seconds is None:
             self._stepper.advance()
             return
-        left = round(arguments.checked_time(seconds) / self.timestep)
+        left = arguments.whole_steps(seconds, self.timestep)
         while left > 0:
             left -= self._stepper.advance(left)
 
@@ -292,7 +292,8 @@ class Simulation:
             velocity: of the water in the frame of the file, (3,) [m/s]; or a `Flow`; None for none.
 
         Raises:
-            BadSetting: these are not three numbers, or one exceeds the fastest current.
+            BadSetting: these are not three numbers, or one exceeds the fastest current. A flow that
+                raises, or returns another shape, is one in the step that asks it.
         """
         self.world.water.set(arguments.flow_of(velocity))
 

@@ -11,8 +11,9 @@ import numpy as np
 from ...base.geometry import Pose
 from ...currents.constant import Constant
 from ...currents.current import MAX_SPEED
-from ...errors import BadSetting
+from ...errors import BadSetting, shown
 from ...world import Flow
+from .program_flow import ProgramFlow
 
 FARTHEST = 1e6
 """The greatest coordinate at which a body is placed [m]."""
@@ -25,11 +26,12 @@ def checked_seed(seed: int, method: str = "reset") -> int:
     return int(seed)
 
 
-def checked_time(seconds: float) -> float:
-    """Return a time to advance [s]; BadSetting if it is negative or not finite."""
-    if not isinstance(seconds, int | float | np.number) or not 0.0 <= seconds < math.inf:
+def whole_steps(seconds: float, timestep: float) -> int:
+    """Return the steps in a time to advance [s]; BadSetting if it is negative or not finite."""
+    n_steps = _float_of(seconds) / timestep
+    if not 0.0 <= n_steps < math.inf:
         raise BadSetting(f"advance({shown(seconds)}): expected a time >= 0 [s].")
-    return float(seconds)
+    return round(n_steps)
 
 
 def checked_algorithm(algorithm: object) -> None:
@@ -45,9 +47,20 @@ def checked_algorithm(algorithm: object) -> None:
 
 def checked_number(method: str, number: float) -> float:
     """Return a number; BadSetting if it is negative or not finite."""
-    if not isinstance(number, int | float | np.number) or not 0.0 <= number < math.inf:
+    found = _float_of(number)
+    if not 0.0 <= found < math.inf:
         raise BadSetting(f"{method}({shown(number)}): expected a finite number >= 0.")
-    return float(number)
+    return found
+
+
+def _float_of(number: object) -> float:
+    """Return a number as a float: NaN for what is none, infinity for one that is too great."""
+    if not isinstance(number, int | float | np.integer | np.floating):
+        return math.nan
+    try:
+        return float(number)
+    except OverflowError:
+        return math.inf
 
 
 def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose:
@@ -68,16 +81,22 @@ def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Po
 
 
 def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
-    """Return the flow for a velocity (3,) [m/s] in L; a flow or None is returned as it is.
+    """Return the flow for a velocity (3,) [m/s] in L; that of a program checks what it returns.
 
     Raises:
-        BadSetting: these are not three numbers, or one exceeds the fastest current.
+        BadSetting: these are not three numbers, or one exceeds the fastest current; or a flow does
+            not answer whether it is still.
     """
-    if velocity is None or isinstance(velocity, Flow):
+    if velocity is None or type(velocity) is Constant:
         return velocity
+    if isinstance(velocity, type):
+        name = velocity.__name__
+        raise BadSetting(f"set_current({name}): expected a flow, not its class: {name}().")
+    if isinstance(velocity, Flow):
+        return ProgramFlow(velocity)
     try:
         x, y, z = (float(component) for component in velocity)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         x = y = z = math.nan
     if not all(abs(component) <= MAX_SPEED for component in (x, y, z)):
         raise BadSetting(
@@ -85,9 +104,3 @@ def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
             f"{MAX_SPEED:g} [m/s]."
         )
     return Constant((x, y, z))
-
-
-def shown(found: object) -> str:
-    """Return the text of a value, cut where it is long."""
-    text = repr(found)
-    return text if len(text) <= 60 else text[:57] + "..."
