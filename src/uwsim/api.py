@@ -7,7 +7,6 @@ that names the file, the line and the nearest right name.
 
 from __future__ import annotations
 
-import math
 import os
 import tempfile
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
@@ -242,13 +241,11 @@ def _pairs_of(levels: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
 
 def _finite_number(value: object) -> float | None:
     """Return a number as a float; None for what is none, or not finite, or too great."""
+    from .base.external_values import finite_float
+
     if not isinstance(value, Real) or isinstance(value, bool):
         return None
-    try:
-        number = float(value)
-    except OverflowError:
-        return None
-    return number if math.isfinite(number) else None
+    return finite_float(value)
 
 
 def _first_of(seeds: Sequence[int]) -> int:

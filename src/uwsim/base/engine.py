@@ -6,8 +6,17 @@ a traceback when the run is ended. Whoever wants them in the same program import
 
 from __future__ import annotations
 
+import numpy as np
+
 from .environment import environment
 from .interrupts import ignoring_interrupts
 
 with environment({"MUJOCO_GL": "disable"}), ignoring_interrupts():
     import mujoco as mujoco
+
+
+def model_bytes(model: mujoco.MjModel) -> bytes:
+    """Return a model of the engine as bytes, the same for the same numbers."""
+    packed = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, packed)
+    return packed.tobytes()

@@ -7,7 +7,7 @@ of a thousand digits. All readers of such values use these functions.
 from __future__ import annotations
 
 import math
-from typing import Protocol
+from typing import Protocol, SupportsFloat
 
 import numpy as np
 
@@ -58,6 +58,11 @@ def read_number(value: object) -> float | None:
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None
+    return finite_float(value)
+
+
+def finite_float(value: SupportsFloat) -> float | None:
+    """Return a number as a float; None if it is not finite, or beyond the range of a float."""
     try:
         number = float(value)
     except OverflowError:

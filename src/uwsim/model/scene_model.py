@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.digest import digest_of
-from ..base.engine import mujoco
+from ..base.engine import model_bytes, mujoco
 from ..base.geometry import Pose, quaternion_from_rotation
 from ..devices.device import DeviceSpec
 from ..devices.object_picker import ObjectPickerSpec
@@ -67,9 +67,7 @@ class SceneModel(SimulatedScene):
     @cached_property
     def digest(self) -> str:
         """The hash of the scene, its hydrodynamics and the engine's model, wherever files lie."""
-        engine = np.zeros(mujoco.mj_sizeModel(self.engine_model), np.uint8)
-        mujoco.mj_saveModel(self.engine_model, None, engine)
-        hash_of_engine = hashlib.sha256(engine.tobytes()).hexdigest()
+        hash_of_engine = hashlib.sha256(model_bytes(self.engine_model)).hexdigest()
         return digest_of((self.scene, list(self.dynamics.items()), hash_of_engine))
 
     @cached_property

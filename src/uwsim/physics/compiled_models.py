@@ -19,6 +19,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from ..base.engine import model_bytes
 from ..base.files import disk_cache
 from ..base.files.code_digest import code_digest
 from ..base.geometry import Array, Pose
@@ -58,9 +59,7 @@ def cached_model(
     if data is not None:
         return mujoco.MjModel.from_binary_path(NAME, {NAME: data})
     model = build()
-    packed = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
-    mujoco.mj_saveModel(model, None, packed)
-    disk_cache.write(file, packed.tobytes())
+    disk_cache.write(file, model_bytes(model))
     return model
 
 

@@ -8,6 +8,7 @@ from numbers import Integral
 
 import numpy as np
 
+from ...base.external_values import finite_float
 from ...base.geometry import Pose
 from ...currents.constant import Constant
 from ...currents.current import MAX_SPEED
@@ -54,13 +55,11 @@ def checked_number(method: str, number: float) -> float:
 
 
 def _float_of(number: object) -> float:
-    """Return a number as a float: NaN for what is none, infinity for one that is too great."""
+    """Return a finite number as a float, and NaN for all else."""
     if not isinstance(number, int | float | np.integer | np.floating):
         return math.nan
-    try:
-        return float(number)
-    except OverflowError:
-        return math.inf
+    found = finite_float(number)
+    return math.nan if found is None else found
 
 
 def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose:
