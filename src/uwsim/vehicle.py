@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
+import numpy as np
+import numpy.typing as npt
+
 from .base.geometry import Array, Pose
+
+Numbers = npt.NDArray[np.int64]
+"""Of joints in the joint vector, each at most once, (n,)."""
 
 
 class Autopilot(Protocol):
@@ -35,14 +41,14 @@ class Servos(Protocol):
     def efforts(self) -> Array:
         """Forces and torques at the joints, (n,) [N m or N]."""
 
-    def aim(self, targets: Mapping[int, float]) -> None:
-        """Bring these joints to [rad or m] and hold them there."""
+    def aim(self, joints: Numbers, targets: Array) -> None:
+        """Bring these joints to targets, (n,) [rad or m], and hold them there."""
 
-    def drive(self, speeds: Mapping[int, float]) -> None:
-        """Move the targets of these joints at [rad/s or m/s]."""
+    def drive(self, joints: Numbers, speeds: Array) -> None:
+        """Move the targets of these joints at speeds, (n,) [rad/s or m/s]."""
 
-    def push(self, efforts: Mapping[int, float]) -> None:
-        """Act on these joints with [N m or N]."""
+    def push(self, joints: Numbers, efforts: Array) -> None:
+        """Act on these joints with efforts, (n,) [N m or N]."""
 
 
 class Vehicle(Protocol):

@@ -163,6 +163,35 @@ def test_joints_are_found_by_name_and_clamped(simulation: Simulation) -> None:
     assert after[[1, 3, 4]] == pytest.approx(before[[1, 3, 4]])
 
 
+def test_names_of_joints_may_change_from_message_to_message(simulation: Simulation) -> None:
+    publish = simulation.bus.publisher("/arm", JointState)
+    nothing = np.array([])
+    for name, position in (
+        (["Slew", "Elbow"], [0.1, 0.5]),
+        (["Elbow", "Slew"], [0.6, 0.2]),
+        (["Slew", "Slew", "Elbow"], [0.25, np.nan, np.nan]),
+        (["Slew", "Elbow", "Slew"], [0.1, 0.7, 0.3]),
+        ([], [0.4]),
+    ):
+        publish(
+            JointState(
+                header=header(0.0),
+                name=name,
+                position=np.array(position),
+                velocity=nothing,
+                effort=nothing,
+            )
+        )
+        simulation.advance()
+        simulation.advance()
+        joints = simulation.world.vehicles.find("girona500").joints
+        last = dict(zip(name or ["Slew"], position, strict=True))
+        if np.isnan(position).any():  # the values that are none are passed over
+            last = {"Slew": 0.25, "Elbow": 0.6}
+        assert joints[0] == pytest.approx(last["Slew"])
+        assert joints[2] == pytest.approx(last.get("Elbow", joints[2]))
+
+
 def test_numbers_that_lead_nowhere_leave_a_vehicle_where_a_renderer_finds_it(
     simulation: Simulation,
 ) -> None:

@@ -51,8 +51,8 @@ def with_pilot(simulation: Simulation) -> None:
 
 def driving_an_arm(simulation: Simulation) -> None:
     servos = simulation.world.engine.actuation[0].servos
-    servos.drive({0: 0.3, 2: -0.4})
-    servos.push({1: 3.0})
+    servos.drive(np.array([0, 2]), np.array([0.3, -0.4]))
+    servos.push(np.array([1]), np.array([3.0]))
 
 
 def adrift(simulation: Simulation) -> None:

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from tests.simulation.small_robots import begin, joint, scene_of, write_robot
@@ -61,7 +62,7 @@ def test_a_geared_joint_follows_its_leader_while_it_moves(
     simulation = begin(replace(scene_of(vehicle), path=str(tmp_path / "scene.xml")), is_blind=True)
     servos = simulation.world.vehicles.find("r").servos
     assert servos is not None
-    servos.aim({0: 0.8})
+    servos.aim(np.array([0]), np.array([0.8]))
     for _ in range(15):
         simulation.advance(0.1)
         world_from_base = simulation.pose("r/base", of="W").rotation

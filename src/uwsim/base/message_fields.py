@@ -14,7 +14,7 @@ import operator
 import re
 import sys
 from collections.abc import Callable, Hashable, Sequence
-from typing import Any, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 import numpy as np
 
@@ -36,6 +36,8 @@ _WORDS = {
     "list": "a list of what is defined there",
     "message": "a message",
 }
+FEW = 32
+"""Numbers that are looked at one by one."""
 _ARRAY = re.compile(r"np\.ndarray\[.*np\.dtype\[np\.(\w+)\]\]")
 _LIST = re.compile(r"list\[(.*)\]")
 
@@ -78,16 +80,40 @@ def unfit(message: object, of: str = "", *, converts: bool = True) -> str | None
     return None
 
 
-def _is_plainly_fit(message: object) -> bool:
-    """Whether each field has exactly its type, in one look; False for arrays, lists and doubts."""
-    plain = _plain(cast(Hashable, message.__class__))
-    if plain is None:
+def prepare(message: object) -> str | None:
+    """Report as `unfit` does; the arrays of a message that fits are read-only from now on."""
+    if _is_plainly_fit(message, freezes=True):
+        return None
+    wrong = unfit(message)
+    if wrong is None:
+        freeze(message)
+    return wrong
+
+
+def _is_plainly_fit(message: object, *, freezes: bool = False) -> bool:
+    """Whether each field has exactly its type, in one look; False for messages in lists and doubts.
+
+    With ``freezes`` the arrays of one that has are read-only from now on.
+    """
+    parts = _parts(cast(Hashable, message.__class__))
+    if parts is None:
         return False
-    values, types = plain
     try:
-        return tuple(map(type, values(message))) == types
+        if tuple(map(type, parts.values(message))) != parts.types or any(parts.lists(message)):
+            return False
+        arrays, texts = parts.arrays(message), parts.texts(message)
     except AttributeError:
         return False
+    for array in arrays:
+        if array.__class__ is not np.ndarray or array.dtype.kind not in "biuf":
+            return False
+    for items in texts:
+        if items.__class__ is not list or any(item.__class__ is not str for item in items):
+            return False
+    if freezes:
+        for array in arrays:
+            array.setflags(write=False)
+    return True
 
 
 def odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str, str] | None:
@@ -104,12 +130,19 @@ def odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str
     values = _values_at(tuple(paths))(message)
     for value in values if len(paths) > 1 else (values,):
         if isinstance(value, np.ndarray):
-            is_usual = not value.size or bool(np.abs(value).max() <= limit)
+            is_usual = are_within(value, limit)
         else:
             is_usual = -limit <= value <= limit
         if not is_usual:
             return _odd_number(message, paths, limit)
     return None
+
+
+def are_within(values: np.ndarray[Any, Any], limit: float) -> bool:
+    """Whether no number of an array is NaN, or greater than a limit."""
+    if values.size <= FEW:  # numpy's functions take longer than those numbers
+        return all(-limit <= value <= limit for value in values.ravel().tolist())
+    return bool(np.abs(values).max() <= limit)
 
 
 def _odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str, str] | None:
@@ -214,29 +247,67 @@ def _with_arrays(cls: Hashable) -> tuple[str, ...]:
     return tuple(found)
 
 
+class _Parts(NamedTuple):
+    """What reads the fields of a message, and those of messages in it, by their kinds."""
+
+    values: Callable[[object], tuple[Any, ...]]
+    """Numbers, texts and messages."""
+    types: tuple[type, ...]
+    """The type of each of these, and of every list."""
+    arrays: Callable[[object], tuple[Any, ...]]
+    """Arrays of numbers."""
+    texts: Callable[[object], tuple[Any, ...]]
+    """Lists of texts."""
+    lists: Callable[[object], tuple[Any, ...]]
+    """Lists of messages."""
+
+
 @functools.cache
-def _plain(cls: Hashable) -> tuple[Callable[[object], tuple[object, ...]], tuple[type, ...]] | None:
-    """What reads all values of a message of numbers, texts and such messages, and their types."""
+def _parts(cls: Hashable) -> _Parts | None:
+    """Return what reads the fields of a message class; None if the class of a part is unknown."""
     paths = _paths(cls)
-    if paths is None or len(paths) < 2:
+    if paths is None:
         return None
-    return operator.attrgetter(*(path for path, _ in paths)), tuple(kind for _, kind in paths)
+    values = [path for path, kind, _ in paths if kind not in ("array", "texts")]
+    types = tuple(type_ for _, kind, type_ in paths if kind not in ("array", "texts"))
+    arrays, texts, lists = (
+        [path for path, kind, _ in paths if kind == wanted] for wanted in ("array", "texts", "list")
+    )
+    return _Parts(_reader(values), types, _reader(arrays), _reader(texts), _reader(lists))
 
 
-def _paths(cls: Hashable) -> list[tuple[str, type]] | None:
-    """Each field, and those of messages in it by their paths, with its type; None with an array."""
+def _reader(paths: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
+    """Return what reads the values at some paths."""
+    if len(paths) > 1:
+        return operator.attrgetter(*paths)
+    if not paths:
+        return lambda _: ()
+    get = operator.attrgetter(*paths)
+    return lambda message: (get(message),)
+
+
+def _paths(cls: Hashable) -> list[tuple[str, str, type]] | None:
+    """Path, kind and type of each field, and of those of messages in it; None of a part unknown.
+
+    The kind is ``array``, ``texts`` or ``list`` (of messages), else empty.
+    """
     assert isinstance(cls, type)
-    found: list[tuple[str, type]] = []
-    for name, kind, _ in _definition(cls):
+    found: list[tuple[str, str, type]] = []
+    for name, kind, inner in _definition(cls):
         if kind in _FITTING:
-            found.append((name, _FITTING[kind][0]))
-            continue
-        declared = next(field.type for field in dataclasses.fields(cls) if field.name == name)
-        part = _class_in(cls, str(declared)) if kind == "message" else None
-        inner = None if part is None else _paths(cast(Hashable, part))
-        if part is None or inner is None:
-            return None
-        found += [(name, part), *((f"{name}.{path}", kind) for path, kind in inner)]
+            found.append((name, "", _FITTING[kind][0]))
+        elif kind == "array":
+            found.append((name, "array", np.ndarray))
+        elif kind == "list":
+            found.append((name, "texts" if inner == "str" else "list", list))
+        else:
+            declared = next(field.type for field in dataclasses.fields(cls) if field.name == name)
+            part = _class_in(cls, str(declared))
+            within = None if part is None else _paths(cast(Hashable, part))
+            if part is None or within is None:
+                return None
+            found.append((name, "", part))
+            found += [(f"{name}.{path}", of, type_) for path, of, type_ in within]
     return found
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar, cast
 
 from ..base.inbox import Inbox
-from ..base.message_fields import freeze, unfit
+from ..base.message_fields import freeze, prepare, unfit
 from ..base.record import Record
 from ..base.terminal import warn
 from ..errors import BadMessage, BadSetting, UwsimError, did_you_mean
@@ -200,9 +200,8 @@ class Bus:
                     for hear in entry.hearers:
                         hear(message)
                 return
-            if wrong := unfit(message):
+            if wrong := prepare(message):
                 raise BadMessage(f"Topic {topic!r} carries {type_name(type)}: {wrong}.")
-            freeze(message)
             for check in entry.checks:
                 check(message)
             for remark in entry.remarks:

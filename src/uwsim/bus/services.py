@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from ..base.message_fields import freeze, unfit
+from ..base.message_fields import prepare
 from ..errors import BadMessage, UnknownName
 from .names import is_exactly, type_name, without_slash
 
@@ -99,9 +99,9 @@ class Services:
             raise BadMessage(
                 f"Service {name!r} takes {type_name(type)}, not {type_name(request.__class__)}."
             )
-        if wrong := unfit(request):
+        if wrong := prepare(request):
             raise BadMessage(f"Service {name!r} takes {type_name(type)}: {wrong}.")
-        return handler(freeze(request))
+        return handler(request)
 
     def _call_elsewhere(self, name: str, request: object) -> object:
         for offers, call in self._elsewhere:

@@ -7,6 +7,7 @@ command is refused when the arm would touch something.
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.message_fields import odd_number
 from ..messages import JointState
-from ..vehicle import Servos, Vehicle
+from ..vehicle import Numbers, Servos, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_twist_to_pat import Gap, GapState
 
@@ -57,6 +58,9 @@ class JointCommand(Interface):
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
+        self._names = list(vehicle.joint_names)
+        self._named: list[str] = []  # by the newest message
+        self._places: Numbers = np.arange(len(self._names))  # of those in the joint vector, or -1
         self.state: GapState = gap.state
 
     def obey(self, message: JointState) -> None:
@@ -67,28 +71,44 @@ class JointCommand(Interface):
             return
         joints = self._vehicle.joints  # (n,) [rad or m]
         if message.position.size:
-            for number, value in self._numbered(message, message.position).items():
-                joints[number] = value
+            numbers, values = self._numbered(message, message.position)
+            joints[numbers] = values
         elif message.velocity.size:
-            time = self._gap.take()
-            for number, value in self._numbered(message, message.velocity).items():
-                joints[number] += value * time
+            numbers, values = self._numbered(message, message.velocity)
+            joints[numbers] += values * self._gap.take()
         self._vehicle.set_joints(joints)
 
     def _steer(self, servos: Servos, message: JointState) -> None:
         if message.position.size:
-            servos.aim(self._numbered(message, message.position))
+            servos.aim(*self._numbered(message, message.position))
         elif message.velocity.size:
-            servos.drive(self._numbered(message, message.velocity))
+            servos.drive(*self._numbered(message, message.velocity))
         else:
-            servos.push(self._numbered(message, message.effort))
+            servos.push(*self._numbered(message, message.effort))
 
-    def _numbered(self, message: JointState, given: Array) -> dict[int, float]:
-        """Values by the number of their joint; by name, or without names in order."""
-        names = list(self._vehicle.joint_names)
-        places = message.name or names
-        return {
-            names.index(name): value
-            for name, value in zip(places, given.tolist(), strict=False)
-            if name in names and np.isfinite(value)
+    def _numbered(self, message: JointState, given: Array) -> tuple[Numbers, Array]:
+        """The joints and their values, (n,) each; by name, or without names in order.
+
+        Left out are unknown joints and values that are not finite; of a joint that is named twice
+        the last value counts.
+        """
+        if message.name != self._named:
+            self._named = list(message.name)
+            self._places = np.array([self._place(name) for name in message.name], np.int64)
+            if not message.name:
+                self._places = np.arange(len(self._names))
+        n = min(len(self._places), len(given))
+        places, values = self._places[:n], np.array(given[:n], dtype=np.float64)
+        last = {
+            place: i
+            for i, (place, value) in enumerate(zip(places.tolist(), values.tolist(), strict=True))
+            if place >= 0 and math.isfinite(value)
         }
+        if len(last) == n:
+            return places, values
+        chosen = list(last.values())
+        return places[chosen], values[chosen]
+
+    def _place(self, name: str) -> int:
+        """Number of a joint in the joint vector; below 0 there is none."""
+        return self._names.index(name) if name in self._names else -1

@@ -7,6 +7,7 @@ thruster commands is the sender's error, raised where it publishes them.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
@@ -14,7 +15,6 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.external_values import MAX_COMMAND
-from ..base.geometry import Array
 from ..base.message_fields import odd_number
 from ..errors import BadMessage, UnknownName
 from ..messages import Float64MultiArray, WrenchStamped
@@ -86,9 +86,8 @@ class ThrusterCommand(Interface):
 
     def obey(self, message: Float64MultiArray) -> None:
         """Take one value per thruster."""
-        commands: Array = np.array(message.data, dtype=np.float64)  # (n,) [1]
-        if np.isfinite(commands).all():
-            self._autopilot.set_thrusters(commands)
+        if all(map(math.isfinite, message.data.tolist())):
+            self._autopilot.set_thrusters(message.data)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,9 +132,8 @@ class FinCommand(Interface):
 
     def obey(self, message: Float64MultiArray) -> None:
         """Take one angle per fin."""
-        angles: Array = np.array(message.data, dtype=np.float64)  # (n,) [rad]
-        if np.isfinite(angles).all():
-            self._vehicle.turn_fins(angles)
+        if all(map(math.isfinite, message.data.tolist())):
+            self._vehicle.turn_fins(message.data)
 
 
 @dataclass(frozen=True, kw_only=True)

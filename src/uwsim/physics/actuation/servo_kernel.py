@@ -16,6 +16,7 @@ from typing import Any, NamedTuple
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
+from ...vehicle import Numbers
 from .records import GEARED, OWN
 
 INTEGRAL = 1.0
@@ -56,6 +57,24 @@ def take_aim(joints: Records, states: Records) -> None:
             else:
                 reach = joints[i].offset * math.sin(source)
                 states[i].aim = -(source + math.asin(min(max(reach, -1.0), 1.0)))
+
+
+@njit
+def aim_at(joints: Records, states: Records, places: Numbers, targets: Array) -> None:
+    """Let the servos of some joints go to targets, and all others on to theirs."""
+    for i in range(len(places)):
+        states[places[i]].wanted = targets[i]
+        states[places[i]].speed = 0.0
+    take_aim(joints, states)
+
+
+@njit
+def first_off(states: Records, places: Numbers) -> int:
+    """Which of some joints is the first whose servo is off; below 0 all are on."""
+    for i in range(len(places)):
+        if states[places[i]].is_on == 0:
+            return i
+    return -1
 
 
 @njit

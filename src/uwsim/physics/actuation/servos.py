@@ -11,7 +11,6 @@ friction of the gear.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import mujoco
@@ -22,6 +21,7 @@ from ...base.geometry import Array
 from ...base.record import Record
 from ...model.body_names import vehicle_joint
 from ...scene.urdf.robot import JointSpec, RobotSpec
+from ...vehicle import Numbers
 from ..joints import servo_gains, stops
 from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 
@@ -44,9 +44,9 @@ class Servos:
         self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotSpec, index: int
     ) -> None:
         """Find the joints and actuators of the vehicle number ``index``."""
-        from .servo_kernel import take_aim
+        from .servo_kernel import aim_at, first_off, take_aim
 
-        self._take_aim = take_aim
+        self._take_aim, self._aim_at, self._first_off = take_aim, aim_at, first_off
         self._model, self._data = model, data
         self._specs = moving = [joint for joint in robot.joints if joint.moves]
         names = [joint.name for joint in moving]
@@ -60,7 +60,9 @@ class Servos:
         self.state = ServosState(self._state)
         """What they do."""
         self._state["is_on"] = True
-        self._vector = [names.index(joint.name) for joint in robot.movable]  # (n,)
+        self._vector = np.array(
+            [names.index(joint.name) for joint in robot.movable], np.int64
+        )  # (n,)
         self._places = self._records["place"][self._vector]
         self._dofs = self._records["dof"][self._vector]
 
@@ -90,25 +92,27 @@ class Servos:
     def put(self, values: Array) -> None:
         """Set the joints, at rest, and hold them there."""
         leaders = [self._specs[place] for place in self._vector]
-        clamped = (joint.clamped(value) for joint, value in zip(leaders, values, strict=False))
-        self.aim(dict(enumerate(clamped)))
+        clamped = [joint.clamped(value) for joint, value in zip(leaders, values, strict=False)]
+        self.aim(np.arange(len(clamped)), np.array(clamped, dtype=np.float64))
         self._state["target"] = self._state["aim"]
         self._state["integral"] = 0.0
         self._data.qpos[self._records["place"]] = self._state["aim"]
         self._data.qvel[self._records["dof"]] = 0.0
 
-    def aim(self, targets: Mapping[int, float]) -> None:
-        """Bring these joints to [rad or m] and hold them; the others keep what they do."""
-        for number, value in targets.items():
-            self._state["wanted"][self._vector[number]] = value
-            self._state["speed"][self._vector[number]] = 0.0
-            self._switch(number, is_on=True)
-        self._take_aim(self._records, self._state)
+    def aim(self, joints: Numbers, targets: Array) -> None:
+        """Bring these joints to targets, (n,) [rad or m], and hold them there.
 
-    def drive(self, speeds: Mapping[int, float]) -> None:
-        """Move the targets of these joints at [rad/s or m/s]; the others stay where they are."""
+        The others keep what they do.
+        """
+        places = self._vector[joints]
+        while (off := self._first_off(self._state, places)) >= 0:
+            self._switch(int(joints[off]), is_on=True)
+        self._aim_at(self._records, self._state, places, targets)
+
+    def drive(self, joints: Numbers, speeds: Array) -> None:
+        """Move the targets of these joints at speeds, (n,) [rad/s or m/s]; the others stay."""
         self._state["speed"] = 0.0
-        for number, speed in speeds.items():
+        for number, speed in zip(joints.tolist(), speeds.tolist(), strict=True):
             self._switch(number, is_on=True)
             place = self._vector[number]
             most = float(self._records["max_speed"][place])
@@ -117,12 +121,12 @@ class Servos:
         self._state["wanted"][self._vector] = np.where(own["is_on"], own["target"], self.positions)
         self._take_aim(self._records, self._state)
 
-    def push(self, efforts: Mapping[int, float]) -> None:
-        """Apply efforts [N m or N] to these joints, limited to the strength of their servos.
+    def push(self, joints: Numbers, efforts: Array) -> None:
+        """Apply efforts, (n,) [N m or N], to these joints, limited to the strength of their servos.
 
         The others keep what they do.
         """
-        for number, effort in efforts.items():
+        for number, effort in zip(joints.tolist(), efforts.tolist(), strict=True):
             place = self._vector[number]
             self._state["speed"][place] = 0.0
             self._switch(number, is_on=False)
