@@ -167,3 +167,80 @@ def test_a_cone_of_rays_finds_a_body_at_its_rim() -> None:
     together = RayScene([[surface for body in bodies for surface in body]]).cast(HERE, ways, 100.0)
     np.testing.assert_array_equal(apart.distance, together.distance)
     np.testing.assert_array_equal(apart.surface, together.surface)
+
+
+def engine_at(n: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
+    """Places of an engine's bodies: origins (n, 3) [m], axes (n, 3, 3)."""
+    random = np.random.default_rng(seed)
+    axes = [rotation_from_rpy(*random.uniform(-3.0, 3.0, 3)) for _ in range(n)]
+    return random.uniform(-6.0, 6.0, (n, 3)), np.array(axes)
+
+
+def frame_of(origin: np.ndarray, axes: np.ndarray) -> np.ndarray:
+    frame = np.eye(4)
+    frame[:3, :3], frame[:3, 3] = axes, origin
+    return frame
+
+
+@pytest.mark.parametrize("n", [1, 5, 60])
+def test_bodies_that_follow_an_engine_are_met_where_it_has_them_now(n: int) -> None:
+    """Moved a little, far, not at all, one of them or all: as a scene whose bodies are placed."""
+    random = np.random.default_rng(n)
+    bodies = [[Surface(i, soup(40, seed=i, spread=1.5), True)] for i in range(n + 1)]
+    origins, axes = engine_at(n, seed=8)
+    # body 0 is placed; the others follow, in another order
+    number = np.array([-1, *random.permutation(n)], np.int32)
+    moving = RayScene(bodies).following(number, origins, axes)
+    fan = np.stack(
+        [np.zeros(64), np.sin(np.linspace(-1, 1, 64)), np.cos(np.linspace(-1, 1, 64))], 1
+    )
+    narrow = np.array([1.0, 0.0, 0.0]) + 0.02 * all_around(40)
+    narrow /= np.linalg.norm(narrow, axis=1, keepdims=True)
+    n_met = 0
+    for step in range(24):
+        chosen = random.permutation(n)[: [0, 1, n][step % 3]]
+        origins[chosen] += random.normal(scale=[1e-6, 1e-2, 3.0][step % 3], size=(len(chosen), 3))
+        axes[chosen] = engine_at(n, seed=step)[1][chosen]
+        placed = RayScene(bodies)
+        for body in range(1, n + 1):
+            placed.place(body, frame_of(origins[number[body]], axes[number[body]]))
+        here = Pose(random.uniform(-7.0, 7.0, 3), rotation_from_rpy(*random.uniform(-3, 3, 3)))
+        for ways in (fan, narrow, all_around(50, seed=step)):
+            found, expected = (each.cast(here, ways, 9.0) for each in (moving, placed))
+            n_met += int((found.surface >= 0).sum())
+            for part in ("distance", "normal", "surface"):
+                assert getattr(found, part).tobytes() == getattr(expected, part).tobytes()
+        assert moving.balls().centre.tobytes() == placed.balls().centre.tobytes()
+    assert n_met > 20
+
+
+def test_of_many_bodies_each_ray_meets_what_it_meets_of_them_in_one() -> None:
+    bodies = [soup(8, seed=i, spread=0.5) for i in range(200)]
+    apart = RayScene([[Surface(i, each, True)] for i, each in enumerate(bodies)])
+    moved = []
+    for i, (origin, axes) in enumerate(zip(*engine_at(200, seed=1), strict=True)):
+        apart.place(i, frame_of(origin, axes))
+        moved.append(bodies[i] @ axes.T + origin)
+    ways = all_around(3000)
+    whole = RayScene([[Surface(i, each, True) for i, each in enumerate(moved)]])
+    found, expected = apart.cast(HERE, ways, 20.0), whole.cast(HERE, ways, 20.0)
+    assert (found.surface >= 0).sum() > 300
+    assert found.surface.tolist() == expected.surface.tolist()
+    np.testing.assert_allclose(found.distance, expected.distance, rtol=1e-9)
+
+
+def test_a_body_that_is_taken_up_is_placed_and_follows_again_when_it_is_let_go() -> None:
+    origins, axes = np.array([[0.0, 0.0, 1.0]]), np.eye(3)[None].copy()
+    follows, is_placed = np.array([-1, 0], np.int32), np.array([-1, -1], np.int32)
+    scene = RayScene([[], [Surface(4, square(0.5))]]).following(follows, origins, axes)
+    above, down = Pose(np.array([0.0, 0.0, 4.0]), np.eye(3)), np.array([[0.0, 0.0, -1.0]])
+    assert scene.cast(above, down, 9.0).distance[0] == 3.0
+    scene.let_follow(is_placed)
+    lifted = np.eye(4)
+    lifted[2, 3] = 2.5
+    scene.place(1, lifted)
+    assert scene.cast(above, down, 9.0).distance[0] == 1.5
+    scene.let_follow(follows)
+    assert scene.cast(above, down, 9.0).distance[0] == 3.0
+    origins[0, 0] = 2.0
+    assert scene.cast(above, down, 9.0).distance[0] == np.inf

@@ -43,8 +43,10 @@ class Poses:
         scene, robots = scene_model.scene, scene_model.robots
         self._model, self._data = model, data
         # Views into MuJoCo's memory: to look them up by name costs more than the step.
-        self._origins = data.xpos  # (nbody, 3) [m]
-        self._axes = data.xmat.reshape(-1, 3, 3)  # (nbody, 3, 3)
+        self.origins = data.xpos
+        """Of the engine's bodies, as `refresh` left them, (nbody, 3) [m]."""
+        self.axes = data.xmat.reshape(-1, 3, 3)
+        """Of these, (nbody, 3, 3)."""
         ids = {model.body(i).name: i for i in range(model.nbody)}
         self._bases = {i: ids[vehicle_body(i, robots[i].root)] for i in robots}
         self._links = {
@@ -84,6 +86,18 @@ class Poses:
     def link_body(self, index: int, link: str) -> int:
         """Return the engine's number of a vehicle's link."""
         return self._links[index, link]
+
+    def engine_body(self, vehicle: int | None, link: str, thing: int | None) -> int:
+        """Return the engine's body whose frame is that of a link or an object; -1 for none.
+
+        The frame of a scaled vehicle's link is none of these, nor that of an object which follows
+        a link.
+        """
+        if vehicle is not None:
+            return -1 if vehicle in self._scales else self._links[vehicle, link]
+        if thing is None or thing in self._placed or thing in self.state.carried:
+            return -1
+        return self._loose[thing]
 
     def vehicle(self, index: int) -> Pose:
         """Return ``world_from_base`` of a vehicle."""
@@ -156,14 +170,14 @@ class Poses:
             parent = int(model.body_parentid[body])
             if body in shown:
                 mujoco.mju_quat2Mat(axes, np.ascontiguousarray(shown[body][3:]))
-                self._origins[body], self._axes[body] = shown[body][:3], axes.reshape(3, 3)
+                self.origins[body], self.axes[body] = shown[body][:3], axes.reshape(3, 3)
             elif parent in follows:
                 follows.add(body)
                 mujoco.mju_quat2Mat(axes, model.body_quat[body])
-                self._origins[body] = self._origins[parent] + turned(
-                    self._axes[parent], model.body_pos[body]
+                self.origins[body] = self.origins[parent] + turned(
+                    self.axes[parent], model.body_pos[body]
                 )
-                self._axes[body] = product(self._axes[parent], axes.reshape(3, 3))
+                self.axes[body] = product(self.axes[parent], axes.reshape(3, 3))
         self.state.version += 1
 
     def is_fixed(self, index: int) -> bool:
@@ -173,8 +187,8 @@ class Poses:
     def points(self, bodies: npt.NDArray[np.int64], on_bodies: Array) -> Array:
         """Return where points (n, 3) [m] of some bodies are, in W, (n, 3) [m]."""
         self.refresh()
-        return points_of(self._origins, self._axes, bodies, on_bodies)
+        return points_of(self.origins, self.axes, bodies, on_bodies)
 
     def _body(self, body: int) -> Pose:
         self.refresh()
-        return Pose(self._origins[body].copy(), self._axes[body].copy())
+        return Pose(self.origins[body].copy(), self.axes[body].copy())

@@ -12,7 +12,20 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.jit import njit
-from .packet import DX, DY, DZ, GROUP, HIT, LANES, NEAR, fill_lanes, find_nearest
+from .bodies import Bodies, Cone, Engine, find_near, follow, is_missed, renew_frames
+from .packet import (
+    DX,
+    DY,
+    DZ,
+    GROUP,
+    HIT,
+    LANES,
+    NEAR,
+    Bounds,
+    bounds_of,
+    fill_lanes,
+    find_nearest,
+)
 from .triangle import Trees, Whole, meets_triangle, placed
 
 CLOSE = 0.97
@@ -35,7 +48,8 @@ class Hits(NamedTuple):
 @njit
 def cast_rays(
     trees: Trees,
-    frames: tuple[Array, Array],
+    bodies: Bodies,
+    place: Engine,
     origin: Array,
     directions: Array,
     limits: tuple[Array, float],
@@ -45,43 +59,53 @@ def cast_rays(
 
     Args:
         trees: of the bodies.
-        frames: ``world_from_body`` and ``body_from_world`` of the bodies, (b, 4, 4) each.
+        bodies: where they are.
+        place: where those are that some of them follow.
         origin: where the rays begin, in W, (3,) [m].
         directions: of the rays in W, unit vectors, (n, 3).
         limits: from where on each ray hits, (n,), and how far all go [m].
         hits: for the results.
     """
-    world_from_body, body_from_world = frames
     begins, reach = limits
     n = len(directions)
     hits.distance[:] = reach
+    follow(bodies, place)
     last = np.full(n, -1)  # the triangle that a ray hits
     whose = np.zeros(n, dtype=np.int32)
     stack, entries = np.empty(DEEPEST, dtype=np.int32), np.empty(DEEPEST)
+    waiting = np.empty(len(bodies.links) + 1, dtype=np.int32)
+    near = np.empty(len(bodies.balls), dtype=np.int32)
     lanes = np.empty(LANES)
     steps = _steps(directions)
-    axis, half_angle = _cone(directions)
-    for body in range(len(trees.roots)):
-        if _is_missed(trees.balls[body], world_from_body[body], origin, axis, half_angle, reach):
-            continue
-        f = body_from_world[body]
-        begin = placed(f, origin[0], origin[1], origin[2], 1.0)
-        first = 0
-        while first < n:
-            end = min(first + steps[first // GROUP], n)
-            low, high = fill_lanes(lanes, f, directions, (first, end), (begins, hits.distance))
-            beam = begin, low, high
-            find_nearest(trees, trees.roots[body], beam, lanes, end - first, stack, entries)
+    here = origin[0], origin[1], origin[2]
+    first = 0
+    while first < n:
+        end = min(first + steps[first // GROUP], n)
+        cone = _cone(directions, first, end)
+        beam = _bounds(directions, first, end), cone
+        n_near = find_near(bodies, place, here, beam, reach, waiting, near)
+        farthest = reach
+        for number in range(n_near):
+            body = near[number]
+            if farthest < reach and is_missed(bodies, place, body, here, cone, farthest):
+                continue
+            renew_frames(bodies, place, body)
+            f = bodies.body_from_world[body]
+            begin = placed(f, origin[0], origin[1], origin[2], 1.0)
+            bounds = fill_lanes(lanes, f, directions, (first, end), (begins, hits.distance))
+            rays = begin, bounds
+            find_nearest(trees, trees.roots[body], rays, lanes, end - first, stack, entries)
+            farthest = 0.0
             for i in range(first, end):
                 k = i - first
                 triangle = int(lanes[HIT + k])
-                if triangle < 0:
-                    continue
-                ray = (lanes[DX + k], lanes[DY + k], lanes[DZ + k], begins[i])
-                at = meets_triangle(trees.triangles[triangle], begin, ray)
-                hits.distance[i] = at if at < np.inf else lanes[NEAR + k]
-                last[i], whose[i] = triangle, body
-            first = end
+                if triangle >= 0:
+                    ray = (lanes[DX + k], lanes[DY + k], lanes[DZ + k], begins[i])
+                    at = meets_triangle(trees.triangles[triangle], begin, ray)
+                    hits.distance[i] = at if at < np.inf else lanes[NEAR + k]
+                    last[i], whose[i] = triangle, body
+                farthest = max(farthest, hits.distance[i])
+        first = end
     for i in range(n):
         if last[i] < 0:
             hits.distance[i], hits.surface[i] = np.inf, -1
@@ -92,8 +116,21 @@ def cast_rays(
                 for k in range(3):
                     hits.normal[i, k] = hits.normal[i - 1, k]
             else:
-                _set_normal(hits.normal[i], trees.triangles[last[i]], body_from_world[whose[i]])
+                f = bodies.body_from_world[whose[i]]
+                _set_normal(hits.normal[i], trees.triangles[last[i]], f)
             _turn_towards(hits.normal[i], directions[i])
+
+
+@njit
+def _bounds(directions: Array, first: int, end: int) -> Bounds:
+    """Bounds of one over the directions of some rays."""
+    x0 = y0 = z0 = np.inf
+    x1 = y1 = z1 = -np.inf
+    for i in range(first, end):
+        x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
+        x0, y0, z0 = min(x0, x), min(y0, y), min(z0, z)
+        x1, y1, z1 = max(x1, x), max(y1, y), max(z1, z)
+    return bounds_of((x0, y0, z0), (x1, y1, z1))
 
 
 @njit
@@ -113,43 +150,20 @@ def _steps(directions: Array) -> Whole:
 
 
 @njit
-def _cone(directions: Array) -> tuple[Array, float]:
-    """Axis and half angle [rad] of a cone around all rays."""
-    axis = np.zeros(3)
-    for i in range(len(directions)):
-        for k in range(3):
-            axis[k] += directions[i, k]
-    size = math.sqrt(axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2)
-    if size <= 1e-9 * len(directions):
-        return axis, math.pi
-    axis /= size
+def _cone(directions: Array, first: int, end: int) -> Cone:
+    """A cone around some rays."""
+    x = y = z = 0.0
+    for i in range(first, end):
+        x, y, z = x + directions[i, 0], y + directions[i, 1], z + directions[i, 2]
+    size = math.sqrt(x * x + y * y + z * z)
+    if size <= 1e-9 * (end - first):
+        return Cone((x, y, z), math.pi)
+    x, y, z = x / size, y / size, z / size
     cosine = 1.0
-    for i in range(len(directions)):
-        along = axis[0] * directions[i, 0] + axis[1] * directions[i, 1] + axis[2] * directions[i, 2]
+    for i in range(first, end):
+        along = x * directions[i, 0] + y * directions[i, 1] + z * directions[i, 2]
         cosine = min(cosine, along)
-    return axis, math.acos(max(cosine, -1.0)) + 1e-6
-
-
-@njit
-def _is_missed(
-    ball: Array, frame: Array, origin: Array, axis: Array, half_angle: float, reach: float
-) -> bool:
-    """Whether no ray of a cone comes near a body."""
-    x, y, z = placed(frame, ball[0], ball[1], ball[2], 1.0)
-    x, y, z = x - origin[0], y - origin[1], z - origin[2]
-    stretch = 0.0
-    for row in range(3):
-        for column in range(3):
-            stretch += frame[row, column] ** 2
-    radius = ball[3] * math.sqrt(stretch)  # at least the greatest factor
-    distance = math.sqrt(x * x + y * y + z * z)
-    if distance <= radius:
-        return False
-    if distance - radius > reach:
-        return True
-    along = (x * axis[0] + y * axis[1] + z * axis[2]) / distance
-    between = math.acos(min(max(along, -1.0), 1.0))
-    return between > half_angle + math.asin(radius / distance)
+    return Cone((x, y, z), math.acos(max(cosine, -1.0)) + 1e-6)
 
 
 @njit

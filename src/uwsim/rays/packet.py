@@ -16,6 +16,8 @@ from .triangle import TOUCH, Point, Trees, Whole, inverse, placed
 
 GROUP = 16
 """Rays that go together at most."""
+Bounds = tuple[Point, Point]
+"""Lower and upper bounds of one over the components of directions; see `bounds_of`."""
 DX, DY, DZ, BEGIN, NEAR, HIT = (GROUP * k for k in range(6))
 """Where the directions, the limits and the triangles of the rays are in an array of lanes."""
 LANES = 6 * GROUP
@@ -28,7 +30,7 @@ def fill_lanes(
     directions: Array,
     rays: tuple[int, int],
     limits: tuple[Array, Array],
-) -> tuple[Point, Point]:
+) -> Bounds:
     """Take some rays; return the bounds of one over their directions, lower and upper.
 
     Args:
@@ -49,7 +51,13 @@ def fill_lanes(
         lanes[BEGIN + k], lanes[NEAR + k], lanes[HIT + k] = begins[i], nearest[i], -1.0
         x0, y0, z0 = min(x0, dx), min(y0, dy), min(z0, dz)
         x1, y1, z1 = max(x1, dx), max(y1, dy), max(z1, dz)
-    x, y, z = _inverses(x0, x1), _inverses(y0, y1), _inverses(z0, z1)
+    return bounds_of((x0, y0, z0), (x1, y1, z1))
+
+
+@njit
+def bounds_of(low: Point, high: Point) -> Bounds:
+    """Bounds of one over directions between bounds; of both signs where these are."""
+    x, y, z = _inverses(low[0], high[0]), _inverses(low[1], high[1]), _inverses(low[2], high[2])
     return (x[0], y[0], z[0]), (x[1], y[1], z[1])
 
 
@@ -64,7 +72,7 @@ def _inverses(low: float, high: float) -> tuple[float, float]:
 def find_nearest(
     trees: Trees,
     root: int,
-    beam: tuple[Point, Point, Point],
+    beam: tuple[Point, Bounds],
     lanes: Array,
     n: int,
     stack: Whole,
@@ -75,19 +83,19 @@ def find_nearest(
     Args:
         trees: of the bodies.
         root: of this body.
-        beam: origin of the rays; bounds of one over their directions, lower and upper.
+        beam: origin of the rays; bounds of one over their directions.
         lanes: of the rays.
         n: how many they are.
         stack: for nodes that wait.
         entries: for where rays enter those.
     """
-    origin, low, high = beam
+    origin, bounds = beam
     n_waiting, node = 0, root
     reach = _farthest(lanes, n)
     while True:
         box = trees.boxes[node]
-        first_at = _enters(box, 0, origin, low, high, reach)
-        second_at = _enters(box, 6, origin, low, high, reach)
+        first_at = enters(box, 0, origin, bounds, reach)
+        second_at = enters(box, 6, origin, bounds, reach)
         near, far = 0, 2
         if second_at < first_at:
             near, far = 2, 0
@@ -131,20 +139,18 @@ def _farthest(lanes: Array, n: int) -> float:
 
 
 @njit
-def _enters(
-    box: Array,
-    first: int,
-    origin: Point,
-    low: Point,
-    high: Point,
-    reach: float,
-) -> float:
+def enters(box: Array, first: int, origin: Point, bounds: Bounds, reach: float) -> float:
     """Before where no ray enters a box; infinite where none enters it before ``reach`` [m]."""
+    low, high = bounds
     enter, leave = 0.0, reach
     for axis in range(3):
-        if low[axis] < 0.0 < high[axis]:
-            continue
         near, far = box[first + axis] - origin[axis], box[first + 3 + axis] - origin[axis]
+        if low[axis] < 0.0 < high[axis]:  # to both sides: a box beside the origin is reached late
+            if near > 0.0:
+                enter = max(enter, near * high[axis])
+            elif far < 0.0:
+                enter = max(enter, far * low[axis])
+            continue
         if high[axis] < 0.0:
             near, far = far, near
         enter = max(enter, min(near * low[axis], near * high[axis]))

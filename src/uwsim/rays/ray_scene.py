@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import inverse, product
+from .bodies import NO_ENGINE, Bodies, Engine, bodies_of, renew_all_frames
 from .cover import Balls, covering_balls
 from .kernel import Hits, cast_rays
 from .tree import build_tree
@@ -53,9 +54,8 @@ class RayScene:
             roots=nodes[:-1].astype(np.int32),
             balls=np.concatenate([np.zeros((0, 4)), *(each.balls for each in built)]),
         )
-        self._world_from_body = np.tile(np.eye(4), (len(built), 1, 1))
-        self._body_from_world = self._world_from_body.copy()
-        self._moved = False
+        self._engine = NO_ENGINE
+        self._bodies = self._laid(np.full(len(built), -1, np.int32))
         covers = [
             cover for body, surfaces in enumerate(bodies) for cover in _covers(body, surfaces)
         ]
@@ -64,22 +64,40 @@ class RayScene:
         self._cover_bodies = np.repeat([body for _, body, _ in covers], sizes).astype(np.int32)
         self._cover_surfaces = np.repeat([n for _, _, n in covers], sizes).astype(np.int32)
 
-    def fresh(self) -> RayScene:
-        """Return a scene of the same bodies, in the place of W, that shares their triangles."""
+    def _laid(self, engine: npt.NDArray[np.int32]) -> Bodies:
+        return bodies_of(self._trees.balls, engine, self._engine)
+
+    def following(self, engine: npt.NDArray[np.int32], origins: Array, axes: Array) -> RayScene:
+        """Return a scene of the same bodies that shares their triangles, and follows an engine.
+
+        Args:
+            engine: number of the engine's body that each body is on, or below 0 for one that is
+                placed, which begins in the place of W, (b,).
+            origins: of the engine's bodies, read at each cast, (m, 3) [m].
+            axes: of them, read at each cast, (m, 3, 3).
+        """
         other = copy.copy(self)
-        other._world_from_body = np.tile(np.eye(4), (len(self._world_from_body), 1, 1))
-        other._body_from_world = other._world_from_body.copy()
-        other._moved = False
+        other._engine = Engine(origins, axes)
+        other._bodies = other._laid(engine)
         return other
 
+    def let_follow(self, engine: npt.NDArray[np.int32]) -> None:
+        """Set which of the engine's bodies each body is on from now on, or below 0, (b,)."""
+        changed = self._bodies.engine != engine
+        self._bodies.engine[changed] = engine[changed]
+        self._bodies.seen[changed] = np.nan
+
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
-        """Set the pose of a body; the matrix (4, 4) may scale [m]."""
-        self._world_from_body[body] = world_from_body
-        self._moved = True
+        """Set the pose of a body that follows nothing; the matrix (4, 4) may scale [m]."""
+        frame = self._bodies.world_from_body[body]
+        if not np.array_equal(frame, world_from_body):
+            self._bodies.body_from_world[body] = inverse(world_from_body)
+            frame[:] = world_from_body
 
     def balls(self) -> Balls:
         """Balls that cover each surface, where they are now."""
-        frames = self._world_from_body[self._cover_bodies]
+        renew_all_frames(self._bodies, self._engine)
+        frames = self._bodies.world_from_body[self._cover_bodies]
         centre = (frames[:, :3, :3] * self._cover[:, None, :3]).sum(axis=2) + frames[:, :3, 3]
         scale = np.sqrt((frames[:, :3, :3] ** 2).sum(axis=1).max(axis=1))  # of the longest column
         return Balls(centre, self._cover[:, 3] * scale, self._cover_surfaces)
@@ -99,15 +117,12 @@ class RayScene:
             reach: how far the rays go [m].
             begins: from where on each ray hits, (n,) [m]; without it from the origin.
         """
-        if self._moved:
-            self._body_from_world = inverse(self._world_from_body)
-            self._moved = False
         n = len(directions)
         hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int32))
         along = product(directions, world_from_sensor.rotation.T)
-        frames = self._world_from_body, self._body_from_world
         limits = np.zeros(n) if begins is None else begins, float(reach)
-        cast_rays(self._trees, frames, world_from_sensor.position, along, limits, hits)
+        origin = world_from_sensor.position
+        cast_rays(self._trees, self._bodies, self._engine, origin, along, limits, hits)
         return hits
 
 

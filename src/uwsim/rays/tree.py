@@ -38,8 +38,13 @@ class Tree(NamedTuple):
 
 def build_tree(triangles: Array) -> Tree:
     """Build the tree of triangles (n, 3, 3) [m]."""
-    n = len(triangles)
     low, high = (np.ascontiguousarray(f(triangles, axis=1)) for f in (np.min, np.max))
+    return build_nodes(low, high)
+
+
+def build_nodes(low: Array, high: Array) -> Tree:
+    """Build the tree of boxes with a lower and an upper corner, (n, 3) each [m]."""
+    n = len(low)
     order = np.arange(n, dtype=np.int32)
     boxes = np.full((max(n, 1), 12), np.inf)
     links = np.zeros((max(n, 1), 4), dtype=np.int32)

@@ -286,6 +286,14 @@ def _solved(a: Array, b: Array) -> tuple[Array, bool]:
 
 
 @njit
+def invert(matrix: Array, to: Array) -> bool:
+    """Write the inverse of a matrix (n, n) to another; False if it is singular."""
+    found, is_regular = _solved(matrix.copy(), np.eye(matrix.shape[0]))
+    to[:] = found
+    return is_regular
+
+
+@njit
 def _inverses(matrices: Array) -> tuple[Array, bool]:
     """Of each of (n, k, k); overwrites them."""
     found, are_regular = np.empty(matrices.shape), True

@@ -18,7 +18,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
 from ...base.geometry import Array, Pose
 from ...base.numerics.elementwise import arcsin, arctan2
@@ -40,6 +39,8 @@ MAX_RAYS = 4096
 """Rays to all small targets of a ping at most; lattices become coarser beyond it."""
 TURN = (0.85, math.sqrt(1.0 - 0.85**2))
 """Cosine and sine of the angle between a lattice and the rows."""
+SURE = 1e-6
+"""Room for rounding where a whole target is passed over [rad]."""
 MAX_SLANT = 10.0
 """Tangent of the angle of incidence up to which an echo is spread over range."""
 
@@ -117,21 +118,16 @@ def lattice(discs: Discs, fan: Fan, highest: float) -> Lattice:
     for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
         mean_square = float((discs.radius[begin:end] ** 2).mean())
         spacing[begin:end] = 2.0 / ACROSS * math.sqrt(mean_square)
-    rays = _lay(discs, spacing, fan, highest)
-    if len(rays.surface) > MAX_RAYS:
-        spacing *= math.sqrt(len(rays.surface) / MAX_RAYS)
-        rays = _lay(discs, spacing, fan, highest)
-    return rays
-
-
-def _lay(discs: Discs, spacing: Array, fan: Fan, highest: float) -> Lattice:
-    n = int(_fill(discs, spacing, fan, highest, np.empty((0, 3)), np.empty((0, 4)), _NO_SURFACES))
+    n = int(_fill(discs, spacing, fan, highest, *_NO_RAYS))
+    if n > MAX_RAYS:
+        spacing *= math.sqrt(n / MAX_RAYS)
+        n = int(_fill(discs, spacing, fan, highest, *_NO_RAYS))
     rays = Lattice(np.empty((n, 3)), np.empty((n, 4)), np.empty(n, dtype=np.int32))
     _fill(discs, spacing, fan, highest, *rays)
     return rays
 
 
-_NO_SURFACES: npt.NDArray[np.int32] = np.empty(0, dtype=np.int32)
+_NO_RAYS = Lattice(np.empty((0, 3)), np.empty((0, 4)), np.empty(0, dtype=np.int32))
 
 
 @njit
@@ -151,6 +147,11 @@ def _fill(
         if discs.surface[disc] != discs.surface[begin]:
             begin = disc
         step, radius = spacing[disc], discs.radius[disc]
+        broad = math.asin(min(1.0, math.sin(radius) / math.cos(discs.elevation[disc])))
+        if abs(discs.elevation[disc]) - radius > highest + SURE or not _may_be_received(
+            discs.azimuth[disc], broad, fan
+        ):
+            continue
         shrink = math.cos(discs.elevation[begin])
         least = math.cos(radius)
         # the lattice of a surface goes through the middle of its first disc
@@ -158,7 +159,7 @@ def _fill(
         up = discs.elevation[disc] - discs.elevation[begin]
         i0 = round((cosine * right + sine * up) / step)
         j0 = round((cosine * up - sine * right) / step)
-        widest = math.asin(min(1.0, math.sin(radius) / math.cos(discs.elevation[disc]))) * shrink
+        widest = broad * shrink
         reach = math.ceil(1.5 * max(radius, widest) / step) + 1
         for i in range(i0 - reach, i0 + reach + 1):
             for j in range(j0 - reach, j0 + reach + 1):
@@ -197,6 +198,18 @@ def _along(direction: Array, disc: int, x: float, y: float, z: float) -> float:
 def _wrapped(angle: float) -> float:
     """The angle between -pi and pi [rad]."""
     return angle - 2.0 * math.pi * round(angle / (2.0 * math.pi))
+
+
+@njit
+def _may_be_received(azimuth: float, broad: float, fan: Fan) -> bool:
+    """Whether any beam may receive anything within an angle from an azimuth [rad]."""
+    last = fan.first + (fan.n - 1) * fan.step
+    margin = MARGIN * fan.width + broad + SURE
+    low, high = min(fan.first, last) - margin, max(fan.first, last) + margin
+    is_within = False
+    for turn in (-1.0, 0.0, 1.0):
+        is_within |= low <= azimuth + 2.0 * math.pi * turn <= high
+    return is_within
 
 
 @njit

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
 from ...acoustics import MATERIALS, Material
 from ...base.geometry import Array, Pose
@@ -35,6 +36,8 @@ class SceneRays:
         self._bodies, self._heaps = model.ray_bodies, tuple(heaps)
         self._engine = engine
         self._cast_heaps: dict[int, tuple[int, RayScene]] = {}
+        self._carried: list[int] = []  # when it was seen last which bodies are to be placed
+        self._placed: list[tuple[int, Callable[[], Array]]] = []
         self.materials: tuple[Material, ...] = (
             *self._bodies.materials,
             *(MATERIALS["sand"] for _ in heaps),
@@ -68,8 +71,13 @@ class SceneRays:
 
     def _place(self) -> None:
         """Put all bodies where they are now."""
-        for body, frame in enumerate(self._frames):
-            self._scene.place(body + 1, frame())
+        scene, poses = self._scene, self._engine.poses
+        poses.refresh()
+        if self._carried != list(poses.state.carried):
+            self._carried = list(poses.state.carried)
+            scene.let_follow(self._followed())
+        for body, frame in self._placed:
+            scene.place(body, frame())
 
     def _sand(self, number: int, heap: Heap) -> RayScene:
         """The triangles of a heap as it is now."""
@@ -81,15 +89,26 @@ class SceneRays:
             self._cast_heaps[number] = known
         return known[1]
 
-    @cached_property
-    def _frames(self) -> tuple[Callable[[], Array], ...]:
-        """Where each body that moves is; in the order of `_scene`."""
-        return tuple(self._frame(*owner) for owner in self._bodies.movers)
+    def _followed(self) -> npt.NDArray[np.int32]:
+        """The engine's body that each body is where it is, or below 0; the first is what is fixed.
+
+        The others are noted as those that are to be placed.
+        """
+        poses = self._engine.poses
+        movers = self._bodies.movers
+        found = np.array([-1, *(poses.engine_body(*each) for each in movers)], np.int32)
+        self._placed = [
+            (number, self._frame(*owner))
+            for number, owner in enumerate(movers, start=1)
+            if found[number] < 0
+        ]
+        return found
 
     @cached_property
     def _scene(self) -> RayScene:
         """Fixed bodies as the first body, then all that move."""
-        return self._bodies.scene.fresh()
+        poses = self._engine.poses
+        return self._bodies.scene.following(self._followed(), poses.origins, poses.axes)
 
     def _frame(self, vehicle: int | None, link: str, thing: int | None) -> Callable[[], Array]:
         """The present pose of a link or an object, (4, 4) [m]."""
