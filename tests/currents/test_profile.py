@@ -96,7 +96,9 @@ def test_depth_counts_from_the_surface_whichever_way_the_file_has_z(spec: Curren
 
 def test_profiles_are_steady() -> None:
     points = np.array([[0.0, 0.0, 4.0]])
-    assert LAYERS.bind(downward()).acceleration(points, 3.0).tolist() == [[0.0, 0.0, 0.0]]
+    layers = LAYERS.bind(downward())
+    assert layers.is_steady
+    assert layers.acceleration(points, 3.0).tolist() == [[0.0, 0.0, 0.0]]
 
 
 def test_layers_out_of_order_are_an_error() -> None:

@@ -142,6 +142,7 @@ def test_a_current_without_speed_is_still_water_and_one_that_changes_is_not() ->
         assert still.is_still
     for moving in (some, TotalCurrent([none, some])):
         assert not moving.is_still
+        assert not moving.is_steady
     assert not released(0.0, speed_variation=0.1).bind(place()).is_still
     assert ConstantSpec(velocity=(0.0, 0.0, 0.0)).bind(place()).is_still
     assert not ConstantSpec(velocity=(0.0, 0.0, -0.1)).bind(place()).is_still

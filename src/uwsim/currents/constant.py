@@ -44,6 +44,11 @@ class Constant(Current):
         return True
 
     @property
+    def is_steady(self) -> bool:
+        """Whether it is the same at all times: yes."""
+        return True
+
+    @property
     def is_still(self) -> bool:
         """Whether its velocity is zero."""
         return not any(self.components)

@@ -76,6 +76,11 @@ class Current(abc.ABC):
         """Whether it never moves at all."""
         return False
 
+    @property
+    def is_steady(self) -> bool:
+        """Whether it is the same at all times."""
+        return self.is_still
+
     @abc.abstractmethod
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L.

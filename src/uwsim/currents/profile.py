@@ -126,6 +126,11 @@ class Profile(Current, abc.ABC):
     def at_depth(self, depths: Array) -> Array:
         """Return the velocity in L at ``depths`` below the still surface (n,) [m]: (n, 3) [m/s]."""
 
+    @property
+    def is_steady(self) -> bool:
+        """Whether it is the same at all times: yes."""
+        return True
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         return self.at_depth(self._place.depths(points))

@@ -23,6 +23,11 @@ class TargetCurrent(Current):
         return self._current.is_uniform
 
     @property
+    def is_steady(self) -> bool:
+        """Whether the other one is."""
+        return isinstance(self._current, Current) and self._current.is_steady
+
+    @property
     def is_still(self) -> bool:
         """Whether the other one is."""
         return self._current.is_still

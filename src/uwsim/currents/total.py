@@ -24,6 +24,11 @@ class TotalCurrent(Current):
         return all(current.is_uniform for current in self._currents)
 
     @property
+    def is_steady(self) -> bool:
+        """Whether all of them are the same at all times."""
+        return all(isinstance(each, Current) and each.is_steady for each in self._currents)
+
+    @property
     def is_still(self) -> bool:
         """Whether all of them are."""
         return not self._currents

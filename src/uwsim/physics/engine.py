@@ -145,7 +145,8 @@ class Engine:
         Args:
             n: how many.
             water: in each step, at each body that it acts on, its velocity [m/s], acceleration
-                [m/s2] and rotation [rad/s] in W, (n, m, 9); None where it is still.
+                [m/s2] and rotation [rad/s] in W, (n, m, 9); one row counts for all steps; None
+                where it is still.
 
         Raises:
             SimulationFailed: the engine warned, or a body moves faster than can be: what follows

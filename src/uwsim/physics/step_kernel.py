@@ -49,7 +49,8 @@ PLAN = np.dtype(
         ("stride", np.int64),  # bytes from one to the next
         ("wet", np.int64),  # bodies that feel the water
         ("n_wet", np.int64),
-        ("water", np.int64),  # a row of `ROW` numbers for each in each step; 0: it is as it was
+        ("water", np.int64),  # a row of `ROW` numbers for each in each step to come
+        ("n_water", np.int64),  # steps that have one; behind them the water is as it was
     ],
     align=True,
 )
@@ -64,7 +65,7 @@ def begin(plans: Record) -> None:
     plan = plans[0]
     m, d = plan.model, plan.data
     at = longs(plan.offsets, plan.n_offsets)
-    if plan.water != 0:
+    if plan.n_water > 0:
         set_water(plan, floats(word(d + at[f.USERDATA]), word(m + at[f.NUSERDATA])))
     qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
     ctrl = floats(word(d + at[f.CTRL]), word(m + at[f.NU]))
@@ -144,6 +145,7 @@ def set_water(plan: Record, userdata: Array) -> None:
         for k in range(3):
             userdata[to + TURN + k] = rows[ROW * i + 6 + k]
     plan.water += 8 * ROW * plan.n_wet
+    plan.n_water -= 1
 
 
 @njit

@@ -109,20 +109,21 @@ class Stepper:
             n: how many.
             first: how many were taken before.
             motion: of the water at the bodies in each step, velocity [m/s], acceleration [m/s2] and
-                rotation [rad/s] in W, (n, m, 9); None: it is still.
+                rotation [rad/s] in W, (n, m, 9); one row counts for all; None: it is still.
 
         Raises:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
                 not be true.
         """
         if motion is None and self.state.has_flow:
-            motion = np.zeros((n, self._n_wet, step_kernel.ROW))
+            motion = np.zeros((1, self._n_wet, step_kernel.ROW))
             self.state.has_flow = False
         elif motion is not None:
             self.state.has_flow = True
         plan, model, data, step = self._plan, self._model, self._data, self._step
         plan["step"] = first
         plan["water"] = 0 if motion is None else motion.ctypes.data
+        plan["n_water"] = 0 if motion is None else len(motion)
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
         step_kernel.begin(plan)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from importlib import resources
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import pytest
@@ -124,15 +125,45 @@ def test_uniform_water_of_several_steps_is_that_of_each_step(vehicles: tuple[str
         )
 
 
-def test_uniform_water_is_asked_for_once_a_vehicle() -> None:
-    asked = []
+class Asked(Constant):
+    """Notes the vehicles it is asked for."""
 
-    class Asked(Constant):
-        def velocity(self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()):
-            asked.append(tuple(vehicles))
-            return super().velocity(points, time, vehicles)
+    asked: ClassVar[list[tuple[str, ...]]] = []
 
+    def velocity(self, points: np.ndarray, time: float, vehicles: Sequence[str] = ()):
+        self.asked.append(tuple(vehicles))
+        return super().velocity(points, time, vehicles)
+
+
+class Changing(Asked):
+    """Says that it may change with time."""
+
+    @property
+    def is_steady(self) -> bool:
+        return False
+
+
+@pytest.mark.parametrize(("kind", "n"), [(Changing, 4), (Asked, 1)])
+def test_uniform_water_is_asked_for_once_a_vehicle(kind: type[Asked], n: int) -> None:
+    """At each time; if it is steady, once for all times."""
+    Asked.asked.clear()
     motion = WaterMotion(read_scene(SCENE).nominal, Place(stream=lambda _: np.random.default_rng()))
-    motion.set(Asked((0.1, 0.0, 0.0)))
-    motion.during(lambda: np.zeros((5, 3)), (0.1, 0.2), ("a", "a", "", "a", ""))
-    assert asked == [("a", "")] * 2
+    motion.set(kind((0.1, 0.0, 0.0)))
+    vehicles = ("a", "a", "", "a", "")
+    found = [motion.during(lambda: np.zeros((5, 3)), (t, t + 0.1), vehicles) for t in (0.1, 0.3)]
+    assert Asked.asked == [("a", "")] * n
+    assert found[0] is not None
+    assert found[0][0].tobytes() == found[0][-1].tobytes()
+    assert found[1] is not None
+    assert found[1][0].tobytes() == found[0][0].tobytes()
+
+
+def test_another_current_or_other_bodies_are_not_taken_for_those_before() -> None:
+    motion = WaterMotion(read_scene(SCENE).nominal, Place(stream=lambda _: np.random.default_rng()))
+    rows = []
+    for x, vehicles in ((0.1, ("a",)), (0.2, ("a",)), (0.2, ("a", "b")), (0.1, ("a", "b"))):
+        motion.set(TargetCurrent(Constant((x, 0.0, 0.0)), "a"))
+        found = motion.during(lambda: np.zeros((9, 3)), (0.1,), vehicles)
+        assert found is not None
+        rows.append(np.linalg.norm(found[0, :, :3], axis=1).tolist())
+    assert rows == [pytest.approx(speeds) for speeds in ([0.1], [0.2], [0.2, 0.0], [0.1, 0.0])]

@@ -14,6 +14,7 @@ from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...base.record import Record
 from ...currents import Place, TotalCurrent, bind_currents
+from ...currents.current import Current
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
 from ...scene.spec import SceneSpec
@@ -53,6 +54,7 @@ class WaterMotion:
         self._felt_by: Sequence[str] = ()  # the vehicle at each point of `during`
         self._names: tuple[str, ...] = ()  # their names, each once
         self._felt = np.zeros(0, np.int64)  # the number of its name, for each point
+        self._steady: tuple[Flow, Sequence[str], Array] | None = None  # what it was found for
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
         for spec in specs:
@@ -88,6 +90,8 @@ class WaterMotion:
     ) -> Array | None:
         """Return how the water moves at some points at some times, in W; None if it is still.
 
+        Of water that is the same everywhere and always there is one row for all times.
+
         Args:
             positions: where the points are now, in W, (n, 3) [m]; several times take water that
                 is uniform.
@@ -95,12 +99,19 @@ class WaterMotion:
             vehicles: as `at` takes them.
 
         Returns:
-            Velocity [m/s], acceleration [m/s2] and rotation [rad/s], (times, n, 9).
+            Velocity [m/s], acceleration [m/s2] and rotation [rad/s], (times or 1, n, 9).
         """
-        if self._flow.is_still:
+        flow = self._flow
+        if flow.is_still:
             return None
-        if self._flow.is_uniform:
-            return self._everywhere(times, vehicles)
+        if self._steady is not None and self._steady[0] is flow and self._steady[1] == vehicles:
+            return self._steady[2]
+        if flow.is_uniform:
+            if not isinstance(flow, Current) or not flow.is_steady:
+                return self._everywhere(times, vehicles)
+            rows = self._everywhere(times[:1], vehicles)
+            self._steady = flow, vehicles, rows
+            return rows
         points = positions()
         found = np.zeros((len(times), len(vehicles), 9))
         for row, time in zip(found, times, strict=True):
