@@ -176,17 +176,25 @@ def opened(folder: Path, *, is_read: bool, watches: bool = False, **of_scene: ob
     return simulation
 
 
-def step_us(simulation: Simulation, n_vehicles: int = 1) -> tuple[float, float]:
-    """Median and least CPU microseconds of a step."""
-    drive(simulation, n_vehicles, 2)
-    spent, n = 0.0, 5
-    while spent < 0.2 * CPU_S:
-        n *= 2
-        spent = drive(simulation, n_vehicles, n)
-    periods = max(2, round(n * CPU_S / spent))
-    found = [drive(simulation, n_vehicles, periods) for _ in range(BATCHES)]
-    per_step = 1e6 / (periods * round(steps.PERIOD / simulation.timestep))
-    return median(found) * per_step, min(found) * per_step
+def step_us(*simulations: tuple[Simulation, int]) -> list[list[float]]:
+    """CPU microseconds of a step of each simulation with so many vehicles, batch by batch.
+
+    The batches of several simulations alternate, so that they meet the same load.
+    """
+    n_periods = []
+    for simulation, n_vehicles in simulations:
+        drive(simulation, n_vehicles, 2)
+        spent, n = 0.0, 5
+        while spent < 0.2 * CPU_S:
+            n *= 2
+            spent = drive(simulation, n_vehicles, n)
+        n_periods.append(max(2, round(n * CPU_S / spent)))
+    found: list[list[float]] = [[] for _ in simulations]
+    for _ in range(BATCHES):
+        for costs, (simulation, n_vehicles), n in zip(found, simulations, n_periods, strict=True):
+            n_steps = n * round(steps.PERIOD / simulation.timestep)
+            costs.append(1e6 * drive(simulation, n_vehicles, n) / n_steps)
+    return found
 
 
 def measured(n_vehicles: int = 1, **options: object) -> dict[str, float]:
@@ -194,11 +202,12 @@ def measured(n_vehicles: int = 1, **options: object) -> dict[str, float]:
     with tempfile.TemporaryDirectory() as folder:
         of_scene = {"n_vehicles": n_vehicles, "is_read": True, **options}
         with opened(Path(folder), **of_scene) as simulation:  # type: ignore[arg-type]
-            middle, least = step_us(simulation, n_vehicles)
+            (costs,) = step_us((simulation, n_vehicles))
             engine = steps.bare(simulation, CPU_S)
+    middle = median(costs)
     return {
         "step_us": round(middle, 2),
-        "step_us_best": round(least, 2),
+        "step_us_best": round(min(costs), 2),
         "engine_us": round(engine, 2),
         "ratio": round(middle / engine, 3),
         "steps_per_s": round(1e6 / middle),
@@ -220,29 +229,37 @@ def scenes() -> dict[str, object]:
 
 
 def influences() -> dict[str, object]:
-    """What each thing adds to a step [us]."""
-    plain = measured(current="still")
-    base = plain["step_us_best"]
-    found: dict[str, object] = {"still water, no sensor": plain}
+    """What each thing adds to a step [us], and that in the steps of a plain scene."""
+    found: dict[str, object] = {}
     for name in CURRENTS:
-        found[f"current {name}"] = added(base, current=name)
+        if name != "still":
+            found[f"current {name}"] = added(current=name)
     for name in SENSORS:
         if name == "imaging sonar":
             continue
         for is_read in (False, True):
-            row = added(base, current="still", sensors={name: 100}, is_read=is_read)
+            row = added(sensors={name: 100}, is_read=is_read)
             found[f"{name} at 100 Hz, {'read' if is_read else 'unread'}"] = row
-    found["odometry at 100 Hz, read"] = added(base, current="still", sensors={"odometry": 100})
-    found["observer of every step"] = added(base, current="still", watches=True)
-    found["drifting vehicle"] = added(base, drifts=True)
+    found["odometry at 100 Hz, read"] = added(sensors={"odometry": 100}, is_read=True)
+    found["observer of every step"] = added(watches=True)
+    found["drifting vehicle in a constant current"] = added(current="constant", drifts=True)
     return found
 
 
-def added(base: float, **options: object) -> dict[str, float]:
-    """The cost of a step less that of a plain one [us], and beside it."""
-    row = measured(**options)  # type: ignore[arg-type]
-    more = row["step_us_best"] - base
-    return {"added_us": round(more, 2), "ratio_to_plain": round(row["step_us_best"] / base, 3)}
+def added(**options: object) -> dict[str, float]:
+    """The cost of a step beside one in still water without sensors."""
+    chosen = {"current": "still", "is_read": False, **options}
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        opened(Path(folder), is_read=False, current="still") as plain,
+        opened(Path(folder), **chosen) as other,  # type: ignore[arg-type]
+    ):
+        before, after = (median(costs) for costs in step_us((plain, 1), (other, 1)))
+    return {
+        "plain_us": round(before, 2),
+        "added_us": round(after - before, 2),
+        "ratio": round(after / before, 3),
+    }
 
 
 def samples() -> dict[str, object]:
