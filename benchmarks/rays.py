@@ -85,7 +85,7 @@ def triangles_by_body(scene: RayScene) -> list[Array]:
         order = [np.arange(first, first + n) for first, n in leaves]
         rows = trees.triangles[np.concatenate(order)] if order else np.zeros((0, 9))
         corners = rows.reshape(-1, 3, 3) + np.array([[0.0], [1.0], [1.0]]) * rows[:, None, :3]
-        frame = scene._world_from_body[body]
+        frame = scene._bodies.world_from_body[body]
         found.append(corners @ frame[:3, :3].T + frame[:3, 3])
     return found
 
