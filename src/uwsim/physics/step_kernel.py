@@ -9,6 +9,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.jit import njit
+from ..base.numerics.memory import Ints64, carray, floats, longs, pointer, small, word
 from .actuation.autopilot_kernel import Seen, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
 from .actuation.servo_kernel import Forces, move_on, pull
@@ -16,7 +17,6 @@ from .engine_warnings import too_fast
 from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
-from .hydrodynamics.kernel.memory import Ints64, carray, floats, longs, pointer, small, word
 from .islands import choose_islands
 
 _TINY = 1e-15  # mjMINVAL

@@ -24,9 +24,9 @@ import numpy as np
 from numba import types
 
 from ...base.numerics.jit import c_function, link_library
+from ...base.numerics.memory import Floats, Ints64
 from ...errors import UwsimError
 from .kernel import free_bodies, kernel, layout
-from .kernel.memory import Floats, Ints64
 
 _SIGNATURE = types.void(types.intp, types.intp)
 _make: Any
