@@ -184,6 +184,12 @@ def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
 
 
 @functools.cache
+def kinematics_address() -> int:
+    """Return the address of ``mj_kinematics``, which places all bodies."""
+    return ctypes.cast(library().mj_kinematics, ctypes.c_void_p).value or 0
+
+
+@functools.cache
 def _address() -> int:
     """Of our function."""
     return int(wrapper().address)
