@@ -76,7 +76,7 @@ class MovingCarrier(FakeCarrier):
     def moving_mount(self, spec: object) -> FakeBody:
         body = self.mount(spec)
         moving = BodyMotion(self.velocity, np.zeros(3), np.zeros(3))
-        body.motion = lambda: moving  # type: ignore[attr-defined]
+        body.motion = lambda: moving
         return body
 
 

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
 from uwsim.base import rng
-from uwsim.sensors.drift import FLOOR, PEAK, Drift, DriftSpec
+from uwsim.base.numerics.jit import njit
+from uwsim.sensors.drift import FLOOR, PEAK, Drift, DriftSpec, draw_errors
 
 RATE = 10.0
+
+
+@njit
+def draw(drifts: Any, time: float) -> tuple[np.ndarray, float]:
+    errors = np.empty(3)
+    variance = draw_errors(drifts[0], time, errors)
+    return errors, variance
 
 
 def errors(n: int, **fields: float) -> np.ndarray:
     """Errors of three axes at `RATE`, (n, 3)."""
     drift = Drift(DriftSpec(**fields), rng.stream(1, "test"))
-    return np.array([drift.sample((k + 1) / RATE)[0] for k in range(n)])
+    return np.array([draw(drift.parameters, (k + 1) / RATE)[0] for k in range(n)])
 
 
 def allan(series: np.ndarray, m: int) -> np.ndarray:
@@ -60,7 +70,7 @@ def test_the_greatest_deviation_of_a_gauss_markov_process() -> None:
 def test_the_bias_does_not_depend_on_how_often_it_is_sampled() -> None:
     """Samples a correlation time apart: deviation s and correlation 1/e, both within 4 %."""
     drift = Drift(DriftSpec(bias_instability=1.0, correlation_time=0.1), rng.stream(3, "test"))
-    series = np.array([drift.sample(k * 0.1)[0] for k in range(10_000)])
+    series = np.array([draw(drift.parameters, k * 0.1)[0] for k in range(10_000)])
     std = DriftSpec(bias_instability=1.0).bias_std
     assert np.std(series) == pytest.approx(std, rel=0.04)
     lag = np.mean(series[1:] * series[:-1]) / np.mean(series**2)
@@ -75,8 +85,32 @@ def test_the_variance_that_is_published_is_that_of_the_errors() -> None:
     found = []
     for seed in range(700):
         drift = Drift(spec, rng.stream(seed, "test"))
-        drift.sample(49.9)
-        error, variance = drift.sample(50.0)
+        draw(drift.parameters, 49.9)
+        error, variance = draw(drift.parameters, 50.0)
         found.append(error)
     walked = spec.random_walk**2 * 49.9  # before the first sample nothing walks
     assert np.var(found) == pytest.approx(variance - walked, rel=0.13)
+
+
+def test_the_errors_follow_the_formulas_of_the_page() -> None:
+    """Drawn by the same generator in Python, axis by axis."""
+    spec = DriftSpec(
+        noise_density=0.1, bias_instability=0.2, random_walk=0.03, turn_on_bias=0.4,
+        correlation_time=2.0,
+    )  # fmt: skip
+    drift, random = Drift(spec, rng.stream(1, "test")), rng.stream(1, "test")
+    constant = 0.4 * random.standard_normal(3)
+    bias, walk, before = spec.bias_std * random.standard_normal(3), np.zeros(3), None
+    for time in (0.1, 0.15, 0.4):
+        lasted = 0.0 if before is None else time - before
+        white, w2, w3 = random.standard_normal((3, 3))
+        kept = np.exp(-lasted / 2.0)
+        bias = kept * bias + spec.bias_std * np.sqrt(1.0 - kept**2) * w2
+        walk = walk + 0.03 * np.sqrt(lasted) * w3
+        expected = 0.1 / np.sqrt(lasted or 0.01) * white + constant + bias + walk
+        error, variance = draw(drift.parameters, time)
+        assert error == pytest.approx(expected, rel=1e-12)
+        slow = 0.4**2 + spec.bias_std**2 + 0.03**2 * time
+        assert variance == pytest.approx(0.1**2 / (lasted or 0.01) + slow)
+        before = time
+    assert drift.state.random.standard_normal() == random.standard_normal()

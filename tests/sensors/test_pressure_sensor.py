@@ -9,7 +9,7 @@ from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier
 from uwsim.base.geometry import Pose
 from uwsim.sensors.pressure_sensor import PressureSensor, PressureSensorSpec, column_mass
 
-LEVELS = ((5.0, 1000.0), (15.0, 1020.0))
+LEVELS = np.array([[5.0, 1000.0], [15.0, 1020.0]])
 
 
 def make(

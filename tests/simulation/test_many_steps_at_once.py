@@ -99,7 +99,7 @@ def test_the_engine_is_called_once_for_many_steps_that_nothing_comes_between(
     taken: list[int] = []
     step = simulation.world.engine.step
     monkeypatch.setattr(
-        simulation.world.engine, "step", lambda n, water: (taken.append(n), step(n, water))
+        simulation.world.engine, "step", lambda n, *rest: (taken.append(n), step(n, *rest))
     )
     simulation.advance(0.1)
     assert taken == [50]

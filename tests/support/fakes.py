@@ -11,14 +11,29 @@ import numpy as np
 from uwsim.base import rng
 from uwsim.base.geodesy import Geodetic
 from uwsim.base.geometry import Intrinsics, Pose
+from uwsim.base.numerics.calls import address_of, function_address
+from uwsim.base.numerics.memory import floats
 from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.network import Network
-from uwsim.world import Actuators, Body, Box, Camera, Contact, Flow
+from uwsim.world import Actuators, Body, BodyMotion, Box, Camera, Contact, Flow
+from uwsim.world.mounts import MOUNT
+
+
+def place_fixed(parameters: int, values: int, time: float) -> None:
+    """Write the frame that `FakeBody.prepare` has written down."""
+    floats(values, 12)[:] = floats(parameters, 12)
+
+
+def move_fixed(parameters: int, values: int, time: float) -> None:
+    """Write the motion that `FakeBody.prepare` has written down."""
+    floats(values + 24, 9)[:] = floats(parameters + 96, 9)
 
 
 class FakeBody:
     """A body that stands where it is put."""
+
+    is_compiled = False
 
     def __init__(
         self,
@@ -30,8 +45,23 @@ class FakeBody:
     ) -> None:
         self.name, self.box = name, box
         self._pose = Pose(np.array(position, dtype=float), np.eye(3))
+        self.motion: Callable[[], BodyMotion] | None = None
+        self._numbers = np.zeros(21)
+        self.functions = np.zeros(1, MOUNT)
+        self.functions["place"] = function_address(place_fixed)
+        self.functions["move"] = function_address(move_fixed)
+        self.functions["parameters"] = address_of(self._numbers)
         if rotation is not None:
             self.turn(rotation)
+
+    def prepare(self) -> None:
+        """Write down where it is and how it moves, for compiled code."""
+        self._numbers[:3], self._numbers[3:12] = self._pose.position, self._pose.rotation.ravel()
+        if self.motion is not None:
+            moving = self.motion()
+            self._numbers[12:] = np.concatenate(
+                [moving.velocity, moving.angular_velocity, moving.acceleration]
+            )
 
     @property
     def world_from_body(self) -> Pose:

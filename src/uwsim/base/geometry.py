@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from .numerics.jit import njit
 from .numerics.linear import Array as Array
 from .numerics.linear import composed, length, placed, product, turned_back
 
@@ -39,17 +40,21 @@ def rotation_z(angle: float) -> Array:
 
 def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Array:
     """``Rz(yaw) Ry(pitch) Rx(roll)``: about fixed axes, as in ROS and URDF [rad], (3, 3)."""
+    rotation = np.empty((3, 3))
+    write_rotation(roll, pitch, yaw, rotation)
+    return rotation
+
+
+@njit
+def write_rotation(roll: float, pitch: float, yaw: float, rotation: Array) -> None:
+    """Write what `rotation_from_rpy` returns into (3, 3)."""
     a, b, c = math.cos(roll), math.cos(pitch), math.cos(yaw)
     u, v, w = math.sin(roll), math.sin(pitch), math.sin(yaw)
     right, below = c * v, w * v
-    rotation = np.array(
-        [
-            [c * b, right * u - w * a, w * u + right * a],
-            [w * b, c * a + below * u, below * a - c * u],
-            [-v, b * u, b * a],
-        ]
-    )
-    return rotation + 0.0  # no zero is negative
+    rotation[0, 0], rotation[0, 1], rotation[0, 2] = c * b, right * u - w * a, w * u + right * a
+    rotation[1, 0], rotation[1, 1], rotation[1, 2] = w * b, c * a + below * u, below * a - c * u
+    rotation[2, 0], rotation[2, 1], rotation[2, 2] = -v, b * u, b * a
+    rotation += 0.0  # no zero is negative
 
 
 def rotation_from_xyz(x: float, y: float, z: float) -> Array:
@@ -82,7 +87,17 @@ def rotation_about(axis: Array, angle: float) -> Array:
 
 def quaternion_from_rotation(rotation: Array) -> Array:
     """Unit quaternion wxyz, w >= 0, of a rotation matrix (3, 3) (Shepperd's method), (4,)."""
-    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = rotation.tolist()
+    found = np.empty(4)
+    write_quaternion(np.ascontiguousarray(rotation, dtype=np.float64), found)
+    return found
+
+
+@njit
+def write_quaternion(rotation: Array, quaternion: Array) -> None:
+    """Write what `quaternion_from_rotation` returns into (4,)."""
+    xx, xy, xz = rotation[0]
+    yx, yy, yz = rotation[1]
+    zx, zy, zz = rotation[2]
     trace = xx + yy + zz
     most = max(trace, xx, yy, zz)
     if trace == most:
@@ -94,8 +109,10 @@ def quaternion_from_rotation(rotation: Array) -> Array:
     else:
         w, x, y, z = yx - xy, xz + zx, yz + zy, 1.0 + zz - xx - yy
     size = math.sqrt(w * w + x * x + y * y + z * z)
-    found = np.array([w / size, x / size, y / size, z / size])
-    return -found if found[0] < 0.0 else found
+    if w / size < 0.0:
+        size = -size
+    quaternion[0], quaternion[1] = w / size, x / size
+    quaternion[2], quaternion[3] = y / size, z / size
 
 
 def rotation_from_quaternion(wxyz: Array) -> Array:

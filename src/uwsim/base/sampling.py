@@ -1,29 +1,99 @@
-"""Sampling times: a sample is due at the first step at or after its time."""
+"""Sampling times, and samples that compiled code takes.
+
+A sample is due at the first step at or after its time. Timers stand in a table of records that
+compiled code walks (`take_due`) at the steps at which one is due. A timer may have a sampler: a
+compiled function that writes the numbers of a sample (`uwsim.base.numerics.calls`).
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
+from .numerics.calls import address_of, call, evaluate
+from .numerics.jit import njit
+from .numerics.linear import Array
+from .numerics.memory import Ints64, carray, floats, longs, pointer
 from .record import Record
 
+START, N_SAMPLES, DUE = range(3)
+"""Of the counts of a timer: the step of its first sample, the samples taken, the next step."""
+NEVER = 2**62
+"""The step of what is never due."""
 
+TIMER = np.dtype(
+    [
+        ("rate", np.float64),  # [Hz]
+        ("counts", np.int64),  # the address of `TimerState.counts`
+        ("function", np.int64),  # addresses of a sampler; 0: there is none
+        ("parameters", np.int64),
+        ("values", np.int64),  # of `Sample.numbers`
+        ("is_fired", np.int64),  # whether it was due when the table was walked last
+    ]
+)
+"""A timer in a table."""
+TABLE = np.dtype(
+    [
+        ("timers", np.int64),  # the address of records of `TIMER`
+        ("n", np.int64),
+        ("due", np.int64),  # the address of the step before which no timer is due
+        ("timestep", np.float64),  # [s]
+    ]
+)
+"""A table of timers."""
+
+Records = Any
+
+
+@njit
 def sample_step(n: int, rate: float, timestep: float) -> int:
-    """Step at which sample ``n`` of a sensor with ``rate`` [Hz] is taken."""
+    """Return the step at which sample ``n`` of a sensor with ``rate`` [Hz] is taken."""
     return math.ceil(n / (rate * timestep) - 1e-9)
+
+
+@njit
+def count_sample(counts: Ints64, rate: float, timestep: float) -> None:
+    """Count a sample of a timer, and find the step of the next."""
+    counts[N_SAMPLES] += 1
+    counts[DUE] = counts[START] + sample_step(counts[N_SAMPLES], rate, timestep)
+
+
+@njit
+def take_due(tables: Records, step: int) -> None:
+    """Count the timers that are due at a step, and take the samples of those with a sampler."""
+    table = tables[0]
+    timers = carray(pointer(table.timers), (table.n,), TIMER)
+    least = NEVER
+    for i in range(table.n):
+        timer = timers[i]
+        counts = longs(timer.counts, 3)
+        timer.is_fired = 1 if step >= counts[DUE] else 0
+        if timer.is_fired != 0:
+            count_sample(counts, timer.rate, table.timestep)
+            if timer.function != 0:
+                time = step * table.timestep
+                floats(timer.values, 1)[0] = time
+                call(timer.function, timer.parameters, timer.values + 8, time)
+        least = min(least, counts[DUE])
+    longs(table.due, 1)[0] = least
 
 
 @dataclass(slots=True)
 class TimerState(Record):
     """How far a timer is."""
 
-    start: int
-    """The step of the first sample."""
-    n_samples: int
-    """The samples taken."""
-    due: int
-    """The step of the next sample."""
+    counts: npt.NDArray[np.int64]
+    """The step of the first sample, the number of samples taken, and the step of the next, (3,)."""
+
+    @staticmethod
+    def starting_at(step: int) -> TimerState:
+        """Return that of a timer whose first sample is due at a step."""
+        return TimerState(np.array([step, 0, step], np.int64))
 
 
 class SampleTimer:
@@ -31,18 +101,70 @@ class SampleTimer:
 
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
         self._rate, self._timestep, self._call = rate, timestep, call
-        self.state = TimerState(start, 0, start)
+        self.state = TimerState.starting_at(start)
         """How far it is."""
 
     @property
     def due(self) -> int:
         """Step of the next sample."""
-        return self.state.due
+        return int(self.state.counts[DUE])
 
     def tick(self, step: int) -> None:
         """Call the function if a sample is due at this step."""
-        state = self.state
-        if step >= state.due:
-            state.n_samples += 1
-            state.due = state.start + sample_step(state.n_samples, self._rate, self._timestep)
+        if step >= self.due:
+            count_sample(self.state.counts, self._rate, self._timestep)
             self._call()
+
+
+def _always() -> bool:
+    return True
+
+
+def _nothing() -> None:
+    """Prepare nothing."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Sampler:
+    """What takes the samples of a sensor in compiled code."""
+
+    function: int
+    """The address of the function that writes a sample; see `uwsim.base.numerics.calls`."""
+    parameters: npt.NDArray[Any]
+    """The array that the function reads at its address."""
+    n_values: int
+    """How many numbers it writes."""
+    prepare: Callable[[], None] = _nothing
+    """Brings up to date, in Python, what the function reads; called before samples in Python."""
+    is_alone: Callable[[], bool] = _always
+    """Says whether the function needs no preparation in steps that compiled code takes."""
+    kept: tuple[object, ...] = field(default=())
+    """What the parameters have the addresses of."""
+
+    def take(self, time: float) -> Array:
+        """Take a sample at ``time`` [s]: its numbers, (n,)."""
+        self.prepare()
+        return evaluate(self.function, address_of(self.parameters), self.n_values, time)
+
+
+@dataclass(slots=True)
+class Sample(Record):
+    """The last sample that was taken for a topic."""
+
+    numbers: Array
+    """Its time [s], NaN before the first, and the numbers of its `Sampler`, (1 + n,)."""
+
+    @staticmethod
+    def of(sampler: Sampler) -> Sample:
+        """Return that of a sampler that has not taken one."""
+        return Sample(np.full(1 + sampler.n_values, math.nan))
+
+
+@dataclass(frozen=True, eq=False)
+class Sampling:
+    """A sampler, and where its samples are written."""
+
+    sampler: Sampler
+    """What takes them."""
+    sample: Sample
+    """The last one."""

@@ -226,7 +226,22 @@ class Bus:
     def unread(self, topic: str) -> object | None:
         """Return the newest message that was published while the topic had no subscriber."""
         entry = self._topics.get(without_slash(topic))
-        return None if entry is None or entry.unread is None else freeze(entry.unread)
+        if entry is None:
+            return None
+        newest = entry.unread if entry.make_unread is None else entry.make_unread()
+        return None if newest is None else freeze(newest)
+
+    def defer_unread(self, topic: str, make: Callable[[], object | None]) -> None:
+        """Have the newest message of a topic made when `unread` asks for it.
+
+        Who publishes on the topic then does so only while somebody reads or hears it.
+        """
+        self._topics[without_slash(topic)].make_unread = make
+
+    def reader_check(self, topic: str) -> Callable[[], bool]:
+        """Return what says whether somebody reads or hears a topic that is published."""
+        entry = self._topics[without_slash(topic)]
+        return lambda: bool(entry.readers or entry.hearers)
 
     def message_type(self, topic: str) -> type | None:
         """The message type of ``topic``; None before the first reader or writer."""

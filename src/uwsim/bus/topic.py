@@ -37,6 +37,8 @@ class Topic:
     """Whether its newest message is kept, for inboxes that come later."""
     unread: Any = None
     """The newest message that was published while the topic had no subscriber."""
+    make_unread: Callable[[], Any] | None = None
+    """Makes that message when it is asked for, in place of ``unread``."""
 
     def said_once(self, remark: Remark | None) -> str | None:
         """Return a remark as a text, the first of what is expected; else None."""

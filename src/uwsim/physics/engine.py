@@ -139,7 +139,13 @@ class Engine:
         parts = [self._model.body(i).name.split("/") for i in self._wet.tolist()]
         return tuple(int(part[1]) if part[0] == "vehicle" else None for part in parts)
 
-    def step(self, n: int, water: Array | None) -> None:
+    def step(
+        self,
+        n: int,
+        water: Array | None,
+        samples: npt.NDArray[np.void] | None = None,
+        step: int = 0,
+    ) -> None:
         """Advance all simulated bodies by some steps.
 
         Args:
@@ -147,6 +153,8 @@ class Engine:
             water: in each step, at each body that it acts on, its velocity [m/s], acceleration
                 [m/s2] and rotation [rad/s] in W, (n, m, 9); one row counts for all steps; None
                 where it is still.
+            samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
+            step: the number of the first step by the clock of the samples.
 
         Raises:
             SimulationFailed: the engine warned, or a body moves faster than can be: what follows
@@ -159,7 +167,7 @@ class Engine:
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
         try:
-            self._stepper.run(n, self.state.n_steps, water)
+            self._stepper.run(n, self.state.n_steps, water, samples, step)
         finally:
             self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()

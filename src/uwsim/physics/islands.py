@@ -10,8 +10,8 @@ and is part of the state: MuJoCo's own flag.
 from __future__ import annotations
 
 from ..base.numerics.jit import njit
+from ..base.numerics.memory import Ints64, ints, small
 from .hydrodynamics.kernel import fields as f
-from .hydrodynamics.kernel.memory import Ints64, ints, small
 
 FEW_ROWS = 256
 """Of constraints, 16 boxes on a floor: up to here islands cost nothing."""

@@ -9,11 +9,15 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
+from ..base.numerics.calls import address_of
 from ..base.numerics.linear import points_of, product, turned
 from ..base.record import Record
 from ..model.body_names import object_body, vehicle_body
 from ..model.scene_model import SceneModel
-from .scaled import stretched_axes
+from .kinematics.link_kernel import MOUNT, frame_of, stretch
+
+Mount = npt.NDArray[np.void]
+"""A record of `link_kernel.MOUNT`, (1,)."""
 
 
 @dataclass(slots=True)
@@ -112,23 +116,32 @@ class Poses:
         pose = self.link(index, link)
         frame = pose.matrix
         if index in self._scales:
-            frame[:3, :3] = stretched_axes(self.vehicle(index), pose, self._scales[index])
+            base, scale = self.vehicle(index).rotation, np.array(self._scales[index])
+            frame[:3, :3] = stretch(base, pose.rotation, scale)
         return frame
 
-    def mounted(self, index: int, link: str, link_from_part: Pose) -> Pose:
-        """Return where something on a link is; the vehicle's scale moves it and does not turn it.
+    def mount(self, index: int, link: str, link_from_part: Pose) -> Mount:
+        """Return the record of a part on a link, for `mounted` and for compiled code.
 
         Args:
             index: number of the vehicle.
             link: name of the link.
             link_from_part: where the file puts it on the link.
         """
-        pose = self.link(index, link)
-        if index not in self._scales:
-            return pose @ link_from_part
-        axes = stretched_axes(self.vehicle(index), pose, self._scales[index])
-        position = pose.position + turned(axes, link_from_part.position)
-        return Pose(position, product(pose.rotation, link_from_part.rotation))
+        body, mount = self._links[index, link], np.zeros(1, MOUNT)
+        mount["origin"] = address_of(self.origins) + 24 * body
+        mount["axes"] = address_of(self.axes) + 72 * body
+        mount["position"], mount["rotation"] = link_from_part.position, link_from_part.rotation
+        if index in self._scales:
+            mount["base_axes"] = address_of(self.axes) + 72 * self._bases[index]
+            mount["scale"] = self._scales[index]
+        return mount
+
+    def mounted(self, mount: Mount) -> Pose:
+        """Return where a part on a link is; the vehicle's scale moves it and does not turn it."""
+        self.refresh()
+        frame = frame_of(mount)
+        return Pose(frame[:3], frame[3:].reshape(3, 3))
 
     def object(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""

@@ -14,8 +14,8 @@ from __future__ import annotations
 import mujoco
 import numpy as np
 
-from ..base.geometry import Array, Pose, Triple, rotation_from_rpy
-from ..base.numerics.linear import length, product, turned, turned_back
+from ..base.geometry import Array, Triple, rotation_from_rpy
+from ..base.numerics.linear import length, turned, turned_back
 from ..model.body_names import vehicle_body
 from ..scene.urdf.kinematics import joint_positions, link_poses
 from ..scene.urdf.robot import RobotSpec
@@ -48,9 +48,3 @@ class ScaledLinks:
                 axis = np.array(joint.axis) / length(joint.axis)
                 apart -= turned(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
             self._model.body_pos[self._bodies[joint.child]] = apart
-
-
-def stretched_axes(world_from_base: Pose, world_from_link: Pose, scale: Triple) -> Array:
-    """Axes of a link in W with the vehicle's scale in them, as columns, (3, 3)."""
-    turn = world_from_base.rotation
-    return product(turn * np.array(scale), product(turn.T, world_from_link.rotation))

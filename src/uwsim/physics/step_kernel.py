@@ -8,7 +8,10 @@ from typing import Any
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import call_both
 from ..base.numerics.jit import njit
+from ..base.numerics.memory import Ints64, carray, floats, longs, pointer, small, word
+from ..base.sampling import TABLE, take_due
 from .actuation.autopilot_kernel import Seen, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
 from .actuation.servo_kernel import Forces, move_on, pull
@@ -16,7 +19,6 @@ from .engine_warnings import too_fast
 from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
-from .hydrodynamics.kernel.memory import Ints64, carray, floats, longs, pointer, small, word
 from .islands import choose_islands
 
 _TINY = 1e-15  # mjMINVAL
@@ -49,6 +51,9 @@ PLAN = np.dtype(
         ("stride", np.int64),  # bytes from one to the next
         ("wet", np.int64),  # bodies that feel the water
         ("n_wet", np.int64),
+        ("samples", np.int64),  # a record of `sampling.TABLE`; 0: none are taken
+        ("ahead", np.int64),  # steps of the simulation's clock less those of this count
+        ("kinematics", np.int64),  # the address of MuJoCo's function
         ("water", np.int64),  # a row of `ROW` numbers for each in each step to come
         ("n_water", np.int64),  # steps that have one; behind them the water is as it was
     ],
@@ -125,10 +130,23 @@ def end(plans: Record) -> int:
 
 
 @njit
+def sample(plans: Record) -> None:
+    """Take the samples that are due after a step, with all bodies placed where they are then."""
+    plan = plans[0]
+    if plan.samples == 0:
+        return
+    tables, step = carray(pointer(plan.samples), (1,), TABLE), plan.step + plan.ahead
+    if step >= word(tables[0].due):
+        call_both(plan.kinematics, plan.model, plan.data)
+        take_due(tables, step)
+
+
+@njit
 def end_and_begin(plans: Record) -> int:
-    """Complete a step and begin the next, if the first went well."""
+    """Complete a step, sample, and begin the next, if the first went well."""
     found = end(plans)
     if found == WENT_WELL:
+        sample(plans)
         begin(plans)
     return found
 

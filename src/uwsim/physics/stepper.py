@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array
+from ..base.numerics.calls import address_of
 from ..base.record import Record
 from . import step_kernel
 from .actuation.autopilot import Autopilot
@@ -69,6 +70,7 @@ class Stepper:
         uses_callback = callback.has_slot()
         plan["model"], plan["data"] = model._address, data._address
         plan["is_in_middle"] = uses_callback
+        plan["kinematics"] = callback.kinematics_address()
         plan["autopilot_steps"] = max(1, round(AUTOPILOT_PERIOD / model.opt.timestep))
         plan["timestep"] = model.opt.timestep
         self._kept = {
@@ -102,7 +104,14 @@ class Stepper:
         """Steps taken since the beginning; one that failed counts."""
         return int(self._plan["step"][0])
 
-    def run(self, n: int, first: int, motion: Array | None) -> None:
+    def run(
+        self,
+        n: int,
+        first: int,
+        motion: Array | None,
+        samples: npt.NDArray[np.void] | None = None,
+        step: int = 0,
+    ) -> None:
         """Take steps.
 
         Args:
@@ -110,6 +119,8 @@ class Stepper:
             first: how many were taken before.
             motion: of the water at the bodies in each step, velocity [m/s], acceleration [m/s2] and
                 rotation [rad/s] in W, (n, m, 9); one row counts for all; None: it is still.
+            samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
+            step: the number of the first step by the clock of the samples.
 
         Raises:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
@@ -120,8 +131,10 @@ class Stepper:
             self.state.has_flow = False
         elif motion is not None:
             self.state.has_flow = True
-        plan, model, data, step = self._plan, self._model, self._data, self._step
+        plan, model, data, advance = self._plan, self._model, self._data, self._step
         plan["step"] = first
+        plan["samples"] = 0 if samples is None else address_of(samples)
+        plan["ahead"] = step - 1 - first
         plan["water"] = 0 if motion is None else motion.ctypes.data
         plan["n_water"] = 0 if motion is None else len(motion)
         if self._uses_callback:
@@ -129,12 +142,12 @@ class Stepper:
         step_kernel.begin(plan)
         found = step_kernel.WENT_WELL
         for _ in range(n - 1):
-            step(model, data)
+            advance(model, data)
             found = self._end_and_begin(plan)
             if found != step_kernel.WENT_WELL:
                 break
         else:
-            step(model, data)
+            advance(model, data)
             found = step_kernel.end(plan)
             if self._bounces is not None and found == step_kernel.WENT_WELL:
                 self._bounces.apply()
@@ -143,11 +156,12 @@ class Stepper:
             self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
 
     def _bound_and_begin(self, plan: npt.NDArray[np.void]) -> int:
-        """Complete a step, bound what bounces, and begin the next step."""
+        """Complete a step, bound what bounces, sample, and begin the next step."""
         assert self._bounces is not None
         found = int(step_kernel.end(plan))
         if found == step_kernel.WENT_WELL:
             self._bounces.apply()
+            step_kernel.sample(plan)
             step_kernel.begin(plan)
         return found
 

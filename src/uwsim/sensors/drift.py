@@ -24,10 +24,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import address_of
+from ..base.numerics.draws import STREAM, normal, stream_of
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import floats
 from ..base.record import Record
 from ..schema import Spec, element
 
@@ -66,40 +71,78 @@ class DriftState(Record):
 
     random: np.random.Generator
     """The generator of the errors."""
-    constant: list[float]
+    constant: Array
     """The bias of this run, (3,)."""
-    bias: list[float]
+    bias: Array
     """The bias that wanders, (3,)."""
-    walk: list[float]
+    walk: Array
     """The random walk, (3,)."""
-    time: float | None
-    """When they were last drawn [s]."""
+    time: Array
+    """When they were last drawn, NaN before the first time, (1,) [s]."""
+
+
+DRIFT = np.dtype(
+    [
+        ("stream", STREAM),
+        ("constant", np.int64),  # addresses of the arrays of a `DriftState`
+        ("bias", np.int64),
+        ("walk", np.int64),
+        ("time", np.int64),
+        ("density_squared", np.float64),
+        ("bias_std", np.float64),
+        ("correlation_time", np.float64),
+        ("random_walk", np.float64),
+        ("walk_squared", np.float64),
+        ("constant_variance", np.float64),  # of the bias of a run and of the one that wanders
+    ]
+)
+"""The errors of three axes, for compiled code."""
 
 
 class Drift:
-    """The errors of three axes, from sample to sample."""
+    """The errors of three axes, from sample to sample; `draw_errors` draws them."""
 
     def __init__(self, spec: DriftSpec, random: np.random.Generator) -> None:
-        self._spec = spec
-        constant: list[float] = (spec.turn_on_bias * random.standard_normal(3)).tolist()
-        bias: list[float] = (spec.bias_std * random.standard_normal(3)).tolist()
-        self.state = DriftState(random, constant, bias, [0.0, 0.0, 0.0], None)
+        constant = spec.turn_on_bias * random.standard_normal(3)
+        bias = spec.bias_std * random.standard_normal(3)
+        self.state = state = DriftState(random, constant, bias, np.zeros(3), np.full(1, math.nan))
         """Its slow errors."""
+        self.parameters = np.zeros(1, DRIFT)
+        """What `draw_errors` reads, (1,)."""
+        row = self.parameters[0]
+        row["stream"] = stream_of(random)
+        for name in ("constant", "bias", "walk", "time"):
+            row[name] = address_of(getattr(state, name))
+        row["density_squared"], row["bias_std"] = spec.noise_density**2, spec.bias_std
+        row["correlation_time"], row["random_walk"] = spec.correlation_time, spec.random_walk
+        row["walk_squared"] = spec.random_walk**2
+        row["constant_variance"] = spec.turn_on_bias**2 + spec.bias_std**2
 
-    def sample(self, time: float) -> tuple[Array, float]:
-        """Return the errors at ``time`` [s], (3,), and the variance of each."""
-        spec, state = self._spec, self.state
-        lasted = 0.0 if state.time is None else time - state.time
-        state.time = time
-        draws = state.random.standard_normal((3, 3)).tolist()
-        bias_std, kept = spec.bias_std, math.exp(-lasted / spec.correlation_time)
-        wander, walk = bias_std * math.sqrt(1.0 - kept * kept), spec.random_walk * math.sqrt(lasted)
-        variance = spec.noise_density**2 / (lasted or FIRST)
-        slow = spec.turn_on_bias**2 + bias_std**2 + spec.random_walk**2 * time
-        std = math.sqrt(variance)
-        # Plain floats: three numbers at every sample are dearer as arrays.
-        state.bias = [kept * b + wander * n for b, n in zip(state.bias, draws[1], strict=True)]
-        state.walk = [w + walk * n for w, n in zip(state.walk, draws[2], strict=True)]
-        axes = zip(draws[0], state.constant, state.bias, state.walk, strict=True)
-        error = np.array([std * white + c + bias + walked for white, c, bias, walked in axes])
-        return error, variance + slow
+
+@njit
+def draw_errors(drift: Any, time: float, errors: Array) -> float:
+    """Write the errors at ``time`` [s] into (3,); return the variance of each.
+
+    Args:
+        drift: a record of `DRIFT`.
+        time: when the sample is taken [s].
+        errors: into which they are written.
+    """
+    last, constant, bias = floats(drift.time, 1), floats(drift.constant, 3), floats(drift.bias, 3)
+    walk = floats(drift.walk, 3)
+    lasted = 0.0 if math.isnan(last[0]) else time - last[0]
+    last[0] = time
+    kept = math.exp(-lasted / drift.correlation_time)
+    wander = drift.bias_std * math.sqrt(1.0 - kept * kept)
+    step = drift.random_walk * math.sqrt(lasted)
+    white = drift.density_squared / (lasted if lasted != 0.0 else FIRST)
+    std = math.sqrt(white)
+    for i in range(3):
+        errors[i] = std * normal(drift.stream)
+    for i in range(3):
+        bias[i] = kept * bias[i] + wander * normal(drift.stream)
+    for i in range(3):
+        walk[i] = walk[i] + step * normal(drift.stream)
+        errors[i] = ((errors[i] + constant[i]) + bias[i]) + walk[i]
+    variance: float = white + (drift.constant_variance + drift.walk_squared * time)
+    return variance

@@ -16,22 +16,26 @@ The attitude is that of the sensor in L, the frame of the file. What the acceler
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
-from ..base.geometry import Array, quaternion_from_rotation, rotation_from_rpy
-from ..base.numerics.linear import product, turned_back
+from ..base.geometry import Array, write_quaternion, write_rotation
+from ..base.numerics.calls import function_address
+from ..base.numerics.draws import STREAM, normal, stream_of
+from ..base.numerics.jit import njit
+from ..base.numerics.linear import matrices, turned_back
+from ..base.numerics.memory import carray, floats, pointer
 from ..base.record import Record
+from ..base.sampling import Sampler
 from ..messages import Imu, Quaternion, Vector3, header
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, MovingBody, SensorWorld
-from .drift import Drift, DriftSpec, DriftState
-from .sensor import Carrier, SensorSpec
-
-UP = np.array([0.0, 0.0, GRAVITY])
-"""What an accelerometer at rest measures, in W [m/s2]."""
+from ..world.mounts import MOUNT, read_frame, read_motion
+from .drift import DRIFT, Drift, DriftSpec, DriftState, draw_errors
+from .sensor import Carrier, CompiledSensor, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,47 +74,104 @@ class ImuState(Record):
     """The errors of its accelerations."""
 
 
-class InertialUnit:
+UP = (0.0, 0.0, GRAVITY)
+"""What an accelerometer at rest measures, in W [m/s2]."""
+IMU = np.dtype(
+    [
+        ("mount", MOUNT),
+        ("stream", STREAM),  # of the noise of the attitude
+        ("std", np.float64),
+        ("localized_from_world", np.float64, (3, 3)),
+        ("measures_motion", np.int64),
+        ("gyro", DRIFT),
+        ("accelerometer", DRIFT),
+    ]
+)
+"""An inertial measurement unit, for compiled code."""
+N_VALUES = 12
+"""The numbers of a sample: a quaternion wxyz; turn rates [rad/s], then specific forces [m/s2], of
+three axes with their variance each."""
+
+
+class InertialUnit(CompiledSensor):
     """An inertial measurement unit with attitude."""
 
     def __init__(self, spec: ImuSpec, mount: MovingBody, world: SensorWorld, vehicle: str) -> None:
         own = f"{vehicle}/{spec.name}"
-        self._spec, self._mount, self._world = spec, mount, world
-        self._gyro = Drift(spec.gyro, world.stream(f"{own}/gyro"))
-        self._accelerometer = Drift(spec.accelerometer, world.stream(f"{own}/accelerometer"))
+        self._name = spec.name
+        gyro = Drift(spec.gyro, world.stream(f"{own}/gyro"))
+        accelerometer = Drift(spec.accelerometer, world.stream(f"{own}/accelerometer"))
         random = world.stream(f"{own}/noise")
-        self.state = ImuState(random, self._gyro.state, self._accelerometer.state)
+        self.state = ImuState(random, gyro.state, accelerometer.state)
         """What changes of it."""
         self._measures_motion = "imu-orientation" not in world.compatibility
-
-    def sample(self, time: float) -> Imu:
-        """Measure now, at ``time`` [s]."""
-        pose = self._mount.world_from_body
-        noise = rotation_from_rpy(*(self._spec.std * self.state.random.standard_normal(3)).tolist())
-        localized = product(self._world.world_from_localized.rotation.T, pose.rotation)
-        w, x, y, z = quaternion_from_rotation(product(noise, localized)).tolist()
-        message = Imu(
-            header=header(time, self._spec.name),
-            orientation=Quaternion(x=x, y=y, z=z, w=w),
-            orientation_covariance=_diagonal(self._spec.std**2),
+        self._attitude_covariance = _diagonal(spec.std**2)
+        row = np.zeros(1, IMU)
+        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(random), spec.std
+        row["localized_from_world"] = world.world_from_localized.rotation.T
+        row["measures_motion"] = self._measures_motion
+        row["gyro"], row["accelerometer"] = gyro.parameters, accelerometer.parameters
+        self.sampler = Sampler(
+            function=function_address(sample_imu),
+            parameters=row,
+            n_values=N_VALUES,
+            prepare=mount.prepare,
+            is_alone=lambda: mount.is_compiled,
+            kept=(self.state, mount),
         )
-        if not self._measures_motion:
-            message.header.frame_id = "world"
-            return message
-        motion = self._mount.motion()
-        for part, value, drift in (
-            ("angular_velocity", motion.angular_velocity, self._gyro),
-            ("linear_acceleration", motion.acceleration + UP, self._accelerometer),
-        ):
-            error, variance = drift.sample(time)
-            measured = turned_back(pose.rotation, value) + error
-            setattr(message, part, Vector3(*measured.tolist()))
-            setattr(message, f"{part}_covariance", _diagonal(variance))
+        """What takes the numbers of a sample."""
+
+    def message(self, time: float, values: Array) -> Imu:
+        """Make the message of a sample taken at ``time`` [s]."""
+        w, x, y, z, *measured = values.tolist()
+        message = Imu(
+            header=header(time, self._name if self._measures_motion else "world"),
+            orientation=Quaternion(x=x, y=y, z=z, w=w),
+            orientation_covariance=self._attitude_covariance,
+        )
+        if self._measures_motion:
+            message.angular_velocity = Vector3(*measured[:3])
+            message.angular_velocity_covariance = _diagonal(measured[3])
+            message.linear_acceleration = Vector3(*measured[4:7])
+            message.linear_acceleration_covariance = _diagonal(measured[7])
         return message
 
 
+def sample_imu(parameters: int, values: int, time: float) -> None:
+    """Take a sample of an inertial measurement unit; see `uwsim.base.numerics.calls`."""
+    imu = carray(pointer(parameters), (1,), IMU)[0]
+    measure(imu, time, floats(values, N_VALUES))
+
+
+@njit
+def measure(imu: Any, time: float, values: Array) -> None:
+    """Write the attitude in L, the turn rates and the specific forces with their errors."""
+    frame, noise = np.empty(12), np.empty((3, 3))
+    read_frame(imu.mount, frame)
+    axes = frame[3:].reshape((3, 3))
+    roll = imu.std * normal(imu.stream)
+    pitch = imu.std * normal(imu.stream)
+    yaw = imu.std * normal(imu.stream)
+    write_rotation(roll, pitch, yaw, noise)
+    localized = matrices(imu.localized_from_world, axes)
+    write_quaternion(matrices(noise, localized), values[:4])
+    if imu.measures_motion == 0:
+        return
+    motion, errors = np.empty(12), np.empty(3)
+    motion[:3] = frame[:3]
+    read_motion(imu.mount, motion)
+    values[7] = draw_errors(imu.gyro, time, errors)
+    values[4:7] = turned_back(axes, motion[6:9]) + errors
+    values[11] = draw_errors(imu.accelerometer, time, errors)
+    for i in range(3):
+        motion[9 + i] += UP[i]
+    values[8:11] = turned_back(axes, motion[9:12]) + errors
+
+
+@functools.lru_cache(maxsize=64)
 def _diagonal(variance: float) -> Array:
-    """A covariance of equal variances, by rows (9,)."""
+    """Return a covariance of equal variances, by rows, (9,); read-only."""
     covariance = np.zeros(9)
     covariance[::4] = variance
+    covariance.flags.writeable = False
     return covariance

@@ -16,18 +16,23 @@ surface, with the water's density over depth; above the surface it is that of th
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
+from ..base.geometry import Array
+from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.draws import STREAM, normal, stream_of
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import carray, floats, pointer
 from ..base.record import RandomState
+from ..base.sampling import Sampler
 from ..messages import Pressure, header
 from ..schema import MAX_DISTANCE, element
-from ..world import GRAVITY, Body, SensorWorld
-from .sensor import Carrier, SensorSpec
+from ..world import GRAVITY, Mount, SensorWorld
+from ..world.mounts import MOUNT, read_frame
+from .sensor import Carrier, CompiledSensor, SensorSpec
 
 Quantity = Literal["depth", "pressure", "gauge"]
 """Depth below the surface [m], absolute pressure [Pa], or that above the air's [Pa]."""
@@ -61,46 +66,101 @@ class PressureSensorSpec(SensorSpec):
         return PressureSensor(self, vehicle.mount(self), world, random)
 
 
-class PressureSensor:
+PRESSURE = np.dtype(
+    [
+        ("mount", MOUNT),
+        ("stream", STREAM),
+        ("std", np.float64),
+        ("measures", np.int64),
+        ("surface", np.float64),  # height of the water's surface in W [m]
+        ("atmosphere", np.float64),  # [Pa]
+        ("levels", np.int64),  # the address of depths [m] and densities [kg/m3], (n, 2)
+        ("n_levels", np.int64),
+        ("upward", np.float64, 3),  # the z axis of L in W, and z of W's origin in L [m]
+        ("origin", np.float64),
+    ]
+)
+"""A pressure sensor, for compiled code."""
+DEPTH, ABSOLUTE, GAUGE, HEIGHT = range(4)
+"""What it measures; the height is z of L, as in the original."""
+
+
+class PressureSensor(CompiledSensor):
     """A pressure cell; what it says is a depth or a pressure."""
 
     def __init__(
-        self, spec: PressureSensorSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+        self,
+        spec: PressureSensorSpec,
+        mount: Mount,
+        world: SensorWorld,
+        random: np.random.Generator,
     ) -> None:
-        self._spec, self._mount, self._world = spec, mount, world
         self.state = RandomState(random)
         """What it draws."""
+        is_original = "pressure-z" in world.compatibility
+        self._frame_id = "world" if is_original else spec.name
+        row, levels = np.zeros(1, PRESSURE), np.array(world.density_levels, dtype=np.float64)
+        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(random), spec.std
+        measures = {"depth": DEPTH, "pressure": ABSOLUTE, "gauge": GAUGE}[spec.measures]
+        row["measures"] = HEIGHT if is_original else measures
+        row["surface"], row["atmosphere"] = world.surface_height, spec.atmosphere
+        row["levels"], row["n_levels"] = address_of(levels), len(levels)
+        localized_from_world = world.world_from_localized.inverse()
+        row["upward"] = localized_from_world.rotation[2]
+        row["origin"] = localized_from_world.position[2]
+        self.sampler = Sampler(
+            function=function_address(sample_pressure),
+            parameters=row,
+            n_values=1,
+            prepare=mount.prepare,
+            is_alone=lambda: mount.is_compiled,
+            kept=(self.state, mount, levels),
+        )
+        """What takes the numbers of a sample."""
 
-    def sample(self, time: float) -> Pressure:
-        """Measure now, at ``time`` [s]."""
-        value = self._value() + self._spec.std * self.state.random.standard_normal()
-        is_original = "pressure-z" in self._world.compatibility
-        frame = "world" if is_original else self._spec.name
-        return Pressure(header=header(time, frame), pressure=float(value))
-
-    def _value(self) -> float:
-        """Without noise [m, or Pa]."""
-        spec, world = self._spec, self._world
-        position = self._mount.world_from_body.position
-        if "pressure-z" in world.compatibility:
-            return float(world.world_from_localized.inverse().transform(position[None])[0, 2])
-        depth = max(0.0, world.surface_height - float(position[2]))
-        if spec.measures == "depth":
-            return depth
-        gauge = GRAVITY * column_mass(world.density_levels, depth)
-        return gauge if spec.measures == "gauge" else spec.atmosphere + gauge
+    def message(self, time: float, values: Array) -> Pressure:
+        """Make the message of a sample taken at ``time`` [s]."""
+        return Pressure(header=header(time, self._frame_id), pressure=float(values[0]))
 
 
-def column_mass(levels: Sequence[tuple[float, float]], depth: float) -> float:
+def sample_pressure(parameters: int, values: int, time: float) -> None:
+    """Take a sample of a pressure sensor; see `uwsim.base.numerics.calls`."""
+    sensor = carray(pointer(parameters), (1,), PRESSURE)[0]
+    floats(values, 1)[0] = without_noise(sensor) + sensor.std * normal(sensor.stream)
+
+
+@njit
+def without_noise(sensor: Any) -> float:
+    """Return what a sensor without noise measures [m, or Pa]."""
+    frame = np.empty(12)
+    read_frame(sensor.mount, frame)
+    if sensor.measures == HEIGHT:
+        up = sensor.upward
+        height: float = up[0] * frame[0] + up[1] * frame[1] + up[2] * frame[2] + sensor.origin
+        return height
+    below = sensor.surface - frame[2]
+    depth: float = below if below > 0.0 else 0.0
+    if sensor.measures == DEPTH:
+        return depth
+    levels = floats(sensor.levels, 2 * sensor.n_levels).reshape((-1, 2))
+    gauge: float = GRAVITY * column_mass(levels, depth)
+    return gauge if sensor.measures == GAUGE else sensor.atmosphere + gauge
+
+
+@njit
+def column_mass(levels: Array, depth: float) -> float:
     """Return the mass of the water above a depth [m], of a square metre [kg/m2].
 
     Args:
-        levels: depth [m] and density [kg/m3], rising; linear between them, constant beyond.
+        levels: depth [m] and density [kg/m3], rising; linear between them, constant beyond, (n, 2).
         depth: at least 0.
     """
-    ends = [(0.0, levels[0][1]), *levels, (max(depth, levels[-1][0]), levels[-1][1])]
-    total = 0.0
-    for (top, first), (bottom, last) in pairwise(ends):
+    total, n = 0.0, len(levels)
+    for i in range(n + 1):
+        top, first = (0.0, levels[0, 1]) if i == 0 else (levels[i - 1, 0], levels[i - 1, 1])
+        bottom, last = (levels[i, 0], levels[i, 1]) if i < n else (depth, levels[n - 1, 1])
+        if i == n and bottom < levels[n - 1, 0]:
+            bottom = levels[n - 1, 0]
         if bottom <= top or top >= depth:
             continue
         low = min(bottom, depth)

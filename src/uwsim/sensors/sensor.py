@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import abc
 import math
 from dataclasses import dataclass
-from typing import ClassVar, Literal, Protocol, runtime_checkable
+from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
-from ..base.geometry import Pose
+from ..base.geometry import Array, Pose
 from ..base.record import Record
+from ..base.sampling import Sampler
 from ..schema import Spec
-from ..world import Body, MovingBody, SensorWorld
+from ..world import Mount, MovingBody, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
 """Of the vehicle, at its pose in the file."""
@@ -86,7 +88,7 @@ class Carrier(Protocol):
     def world_from_base(self) -> Pose:
         """Where its base is now."""
 
-    def mount(self, spec: Mounted, *, visual: bool = False) -> Body:
+    def mount(self, spec: Mounted, *, visual: bool = False) -> Mount:
         """Fix something to its link, or to the link's visual frame: a frame that moves with it.
 
         Raises:
@@ -111,6 +113,26 @@ class Sensor(Protocol):
 
     def sample(self, time: float) -> object:
         """Measure now, at ``time`` [s]: a message of its spec's ``message_type``, None for none."""
+
+
+class CompiledSensor(abc.ABC):
+    """A bound sensor whose samples compiled code takes; messages are made from their numbers."""
+
+    sampler: Sampler
+    """What takes the numbers of a sample."""
+
+    @abc.abstractmethod
+    def message(self, time: float, values: Array) -> object:
+        """Make the message of a sample taken at ``time`` [s]; None for none.
+
+        Args:
+            time: when it was taken [s].
+            values: the numbers of the sample, (n,); they are overwritten by the next.
+        """
+
+    def sample(self, time: float) -> Any:
+        """Measure now, at ``time`` [s]: a message, None for none."""
+        return self.message(time, self.sampler.take(time))
 
 
 @runtime_checkable

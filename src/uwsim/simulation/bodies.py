@@ -101,7 +101,8 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
                 add(seen, pose, None)
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
-            pose = partial(engine.poses.mounted, index, link.name, link_from_visual)
+            mount = engine.poses.mount(index, link.name, link_from_visual)
+            pose = partial(engine.poses.mounted, mount)
             add(seen, pose, link_boxes[index, link.name])
     for index, thing in enumerate(scene.objects):
         mesh = thing.object_from_mesh
@@ -133,7 +134,8 @@ def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
             if link.visual is None:
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
-            world_from_visual = engine.poses.mounted(index, link.name, link_from_visual)
+            mount = engine.poses.mount(index, link.name, link_from_visual)
+            world_from_visual = engine.poses.mounted(mount)
             parts = [
                 each for each in model.parts if (each.vehicle, each.link) == (index, link.name)
             ]

@@ -3,51 +3,140 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
+from ..base.numerics.calls import address_of, function_address
 from ..base.numerics.linear import turned_back
-from ..world import BodyMotion
-from .bodies import SceneBody
+from ..physics.kinematics import link_kernel
+from ..physics.kinematics.link_motion import LinkMotion
+from ..physics.kinematics.placed_motion import PlacedMotion
+from ..physics.poses import Mount, Poses
+from ..world import BodyMotion, Box
+from ..world.mounts import MOUNT
 
 Wrench = Callable[[Array], Array]
 """Point of W (3,) [m] -> force and torque about it, in W, (6,) [N, N m]."""
 
 
-class MountedBody(SceneBody):
-    """A frame on a link of a vehicle (`uwsim.world.MovingBody`).
+class MountedBody:
+    """A frame on a link of a vehicle (`uwsim.world.Mount`).
 
     Args:
         name: of the link.
-        pose: where the frame is.
-        contacts: force and torque of the contacts on the link about a point of W, in W.
-        joint: those of the link on its joint, about a point of W, in W.
-        motion: how a point of W moves with the link.
+        poses: where it is.
+        mount: the frame, as a record of ``poses``.
     """
 
-    def __init__(
-        self,
-        name: str,
-        pose: Callable[[], Pose],
-        contacts: Wrench,
-        joint: Wrench,
-        motion: Callable[[Array], BodyMotion],
-    ) -> None:
-        super().__init__(name, pose, None)
-        self._contacts, self._joint, self._motion = contacts, joint, motion
+    box: Box | None = None
+    """None: it is a frame alone."""
+
+    def __init__(self, name: str, poses: Poses, mount: Mount) -> None:
+        self._name, self._poses, self._mount = name, poses, mount
+
+    @property
+    def name(self) -> str:
+        """The vehicle and the link."""
+        return self._name
+
+    @property
+    def world_from_body(self) -> Pose:
+        """Where it is now."""
+        return self._poses.mounted(self._mount)
+
+    @cached_property
+    def functions(self) -> npt.NDArray[np.void]:
+        """Its functions for compiled code: a record of `uwsim.world.mounts.MOUNT`, (1,)."""
+        functions = np.zeros(1, MOUNT)
+        functions["place"] = function_address(link_kernel.place_mount)
+        functions["move"] = function_address(link_kernel.move_mount)
+        functions["parameters"] = address_of(self._mount)
+        return functions
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether these functions follow it in compiled steps without `prepare`."""
+        return True
+
+    def prepare(self) -> None:
+        """Bring what these functions read up to date."""
+        self._poses.refresh()
+
+
+@dataclass(frozen=True, kw_only=True)
+class MovingLink:
+    """How a link moves, and what acts on it."""
+
+    index: int
+    """The number of its vehicle."""
+    body: int
+    """Its number in the engine."""
+    motion: LinkMotion
+    """How links move."""
+    led: Callable[[], PlacedMotion | None]
+    """The motion of its vehicle where it does not move as it is simulated; None where it does."""
+    step: Callable[[], int]
+    """The steps that the simulation has taken."""
+    contacts: Wrench
+    """Force and torque of the contacts on the link about a point of W, in W."""
+    joint: Wrench
+    """Those of the link on its joint, about a point of W, in W."""
+
+
+class MovingBody(MountedBody):
+    """A frame on a link of a vehicle whose motion is read (`uwsim.world.MovingBody`).
+
+    Args:
+        name: of the link.
+        poses: where it is.
+        mount: the frame, as a record of ``poses``.
+        link: how its link moves.
+    """
+
+    def __init__(self, name: str, poses: Poses, mount: Mount, link: MovingLink) -> None:
+        super().__init__(name, poses, mount)
+        self._link = link
+        self._is_led: bool | None = None
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether its functions follow it in compiled steps without `prepare`."""
+        return self._choose_joints() is None
+
+    def prepare(self) -> None:
+        """Bring what its functions read up to date."""
+        self._poses.refresh()
+        if (led := self._choose_joints()) is not None:
+            led.update(self._link.step())
+
+    def _choose_joints(self) -> PlacedMotion | None:
+        """Let its functions read the joints that move it; return what leads its vehicle, if any."""
+        link = self._link
+        led = link.led()
+        if (led is not None) is not self._is_led:
+            self._is_led = led is not None
+            chain = link.motion.chain(link.body, link.index if self._is_led else None)
+            self._mount["chain"] = chain
+        return led
 
     def motion(self) -> BodyMotion:
         """Return how it moves now."""
-        return self._motion(self.world_from_body.position)
+        link, point = self._link, self.world_from_body.position
+        if (led := link.led()) is not None:
+            led.update(link.step())
+        return link.motion.of(link.body, point, led=None if led is None else link.index)
 
     def contact_wrench(self) -> Array:
         """Return that of the contacts on the link, about its origin, in its axes, (6,)."""
-        return self._in_its_axes(self._contacts)
+        return self._in_its_axes(self._link.contacts)
 
     def joint_wrench(self) -> Array:
         """Return that of the link on its joint, about its origin, in its axes, (6,)."""
-        return self._in_its_axes(self._joint)
+        return self._in_its_axes(self._link.joint)
 
     def _in_its_axes(self, wrench: Wrench) -> Array:
         here = self.world_from_body

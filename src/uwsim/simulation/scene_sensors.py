@@ -6,6 +6,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
+from ..devices.fault import FaultSpec
 from ..errors import UnknownName
 from ..model.scene_model import SceneModel
 from ..sensors.sensor import Sensor
@@ -61,6 +62,11 @@ class SceneSensors:
         if name not in known:
             raise UnknownName(" or ".join(elements), name, known)
         return known[name]
+
+    def has_faults(self, sensor: str) -> bool:
+        """Whether something becomes of the messages of a sensor before they are published."""
+        parts = [part for each in self._spec.vehicles for part in each.parts_of(FaultSpec)]
+        return any(part.sensor == sensor for part in parts)
 
     def publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
         """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""

@@ -99,7 +99,7 @@ class SceneStepper:
             or (self._drifting and not water.is_still)
         ):
             return 1
-        dues = [delivery, self._schedule.state.due if self._network.is_idle else now]
+        dues = [delivery, self._schedule.due if self._network.is_idle else now]
         dues += [timer.due for timer in self._image_timers]
         dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self._time - self._timestep
@@ -151,7 +151,7 @@ class SceneStepper:
             motion = water.during(engine.submerged_positions, times, self._wet_names)
         before = engine.n_steps
         try:
-            engine.step(n, motion)
+            engine.step(n, motion, self._schedule.table, first)
         finally:
             self._bus.state.step = first + max(0, engine.n_steps - before - 1)
         self._below_ground.look(self._step)

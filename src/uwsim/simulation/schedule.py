@@ -1,14 +1,18 @@
-"""What is to be done at a later step: calls at the samples of a rate, and commands that came."""
+"""What is to be done at a later step: samples, calls at the samples of a rate, and commands."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, TypeVar
 
+import numpy as np
+import numpy.typing as npt
+
+from ..base.numerics.calls import address_of
 from ..base.record import Record
-from ..base.sampling import SampleTimer, TimerState
+from ..base.sampling import DUE, NEVER, TABLE, TIMER, Sampling, TimerState, take_due
 from ..bus import Bus
 
 M = TypeVar("M")
@@ -18,12 +22,35 @@ M = TypeVar("M")
 class ScheduleState(Record):
     """What is to be done later."""
 
-    due: float = math.inf
-    """The step before which no timer is due."""
+    due: npt.NDArray[np.int64]
+    """The step before which no timer is due, (1,)."""
     timers: list[TimerState] = field(default_factory=list)
     """How far each timer is."""
     commands: list[tuple[int, object]] = field(default_factory=list)
     """What came during this step: the number of who applies it, and the message."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Timer:
+    """A timer, what it calls, and what samples it takes."""
+
+    rate: float
+    call: Callable[[], None]
+    is_needed: Callable[[], bool] | None
+    sampling: Sampling | None
+    state: TimerState
+
+    @property
+    def needs_python(self) -> bool:
+        """Whether compiled steps have to end where it is due."""
+        sampling = self.sampling
+        is_alone = sampling is None or sampling.sampler.is_alone()
+        return not is_alone or self.is_called
+
+    @property
+    def is_called(self) -> bool:
+        """Whether its call has something to do."""
+        return self.is_needed is None or self.is_needed()
 
 
 class Schedule:
@@ -36,28 +63,74 @@ class Schedule:
 
     def __init__(self, bus: Bus, timestep: float) -> None:
         self._bus, self._timestep = bus, timestep
-        self._timers: list[SampleTimer] = []
+        self._timers: list[_Timer] = []
         self._appliers: list[Callable[[Any], None]] = []
-        self.state = ScheduleState()
+        self.state = ScheduleState(np.full(1, NEVER))
         """What is to be done later."""
 
-    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+    def every(
+        self,
+        rate: float,
+        call: Callable[[], None],
+        *,
+        is_needed: Callable[[], bool] | None = None,
+        sampling: Sampling | None = None,
+    ) -> Callable[[], None]:
         """Have ``call`` called at the samples of ``rate`` [Hz] from now on.
+
+        Args:
+            rate: how often [Hz].
+            call: what is called.
+            is_needed: says whether the call has something to do; None: it always has. Compiled
+                steps do not end where it has nothing to do.
+            sampling: takes a sample before each call, needed or not.
 
         Returns:
             How to stop.
         """
-        timer = SampleTimer(self._bus.state.step, rate, self._timestep, call)
-        self._timers.append(timer)
-        self.state.timers.append(timer.state)
-        self.state.due = min(self.state.due, timer.due)
+        state = TimerState.starting_at(self._bus.state.step)
+        timer = _Timer(rate, call, is_needed, sampling, state)
+        self._set([*self._timers, timer])
 
         def stop() -> None:
-            if timer in self._timers:
-                self._timers.remove(timer)
-                self.state.timers = [each.state for each in self._timers]
+            self._set([each for each in self._timers if each is not timer])
 
         return stop
+
+    def _set(self, timers: list[_Timer]) -> None:
+        self._timers, self.state.timers = timers, [each.state for each in timers]
+        self.state.due[0] = min((each.counts[DUE] for each in self.state.timers), default=NEVER)
+        self.__dict__.pop("_rows", None)
+        self.__dict__.pop("table", None)
+
+    @cached_property
+    def _rows(self) -> npt.NDArray[np.void]:
+        """The timers for compiled code, records of `TIMER`."""
+        rows = np.zeros(len(self._timers), TIMER)
+        for row, timer in zip(rows, self._timers, strict=True):
+            row["rate"], row["counts"] = timer.rate, address_of(timer.state.counts)
+            if timer.sampling is not None:
+                sampler, sample = timer.sampling.sampler, timer.sampling.sample
+                row["function"] = sampler.function
+                row["parameters"] = address_of(sampler.parameters)
+                row["values"] = address_of(sample.numbers)
+        return rows
+
+    @cached_property
+    def table(self) -> npt.NDArray[np.void]:
+        """The timers for compiled code, a record of `TABLE`, (1,)."""
+        table = np.zeros(1, TABLE)
+        table["timers"], table["n"] = address_of(self._rows), len(self._rows)
+        table["due"], table["timestep"] = address_of(self.state.due), self._timestep
+        return table
+
+    @property
+    def due(self) -> int:
+        """The step at which compiled steps have to end, as something is due for Python."""
+        return min(
+            (int(each.state.counts[DUE]) for each in self._timers if each.needs_python),
+            default=NEVER,
+        )
 
     def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
         """Return what has ``apply(message)`` called at the start of the next step."""
@@ -72,9 +145,14 @@ class Schedule:
             self._appliers[number](message)
 
     def tick(self, step: int) -> None:
-        """Call what is due at a step."""
-        if step < self.state.due:
-            return
-        for timer in self._timers:
-            timer.tick(step)
-        self.state.due = min((timer.due for timer in self._timers), default=math.inf)
+        """Take the samples that are due at a step, and call what is due."""
+        while step >= self.state.due[0]:  # a call may have another made that is due at once
+            timers = self._timers
+            for timer in timers:
+                if timer.sampling is not None and step >= timer.state.counts[DUE]:
+                    timer.sampling.sampler.prepare()
+            take_due(self.table, step)
+            for timer, is_fired in zip(timers, self._rows["is_fired"].tolist(), strict=True):
+                is_stopped = timers is not self._timers and timer not in self._timers
+                if is_fired and timer.is_called and not is_stopped:
+                    timer.call()

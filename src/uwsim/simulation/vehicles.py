@@ -18,12 +18,12 @@ from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
 from ..physics.kinematics.placed_motion import PlacedMotion, Source
+from ..physics.poses import Mount
 from ..scene.mounts import MountFrames
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
-from ..world import Actuators, BodyMotion
-from .bodies import SceneBody
-from .moving_bodies import MountedBody
+from ..world import Actuators
+from .moving_bodies import MountedBody, MovingBody, MovingLink
 
 
 @dataclass(slots=True)
@@ -223,34 +223,40 @@ class SceneVehicle:
         """Release an object that is held."""
         self._engine.grips.let_go(thing)
 
-    def mount(self, spec: Mounted, *, visual: bool = False) -> SceneBody:
+    def mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
         """Fix something to its link; raises UnknownName if there is no such link."""
-        return SceneBody(f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual), None)
+        name = f"{self.name}/{spec.relative_to}"
+        return MountedBody(name, self._engine.poses, self._record_of(spec, visual))
 
-    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
+    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MovingBody:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
-        link, engine = (self.index, spec.relative_to), self._engine
-        name, pose = f"{self.name}/{spec.relative_to}", self._pose_of(spec, visual)
-        contacts = partial(engine.contacts.wrench, engine.poses.link_body(*link))
-        motion = partial(self._motion, spec.relative_to)
-        if not engine.is_simulated(self.index):
+        record, link, engine = self._record_of(spec, visual), spec.relative_to, self._engine
+        body, is_simulated = engine.poses.link_body(self.index, link), self._actuation is not None
+        if not is_simulated:
             self.follow()
-            return MountedBody(name, pose, contacts, lambda point: np.zeros(6), motion)
-        return MountedBody(name, pose, contacts, partial(engine.joint_wrench.of, *link), motion)
+        moving = MovingLink(
+            index=self.index,
+            body=body,
+            motion=engine.link_motion,
+            led=lambda: self._lazy_motion.part,
+            step=self._step,
+            contacts=partial(engine.contacts.wrench, body),
+            joint=partial(engine.joint_wrench.of, self.index, link) if is_simulated else _nothing,
+        )
+        return MovingBody(f"{self.name}/{link}", engine.poses, record, moving)
 
-    def _motion(self, link: str, point: Array) -> BodyMotion:
-        """Return the motion of a point of W, (3,) [m], on a link."""
-        if self._placed is None:
-            return self._engine.link_motion.of(self.index, link, point)
-        return self._placed.of(link, point, self._step())
-
-    def _pose_of(self, spec: Mounted, visual: bool) -> Callable[[], Pose]:
-        """Return what says where something on a link is."""
+    def _record_of(self, spec: Mounted, visual: bool) -> Mount:
+        """Return the record of something on a link."""
         link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
             raise UnknownName("link", link, [each.name for each in robot.links])
         link_from_part = self._frames.link_from_mounted(spec, visual=visual)
-        return partial(self._engine.poses.mounted, self.index, link, link_from_part)
+        return self._engine.poses.mount(self.index, link, link_from_part)
+
+
+def _nothing(point: Array) -> Array:
+    """Return the wrench of what is not simulated, (6,) [N, N m]."""
+    return np.zeros(6)
 
 
 class SceneVehicles:

@@ -10,8 +10,9 @@ from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 import numpy as np
 import numpy.typing as npt
 
-from ..base.geometry import Intrinsics, Pose
+from ..base.geometry import Array, Intrinsics, Pose
 from ..base.record import NoState, Record
+from ..base.sampling import Sample, Sampler, Sampling
 from ..bus import Bus
 from ..schema import Original, Spec, element
 from ..sensors.sensor import Sensor
@@ -48,6 +49,9 @@ class TopicSensors(Protocol):
 
     def publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
         """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""
+
+    def has_faults(self, sensor: str) -> bool:
+        """Whether something becomes of the messages of a sensor before they are published."""
 
 
 class Segmenter(Protocol):
@@ -102,8 +106,19 @@ class TopicWorld(TimedWorld, Protocol):
     def marker_frames(self) -> Sequence[Frame]:
         """List the frames of the markers that are there now."""
 
-    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
-        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
+    def every(
+        self,
+        rate: float,
+        call: Callable[[], None],
+        *,
+        is_needed: Callable[[], bool] | None = None,
+        sampling: Sampling | None = None,
+    ) -> Callable[[], None]:
+        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop.
+
+        With ``is_needed`` it is called only where that says so; ``sampling`` takes a sample before,
+        needed or not.
+        """
 
     def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
         """Return what has ``apply(message)`` called at the start of the next step."""
@@ -180,3 +195,55 @@ class VehiclePublisherSpec(VehicleTopicSpec):
 def is_needed(bus: Bus, topic: str) -> bool:
     """Whether anyone reads a topic now, or may later ask for what is published on it now."""
     return bus.keeps_unread or bus.has_readers(topic)
+
+
+class SampledTopic(Interface):
+    """Publishes the samples that compiled code takes.
+
+    A message is made where somebody reads the topic, and of the newest sample when it is asked for.
+
+    Args:
+        topic: its name.
+        sampler: what takes the samples.
+        make: makes a message of the time and the numbers of a sample; None for none.
+        publish: publishes a message.
+    """
+
+    def __init__(
+        self,
+        topic: str,
+        sampler: Sampler,
+        make: Callable[[float, Array], object],
+        publish: Callable[[Any], None],
+    ) -> None:
+        self._topic, self._make, self._publish = topic, make, publish
+        self.state: Sample = Sample.of(sampler)
+        """The last sample."""
+        self._sampling = Sampling(sampler, self.state)
+
+    def begin(self, rate: float, world: TopicWorld, *, is_faulty: bool = False) -> None:
+        """Take samples from now on.
+
+        Args:
+            rate: how often [Hz].
+            world: which takes them.
+            is_faulty: whether something becomes of each message before it is published.
+        """
+        bus = world.bus
+        is_needed = None if is_faulty else bus.reader_check(self._topic)
+        if not is_faulty:
+            bus.defer_unread(self._topic, self.newest)
+        world.every(
+            sample_rate(rate, world), self.publish, is_needed=is_needed, sampling=self._sampling
+        )
+
+    def newest(self) -> object | None:
+        """Make the message of the newest sample; None before the first."""
+        numbers = self.state.numbers
+        time = float(numbers[0])
+        return None if math.isnan(time) else self._make(time, numbers[1:])
+
+    def publish(self) -> None:
+        """Publish the newest sample."""
+        if (message := self.newest()) is not None:
+            self._publish(message)

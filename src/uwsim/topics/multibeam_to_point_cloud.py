@@ -40,7 +40,7 @@ class MultibeamToPointCloud2Spec(SensorTopicSpec):
         """Publish the sensor from now on; raises UnknownName if it is not there."""
         sensor = world.sensors.sensor(self.name, self.sources)
         publish = world.sensors.publisher(self.name, self.topic, PointCloud2)
-        publisher = SensorPublisher(sensor, partial(_publish, publish), lambda: world.time, None)
+        publisher = SensorPublisher(sensor, partial(_publish, publish), lambda: world.time)
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 

@@ -21,10 +21,11 @@ from ..devices import DEVICES
 from ..errors import UnknownName
 from ..schema.names import local
 from ..sensors import SENSORS
-from ..sensors.sensor import Sensor, measured_by
+from ..sensors.sensor import CompiledSensor, Sensor, measured_by
 from .interface import (
     Interface,
     InterfaceSpec,
+    SampledTopic,
     TopicWorld,
     is_needed,
     rate_element,
@@ -60,9 +61,13 @@ class SensorTopicSpec(InterfaceSpec):
         sensor = world.sensors.sensor(self.name, self.sources)
         part = self._part(sensor, world)
         publish = world.sensors.publisher(self.name, self.topic, part.message_type)
+        if isinstance(sensor, CompiledSensor):
+            sampled = SampledTopic(self.topic, sensor.sampler, sensor.message, publish)
+            sampled.begin(self.rate, world, is_faulty=world.sensors.has_faults(self.name))
+            return sampled
         needed = partial(is_needed, world.bus, self.topic) if part.is_pure else None
-        publisher = SensorPublisher(sensor, publish, lambda: world.time, needed)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        publisher = SensorPublisher(sensor, publish, lambda: world.time)
+        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=needed)
         return publisher
 
     def _part(self, sensor: Sensor, world: TopicWorld) -> type[Any]:
@@ -108,16 +113,11 @@ class SensorPublisher(Interface):
         sensor: Sensor,
         publish: Callable[[object], None],
         clock: Callable[[], float],
-        is_needed: Callable[[], bool] | None,
     ) -> None:
         self._sensor, self._publish, self._clock = sensor, publish, clock
-        self._is_needed = is_needed
-        """Whether a sample is to be taken; None: even for nobody, as random streams advance."""
 
     def publish(self) -> None:
         """Take a sample and publish it."""
-        if self._is_needed is not None and not self._is_needed():
-            return
         message = self._sensor.sample(self._clock())
         if message is not None:
             self._publish(message)

@@ -17,6 +17,7 @@ from .parts import (
     Camera,
     Contact,
     Flow,
+    Mount,
     MovingBody,
     Rays,
 )
@@ -35,6 +36,7 @@ __all__ = [
     "DeviceWorld",
     "Flow",
     "ForceWorld",
+    "Mount",
     "MovingBody",
     "Rays",
     "SensorWorld",

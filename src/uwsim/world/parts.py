@@ -64,7 +64,22 @@ class BodyMotion:
     """Of its origin, (3,) [m/s2]."""
 
 
-class MovingBody(Body, Protocol):
+class Mount(Body, Protocol):
+    """A frame on a link that compiled code reads, too."""
+
+    @property
+    def functions(self) -> npt.NDArray[np.void]:
+        """Its functions for compiled code: a record of `uwsim.world.mounts.MOUNT`, (1,)."""
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether these functions follow it in compiled steps without `prepare`."""
+
+    def prepare(self) -> None:
+        """Bring what these functions read up to date."""
+
+
+class MovingBody(Mount, Protocol):
     """A frame on a link; the motion of the link and the contacts on it can be read."""
 
     def motion(self) -> BodyMotion:

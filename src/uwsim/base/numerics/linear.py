@@ -29,27 +29,44 @@ def product(left: npt.ArrayLike, right: npt.ArrayLike) -> Array:
     if a.shape[-1] != b.shape[-2 if b.ndim > 1 else 0]:
         raise ValueError(f"{a.shape} and {b.shape} cannot be multiplied")
     if a.ndim == 2 and b.ndim == 2:
-        return _matrices(a, b)
+        return matrices(a, b)
     if b.ndim == 3:
         return _stacks(a[None] if a.ndim == 2 else a, b)
     columns = b[:, None] if b.ndim == 1 else b
-    found = _matrices(a.reshape(math.prod(a.shape[:-1]), a.shape[-1]), columns)
+    found = matrices(a.reshape(math.prod(a.shape[:-1]), a.shape[-1]), columns)
     return found.reshape(a.shape[:-1] + b.shape[1:])
 
 
+@njit
 def turned(rotation: Array, vector: Array) -> Array:
     """``rotation @ vector`` for (3, 3) and (3,), quickly."""
-    return _turned(rotation, vector)
+    found = np.empty(3)
+    for i in range(3):
+        found[i] = (
+            rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
+        )
+    return found
 
 
+@njit
 def turned_back(rotation: Array, vector: Array) -> Array:
     """``rotation.T @ vector`` for (3, 3) and (3,), quickly."""
-    return _turned_back(rotation, vector)
+    found = np.empty(3)
+    for i in range(3):
+        found[i] = (
+            rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
+        )
+    return found
 
 
+@njit
 def cross(left: Array, right: Array) -> Array:
     """Vector product of (3,) and (3,), quickly."""
-    return _crossed(left, right)
+    found = np.empty(3)
+    for i in range(3):
+        j, k = (i + 1) % 3, (i + 2) % 3
+        found[i] = left[j] * right[k] - left[k] * right[j]
+    return found
 
 
 def dot(left: Array, right: Array) -> float:
@@ -163,8 +180,11 @@ def points_of(origins: Array, axes: Array, bodies: npt.NDArray[np.int64], points
 
 
 @njit
-def _matrices(a: Array, b: Array) -> Array:
-    """Row by row; the loop inside is along the rows of ``b`` where these are long."""
+def matrices(a: Array, b: Array) -> Array:
+    """Return ``a @ b`` of two matrices, row by row.
+
+    The loop inside is along the rows of ``b`` where these are long.
+    """
     found = np.zeros((a.shape[0], b.shape[1]))
     if b.shape[1] > 3:
         for i in range(a.shape[0]):
@@ -201,35 +221,6 @@ def _stacks(a: Array, b: Array) -> Array:
                 for j in range(one.shape[1]):
                     total += one[i, j] * other[j, k]
                 found[m, i, k] = total
-    return found
-
-
-@njit
-def _turned(rotation: Array, vector: Array) -> Array:
-    found = np.empty(3)
-    for i in range(3):
-        found[i] = (
-            rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
-        )
-    return found
-
-
-@njit
-def _crossed(left: Array, right: Array) -> Array:
-    found = np.empty(3)
-    for i in range(3):
-        j, k = (i + 1) % 3, (i + 2) % 3
-        found[i] = left[j] * right[k] - left[k] * right[j]
-    return found
-
-
-@njit
-def _turned_back(rotation: Array, vector: Array) -> Array:
-    found = np.empty(3)
-    for i in range(3):
-        found[i] = (
-            rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
-        )
     return found
 
 

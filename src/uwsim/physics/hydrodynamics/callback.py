@@ -24,9 +24,9 @@ import numpy as np
 from numba import types
 
 from ...base.numerics.jit import c_function, link_library
+from ...base.numerics.memory import Floats, Ints64
 from ...errors import UwsimError
 from .kernel import free_bodies, kernel, layout
-from .kernel.memory import Floats, Ints64
 
 _SIGNATURE = types.void(types.intp, types.intp)
 _make: Any
@@ -181,6 +181,12 @@ def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
     wrenches = np.zeros((model.nbody, 6))
     kernel.water_wrenches(model._address, data._address, offsets(), wrenches)
     return wrenches
+
+
+@functools.cache
+def kinematics_address() -> int:
+    """Return the address of ``mj_kinematics``, which places all bodies."""
+    return ctypes.cast(library().mj_kinematics, ctypes.c_void_p).value or 0
 
 
 @functools.cache

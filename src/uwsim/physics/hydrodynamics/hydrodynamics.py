@@ -8,11 +8,11 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
+from ...base.numerics.memory import Floats
 from ...errors import UnknownName, UwsimError
 from . import callback
 from . import columns as c
 from .inverse_weights import correct_inverse_weights
-from .kernel.memory import Floats
 from .self_test import self_test
 
 

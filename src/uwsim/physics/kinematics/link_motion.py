@@ -1,26 +1,29 @@
 r"""How the links of vehicles move: velocities and accelerations of points on them.
 
-With the Jacobian J of a point, :math:`v = J \dot q` and :math:`a = J \ddot q + \dot J \dot q`.
 Velocities of a simulated vehicle are those at the end of the last step; :math:`\ddot q` is what the
 engine solved in that step, in which forces act at its middle: accelerations are half a step old.
+`link_kernel` has the formulas.
 """
 
 from __future__ import annotations
 
 import mujoco
 import numpy as np
+import numpy.typing as npt
 
 from ...base.geometry import Array
-from ...base.numerics.jit import njit
+from ...base.numerics.calls import address_of
 from ...world import BodyMotion
 from ..poses import Poses
+from . import link_kernel
+from .link_kernel import CHAIN, HINGE, SHIFT, SLIDE, TURN
+
+Chain = npt.NDArray[np.void]
+"""A record of `link_kernel.CHAIN`, (1,)."""
 
 
 class LinkMotion:
     """The motion of points on links.
-
-    It works in memory of its own: the engine's has the velocities of contacts, from the beginning
-    of the last step, which stay as they are.
 
     Args:
         model: of the scene.
@@ -30,70 +33,82 @@ class LinkMotion:
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses) -> None:
         self._model, self._data, self._poses = model, data, poses
-        self._jacobians = np.zeros((4, 3, model.nv))  # of place and turn, and their rates
-        self._own: mujoco.MjData | None = None
-        self._copied: tuple[bytes, bytes] | None = None  # the places and velocities in it
+        self._scratch = np.zeros(link_kernel.scratch_size(model.nbody, model.nv))
+        self._led: dict[int, tuple[Array, Array]] = {}
+        self._chains: dict[tuple[int, int | None], Chain] = {}
+        self._kept: list[npt.NDArray[np.int64]] = []  # what chains have the addresses of
 
-    def of(self, index: int, link: str, point: Array) -> BodyMotion:
-        """Return the motion of a point of W, (3,) [m], on the link of a simulated vehicle."""
-        return self.at(index, link, point, self._data.qvel, self._data.qacc)
-
-    def at(self, index: int, link: str, point: Array, speeds: Array, rates: Array) -> BodyMotion:
-        """Return the motion of a point on a link, for given motions of all joints.
+    def led(self, index: int) -> tuple[Array, Array]:
+        """Return where the motion of a vehicle's joints is written that is not the engine's.
 
         Args:
             index: number of the vehicle.
-            link: name of the link.
-            point: in W, (3,) [m].
-            speeds: of the degrees of freedom, (nv,) [m/s, rad/s].
-            rates: of these speeds, (nv,) [m/s2, rad/s2].
+
+        Returns:
+            Speeds of all degrees of freedom of the scene, and the rates of these, (nv,) each.
         """
-        return self._at(self._poses.link_body(index, link), point, speeds, rates)
+        if index not in self._led:
+            self._led[index] = np.zeros(self._model.nv), np.zeros(self._model.nv)
+        return self._led[index]
 
-    def of_body(self, body: int, point: Array) -> BodyMotion:
-        """Return the motion of a point of W, (3,) [m], on a body of the engine, by its number."""
-        return self._at(body, point, self._data.qvel, self._data.qacc)
+    def of(self, body: int, point: Array, *, led: int | None = None) -> BodyMotion:
+        """Return the motion of a point of W, (3,) [m], on a body of the engine.
 
-    def _at(self, body: int, point: Array, speeds: Array, rates: Array) -> BodyMotion:
-        model, own = self._model, self._moved(speeds)
-        place, turn, place_rate, turn_rate = self._jacobians
-        mujoco.mj_jac(model, own, place, turn, point, body)
-        mujoco.mj_jacDot(model, own, place_rate, turn_rate, point, body)
-        found = np.empty((3, 3))
-        _multiply(self._jacobians, speeds, rates, found)
-        return BodyMotion(*found)
+        Args:
+            body: its number in the engine.
+            point: in W, (3,) [m].
+            led: number of the vehicle whose joints move as `led` has it; None: as the engine moves
+                them.
+        """
+        self._poses.refresh()
+        found = link_kernel.motion_of(self.chain(body, led), point)
+        return BodyMotion(found[:3], found[3:6], found[6:])
 
-    def _moved(self, speeds: Array) -> mujoco.MjData:
-        """Places of all links as they are now, and their velocities."""
-        data, own = self._data, self._own
-        now = data.qpos.tobytes(), speeds.tobytes()
-        if own is None:
-            own = self._own = mujoco.MjData(self._model)
-        elif now == self._copied:
-            return own
-        self._copied = now
-        own.qpos[:], own.qvel[:] = data.qpos, speeds
-        mujoco.mj_kinematics(self._model, own)
-        mujoco.mj_comPos(self._model, own)
-        mujoco.mj_comVel(self._model, own)
-        return own
+    def chain(self, body: int, led: int | None) -> Chain:
+        """Return the joints that move a body, as a record for compiled code.
 
+        Args:
+            body: its number in the engine.
+            led: number of the vehicle whose joints move as `led` has it; None: as the engine moves
+                them.
+        """
+        if (body, led) in self._chains:
+            return self._chains[body, led]
+        model, data = self._model, self._data
+        speeds, rates = (data.qvel, data.qacc) if led is None else self.led(led)
+        root, rows = int(model.body_rootid[body]), np.array(self._rows(body), np.int64)
+        chain = self._chains[body, led] = np.zeros(1, CHAIN)
+        chain["root"], chain["n_bodies"] = root, int((model.body_rootid == root).sum())
+        chain["n_dofs"] = len(rows)
+        self._kept.append(rows)
+        for name, numbers in (
+            ("dofs", rows),
+            ("parents", model.body_parentid),
+            ("masses", model.body_mass),
+            ("tree_masses", model.body_subtreemass),
+            ("centres", data.xipos),
+            ("axes", data.xmat),
+            ("anchors", data.xanchor),
+            ("joint_axes", data.xaxis),
+            ("speeds", speeds),
+            ("rates", rates),
+            ("scratch", self._scratch),
+        ):
+            chain[name] = address_of(numbers)
+        return chain
 
-@njit
-def _multiply(jacobians: Array, speeds: Array, rates: Array, found: Array) -> None:
-    """Velocity, angular velocity and acceleration of a point, into (3, 3), by rows.
-
-    Args:
-        jacobians: of place and turn, and their rates, (4, 3, n).
-        speeds: of the joints, (n,).
-        rates: of these speeds, (n,).
-        found: into which they are written.
-    """
-    for i in range(3):
-        velocity, turn, pushed, carried = 0.0, 0.0, 0.0, 0.0
-        for k in range(len(speeds)):
-            velocity += jacobians[0, i, k] * speeds[k]
-            turn += jacobians[1, i, k] * speeds[k]
-            pushed += jacobians[0, i, k] * rates[k]
-            carried += jacobians[2, i, k] * speeds[k]
-        found[0, i], found[1, i], found[2, i] = velocity, turn, pushed + carried
+    def _rows(self, body: int) -> list[tuple[int, int, int, int]]:
+        """Return number, kind, body and joint of what moves a body, from root to link."""
+        model, rows = self._model, []
+        body = int(model.body_weldid[body])
+        dof = int(model.body_dofadr[body] + model.body_dofnum[body] - 1) if body else -1
+        while dof >= 0:
+            joint = int(model.dof_jntid[dof])
+            kind = {
+                mujoco.mjtJoint.mjJNT_FREE: SHIFT if dof < model.jnt_dofadr[joint] + 3 else TURN,
+                mujoco.mjtJoint.mjJNT_SLIDE: SLIDE,
+                mujoco.mjtJoint.mjJNT_HINGE: HINGE,
+            }[mujoco.mjtJoint(model.jnt_type[joint])]
+            rows.append((dof, kind, int(model.dof_bodyid[dof]), joint))
+            dof = int(model.dof_parentid[dof])
+        return rows[::-1]

@@ -21,7 +21,6 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.record import Record
-from ...world import BodyMotion
 from .jumps import JumpState, JumpTimes
 from .link_motion import LinkMotion
 
@@ -74,7 +73,8 @@ class PlacedMotion:
         index: int,
         links: LinkMotion,
     ) -> None:
-        self._data, self._index, self._links = data, index, links
+        self._data = data
+        self._speeds, self._rates = links.led(index)
         free, *moving = joints
         place, dof = int(model.jnt_qposadr[free]), int(model.jnt_dofadr[free])
         self._places = np.array([*range(place, place + 7), *model.jnt_qposadr[moving]])
@@ -85,7 +85,6 @@ class PlacedMotion:
         now: Array = data.qpos[self._places]
         self.state = PlacedState(now, self._base.state, self._joints.state, self._drift.state)
         """What changes of it."""
-        self._speeds, self._rates = np.zeros(model.nv), np.zeros(model.nv)
 
     def record(self, step: int, starts: Collection[Source] = ()) -> None:
         """Record where it was put; what ``starts`` has not come there, its motion begins there."""
@@ -114,12 +113,11 @@ class PlacedMotion:
         """Return the velocity of its base in W, and its turning in its own axes, (6,)."""
         return self._base.speed(step) + self._drift.speed(step)
 
-    def of(self, link: str, point: Array, step: int) -> BodyMotion:
-        """Return the motion of a point of W, (3,) [m], on a link."""
+    def update(self, step: int) -> None:
+        """Write how its joints move at a step to where `LinkMotion` reads it."""
         for found, part in ((self._speeds, _Jumps.speed), (self._rates, _Jumps.rate)):
             base = part(self._base, step) + part(self._drift, step)
             found[self._dofs] = np.concatenate([base, part(self._joints, step)])
-        return self._links.at(self._index, link, point, self._speeds, self._rates)
 
     def _change(self) -> Array:
         """How far it is from where it was the last time, for each degree of freedom."""

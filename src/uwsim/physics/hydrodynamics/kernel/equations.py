@@ -15,6 +15,7 @@ from __future__ import annotations
 import math
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats
 from ..columns import (
     ABOUT_X,
     ABOUT_Y,
@@ -32,7 +33,6 @@ from ..columns import (
     SIZE,
     TURN,
 )
-from .memory import Floats
 from .submersion import submerged
 
 Three = tuple[float, float, float]

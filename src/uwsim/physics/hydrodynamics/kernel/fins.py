@@ -25,6 +25,7 @@ from __future__ import annotations
 import math
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats, Ints64, floats, real, small, word
 from ..columns import (
     AREA,
     COEFFICIENTS,
@@ -43,7 +44,6 @@ from ..columns import (
 )
 from . import fields as f
 from .flow import height_of, push_at, site_of, velocity_at, water_density, wet_share
-from .memory import Floats, Ints64, floats, real, small, word
 from .stratification import density_ratio
 from .thrusters import share_of_lag
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats, Ints64, floats, real, small, word
 from ..columns import (
     BODY_COLUMNS,
     CENTRE,
@@ -15,7 +16,6 @@ from ..columns import (
 )
 from . import fields as f
 from .equations import Three, relative_twist
-from .memory import Floats, Ints64, floats, real, small, word
 
 
 @njit

@@ -12,10 +12,10 @@ import math
 import numpy as np
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats, Ints64, floats, ints, real, small, word
 from ..columns import BODY_COLUMNS, DRY, KIND, WATER_COLUMNS
 from . import fields as f
 from .equations import Six, Three, to_body
-from .memory import Floats, Ints64, floats, ints, real, small, word
 from .midpoint import (
     INERTIA,
     MOMENTUM,

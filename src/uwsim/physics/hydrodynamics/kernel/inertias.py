@@ -7,9 +7,9 @@ implicit over a step adds to it.
 from __future__ import annotations
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats
 from ..columns import ADDED
 from .equations import Six, Three
-from .memory import Floats
 
 LITTLE = 0.01
 """Implicit drag below this share of the added mass counts as inertia in gyroscopic terms, too."""

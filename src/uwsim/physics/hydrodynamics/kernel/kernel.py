@@ -32,6 +32,7 @@ from __future__ import annotations
 import numpy as np
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats, Ints64, floats, ints, real, small, word
 from ..columns import (
     ACTUATOR_COLUMNS,
     BODY_COLUMNS,
@@ -80,7 +81,6 @@ from .inertias import (
     is_drag_left,
     is_felt,
 )
-from .memory import Floats, Ints64, floats, ints, real, small, word
 from .stratification import density_ratio
 from .thrusters import add_thrust
 

@@ -21,7 +21,7 @@ from __future__ import annotations
 import math
 
 from ....base.numerics.jit import njit
-from .memory import Floats
+from ....base.numerics.memory import Floats
 
 INERTIA, TWIST, MOMENTUM, SIDE, RATE, SUM = 0, 36, 42, 48, 54, 60
 """Places in the numbers of one body: A (6, 6), nu, p, G and, found, delta (6) each, S (6, 6)."""

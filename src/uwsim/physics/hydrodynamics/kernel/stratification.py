@@ -8,9 +8,9 @@ that moves through layers does to them.
 from __future__ import annotations
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats, Ints64, floats, word
 from ..columns import BODY_COLUMNS, LEVELS, N_LEVELS, SURFACE
 from . import fields as f
-from .memory import Floats, Ints64, floats, word
 
 
 @njit

@@ -12,8 +12,8 @@ import math
 import numpy as np
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats
 from ..columns import BOX, CYLINDER, ELLIPSOID, SHRINKING_SPHERE, SPHERE
-from .memory import Floats
 
 CHORDS = 24
 _CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) - 0.5

@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 
 from ....base.numerics.jit import njit
+from ....base.numerics.memory import Floats, Ints64, floats, real, small, word
 from ..columns import (
     ADVANCE,
     BACKWARD,
@@ -34,7 +35,6 @@ from ..columns import (
 )
 from . import fields as f
 from .flow import push_at, site_of, velocity_at, water_density, wet_share
-from .memory import Floats, Ints64, floats, real, small, word
 
 
 @njit

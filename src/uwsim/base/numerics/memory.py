@@ -1,4 +1,4 @@
-"""Arrays over memory of MuJoCo, for code compiled by numba."""
+"""Arrays over memory that is known by its address, for code compiled by numba."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numba import types
 from numba.core import cgutils
 from numba.extending import intrinsic
 
-from ....base.numerics.jit import njit
+from .jit import njit
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int32]

@@ -1,0 +1,88 @@
+"""Compiled functions that are called by their address, so that each layer may bring its own.
+
+A function of this kind is ``void(parameters, values, time)``: it reads what never changes from a
+record at the address ``parameters``, writes numbers at the address ``values``, and gets the time
+[s]. `c_function` of `uwsim.base.numerics.jit` compiles one with the signature `SIGNATURE`.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from numba import types
+from numba.extending import intrinsic
+
+from .jit import c_function, njit
+from .memory import Floats
+
+ir: Any = importlib.import_module("llvmlite.ir")  # of numba; it has no types
+
+SIGNATURE = types.void(types.intp, types.intp, types.float64)
+"""Addresses of parameters and values, and the time [s]."""
+
+
+def _call(
+    typingctx: Any, function: Any, parameters: Any, values: Any, time: Any
+) -> Any:  # as numba's interface has it
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        word, double = ir.IntType(64), ir.DoubleType()
+        kind = ir.FunctionType(ir.VoidType(), [word, word, double])
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp, types.intp, types.float64), codegen
+
+
+def _call_both(typingctx: Any, function: Any, first: Any, second: Any) -> Any:
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        word = ir.IntType(64)
+        kind = ir.FunctionType(ir.VoidType(), [word, word])
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+        return context.get_dummy_value()
+
+    return types.void(types.intp, types.intp, types.intp), codegen
+
+
+def _call_word(typingctx: Any, function: Any, argument: Any) -> Any:
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        word = ir.IntType(64)
+        kind = ir.FunctionType(word, [word])
+        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+
+    return types.uint64(types.intp, types.intp), codegen
+
+
+call: Any = intrinsic(_call)
+"""``call(function, parameters, values, time)``, for compiled code."""
+call_both: Any = intrinsic(_call_both)
+"""``call_both(function, first, second)``: a C function ``void(void*, void*)``."""
+call_word: Any = intrinsic(_call_word)
+"""``call_word(function, argument)``: a C function ``uint64_t(void*)``."""
+
+
+@njit
+def evaluate(function: int, parameters: int, n: int, time: float) -> Floats:
+    """Call a function by its address, for Python: return its ``n`` values at ``time`` [s]."""
+    values = np.empty(n)
+    call(function, parameters, values.ctypes.data, time)
+    return values
+
+
+@functools.cache
+def _compiled(function: Callable[[int, int, float], None]) -> Any:
+    return c_function(function, SIGNATURE)
+
+
+def function_address(function: Callable[[int, int, float], None]) -> int:
+    """Compile a function of the module's level of this kind, once, and return its address."""
+    return int(_compiled(function).address)
+
+
+def address_of(array: npt.NDArray[Any]) -> int:
+    """Return the address of an array's first number; the array has to live on."""
+    return int(array.ctypes.data)

@@ -1,0 +1,261 @@
+r"""The frame of a part on a link, and how a point of it moves, in compiled code.
+
+With the Jacobian J of a point, :math:`v = J \dot q` and :math:`a = J \ddot q + \dot J \dot q`. The
+columns of J are those of the joints from the root of the tree of links to the link; the others are
+zero. They are computed in MuJoCo's order (``mj_comPos``, ``mj_comVel``, ``mj_jac``, ``mj_jacDot``),
+about the centre of mass of the tree, so that they have the bytes of MuJoCo's.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...base.geometry import Array
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import composed
+from ...base.numerics.memory import carray, floats, ints, longs, pointer
+
+CHAIN = np.dtype(
+    [
+        ("root", np.int64),  # the first body of the tree; its bodies follow one another
+        ("n_bodies", np.int64),
+        ("dofs", np.int64),  # `DOF_COLUMNS` numbers a degree of freedom, from root to link
+        ("n_dofs", np.int64),
+        ("parents", np.int64),  # addresses of MuJoCo's arrays
+        ("masses", np.int64),
+        ("tree_masses", np.int64),
+        ("centres", np.int64),
+        ("axes", np.int64),
+        ("anchors", np.int64),
+        ("joint_axes", np.int64),
+        ("speeds", np.int64),  # of all degrees of freedom [m/s, rad/s]
+        ("rates", np.int64),  # of these speeds [m/s2, rad/s2]
+        ("scratch", np.int64),  # `scratch_size` numbers
+    ],
+    align=True,
+)
+"""The joints that move a body, and where their numbers are."""
+
+MOUNT = np.dtype(
+    [
+        ("origin", np.int64),  # addresses of the link's position and axes in W
+        ("axes", np.int64),
+        ("base_axes", np.int64),  # of the axes of a scaled vehicle's base; 0: it has no scale
+        ("scale", np.float64, 3),
+        ("position", np.float64, 3),  # of the part on the link [m]
+        ("rotation", np.float64, (3, 3)),
+        ("chain", CHAIN),
+    ],
+    align=True,
+)
+"""A part on a link."""
+
+DOF_COLUMNS = 4
+"""Of a degree of freedom: its number, its kind, its body and its joint."""
+SHIFT, TURN, SLIDE, HINGE = range(4)
+"""Kinds of degrees of freedom: translation and rotation of a free joint, and joints of one axis."""
+_TINY = 1e-15  # mjMINVAL
+
+Record = Any
+
+
+def scratch_size(n_bodies: int, n_dofs: int) -> int:
+    """Return how many numbers a chain writes down."""
+    return 3 * n_bodies + 12 * n_dofs
+
+
+@njit
+def mounted_frame(mount: Record, frame: Array) -> None:
+    """Write the position in W [m] and the axes of a part, by rows, into (12,).
+
+    The scale of a vehicle moves the part and does not turn it.
+    """
+    origin, axes = floats(mount.origin, 3), floats(mount.axes, 9).reshape((3, 3))
+    shift, turn = composed(axes, origin, mount.rotation, mount.position)
+    if mount.base_axes != 0:
+        base = floats(mount.base_axes, 9).reshape((3, 3))
+        stretched = stretch(base, axes, mount.scale)
+        for i in range(3):
+            along = 0.0
+            for k in range(3):
+                along += stretched[i, k] * mount.position[k]
+            shift[i] = origin[i] + along
+    for i in range(3):
+        frame[i] = shift[i]
+        for k in range(3):
+            frame[3 + 3 * i + k] = turn[i, k]
+
+
+@njit
+def frame_of(mounts: Record) -> Array:
+    """Return what `mounted_frame` writes of the first of some records."""
+    frame = np.empty(12)
+    mounted_frame(mounts[0], frame)
+    return frame
+
+
+@njit
+def motion_of(chains: Record, point: Array) -> Array:
+    """Return what `point_motion` writes of the first of some records."""
+    found = np.empty(9)
+    point_motion(chains[0], point, found)
+    return found
+
+
+@njit
+def stretch(base: Array, axes: Array, scale: Array) -> Array:
+    """Return the axes of a link with the scale along its vehicle's base in them, (3, 3)."""
+    in_base, found = np.empty((3, 3)), np.empty((3, 3))
+    for i in range(3):
+        for k in range(3):
+            total = 0.0
+            for j in range(3):
+                total += base[j, i] * axes[j, k]
+            in_base[i, k] = total
+    for i in range(3):
+        for k in range(3):
+            total = 0.0
+            for j in range(3):
+                total += (base[i, j] * scale[j]) * in_base[j, k]
+            found[i, k] = total
+    return found
+
+
+@njit
+def point_motion(chain: Record, point: Array, found: Array) -> None:
+    """Write velocity, angular velocity and acceleration of a point, in W, into (9,).
+
+    Args:
+        chain: the joints that move it.
+        point: in W, (3,) [m].
+        found: into which they are written.
+    """
+    for i in range(9):
+        found[i] = 0.0
+    n = chain.n_dofs
+    if n == 0:
+        return
+    scratch = chain.scratch + 24 * chain.n_bodies
+    columns = floats(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
+    changes = floats(scratch + 48 * n, 6 * n).reshape((n, 6))  # how fast these change
+    centre, twist, offset = np.empty(3), np.zeros(6), np.empty(3)
+    tree_centre(chain, centre)
+    joint_columns(chain, centre, columns, changes, twist)
+    for i in range(3):
+        offset[i] = point[i] - centre[i]
+    carried = np.empty(3)  # the velocity of the point, by the twist
+    for i in range(3):
+        carried[i] = twist[3 + i] - component(offset, twist, i)
+    dofs = longs(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
+    for i in range(3):
+        velocity, turn, pushed, bent = 0.0, 0.0, 0.0, 0.0
+        for k in range(n):
+            column, change = columns[k], changes[k]
+            speed = floats(chain.speeds + 8 * dofs[k, 0], 1)[0]
+            rate = floats(chain.rates + 8 * dofs[k, 0], 1)[0]
+            along = column[3 + i] + component(column, offset, i)
+            velocity += along * speed
+            turn += column[i] * speed
+            pushed += along * rate
+            bent += (
+                change[3 + i] + component(change, offset, i) + component(column, carried, i)
+            ) * speed
+        found[i], found[3 + i], found[6 + i] = velocity, turn, pushed + bent
+
+
+@njit
+def tree_centre(chain: Record, centre: Array) -> None:
+    """Write the centre of mass of the tree of links into (3,) [m]."""
+    root, n = chain.root, chain.n_bodies
+    masses, parents = floats(chain.masses + 8 * root, n), ints(chain.parents + 4 * root, n)
+    centres = floats(chain.centres + 24 * root, 3 * n)
+    mass = floats(chain.tree_masses + 8 * root, 1)[0]
+    moments = floats(chain.scratch, 3 * n)
+    for body in range(n):
+        for i in range(3):
+            moments[3 * body + i] = centres[3 * body + i] * masses[body]
+    for body in range(n - 1, 0, -1):
+        parent = parents[body] - root
+        for i in range(3):
+            moments[3 * parent + i] += moments[3 * body + i]
+    share = 0.0 if mass < _TINY else 1.0 / mass
+    for i in range(3):
+        centre[i] = centres[i] if mass < _TINY else moments[i] * share
+
+
+@njit
+def joint_columns(
+    chain: Record, centre: Array, columns: Array, changes: Array, twist: Array
+) -> None:
+    """Write the twist by each joint about the centre, its rate of change, and the link's twist."""
+    n = chain.n_dofs
+    dofs = longs(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
+    axis, offset, total = np.empty(3), np.empty(3), np.empty(6)
+    k = 0
+    while k < n:
+        kind, body, joint = dofs[k, 1], dofs[k, 2], dofs[k, 3]
+        anchor = floats(chain.anchors + 24 * joint, 3)
+        for i in range(3):
+            offset[i] = centre[i] - anchor[i]
+        width = 3 if kind in (SHIFT, TURN) else 1
+        for j in range(width):
+            column = columns[k + j]
+            for i in range(6):
+                column[i] = 0.0
+            if kind == SHIFT:
+                column[3 + j] = 1.0
+                continue
+            if kind == TURN:
+                matrix = floats(chain.axes + 72 * body, 9)
+                for i in range(3):
+                    axis[i] = matrix[3 * i + j]
+            else:
+                axis[:] = floats(chain.joint_axes + 24 * joint, 3)
+            if kind == SLIDE:
+                column[3:] = axis
+                continue
+            column[:3] = axis
+            for i in range(3):
+                column[3 + i] = component(axis, offset, i)
+        if kind in (SLIDE, HINGE):
+            bend(twist, columns[k], changes[k])
+        for i in range(6):
+            total[i] = 0.0
+            for j in range(width):
+                total[i] += columns[k + j, i] * floats(chain.speeds + 8 * dofs[k + j, 0], 1)[0]
+            twist[i] += total[i]
+        for j in range(width):
+            if kind == SHIFT:
+                changes[k + j, :] = 0.0
+            elif kind == TURN:  # of a quaternion, by the twist with it
+                bend(twist, columns[k + j], changes[k + j])
+        k += width
+
+
+@njit
+def bend(twist: Array, column: Array, found: Array) -> None:
+    """Write how fast the column of a joint changes that is carried by a twist (6,) into (6,)."""
+    for i in range(3):
+        found[i] = component(twist, column, i)
+        found[3 + i] = component(twist, column[3:], i) + component(twist[3:], column, i)
+
+
+@njit
+def component(left: Array, right: Array, i: int) -> float:
+    """Return a component of the vector product of two vectors' first three numbers."""
+    j, k = (i + 1) % 3, (i + 2) % 3
+    found: float = left[j] * right[k] - left[k] * right[j]
+    return found
+
+
+def place_mount(parameters: int, values: int, time: float) -> None:
+    """Write the frame of a part; see `uwsim.base.numerics.calls`."""
+    mounted_frame(carray(pointer(parameters), (1,), MOUNT)[0], floats(values, 12))
+
+
+def move_mount(parameters: int, values: int, time: float) -> None:
+    """Write how a point of a part moves behind the point, (3,), in the same array, (12,)."""
+    mount = carray(pointer(parameters), (1,), MOUNT)[0]
+    point_motion(mount.chain, floats(values, 3), floats(values + 24, 9))

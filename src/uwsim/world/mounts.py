@@ -1,0 +1,37 @@
+"""Frames on vehicles as compiled code reads them, without knowing what moves them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ..base.geometry import Array
+from ..base.numerics.calls import call
+from ..base.numerics.jit import njit
+
+MOUNT = np.dtype([("place", np.int64), ("move", np.int64), ("parameters", np.int64)])
+"""Addresses of the functions that write a frame and its motion, and of what they read.
+
+See `uwsim.base.numerics.calls`; ``move`` is 0 where the motion is not read.
+"""
+
+Record = Any
+
+
+@njit
+def read_frame(mount: Record, frame: Array) -> None:
+    """Write where a frame is now: its origin in W [m], then its axes by rows, into (12,)."""
+    call(mount.place, mount.parameters, frame.ctypes.data, 0.0)
+
+
+@njit
+def read_motion(mount: Record, motion: Array) -> None:
+    """Write how a point of a frame moves, in W, behind the point.
+
+    Args:
+        mount: the frame.
+        motion: the point (3,) [m]; then its velocity [m/s], the angular velocity of the frame
+            [rad/s] and the acceleration of the point [m/s2] are written, (12,).
+    """
+    call(mount.move, mount.parameters, motion.ctypes.data, 0.0)
