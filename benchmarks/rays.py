@@ -79,13 +79,13 @@ def sensor_pose(simulation: Simulation, mount: tuple[float, float, float]) -> Po
 
 def triangles_by_body(scene: RayScene) -> list[Array]:
     """The triangles of each body of a ray scene in W, (n, 3, 3) each [m]."""
-    trees, found = scene._trees, []
+    trees, frames, found = scene._trees, scene.frames(), []
     for body, nodes in enumerate(np.split(trees.links, trees.roots[1:])):
         leaves = nodes.reshape(-1, 2)[nodes.reshape(-1, 2)[:, 1] > 0]
         order = [np.arange(first, first + n) for first, n in leaves]
         rows = trees.triangles[np.concatenate(order)] if order else np.zeros((0, 9))
         corners = rows.reshape(-1, 3, 3) + np.array([[0.0], [1.0], [1.0]]) * rows[:, None, :3]
-        frame = scene._bodies.world_from_body[body]
+        frame = frames[body]
         found.append(corners @ frame[:3, :3].T + frame[:3, 3])
     return found
 

@@ -235,12 +235,12 @@ def test_a_body_that_is_taken_up_is_placed_and_follows_again_when_it_is_let_go()
     scene = RayScene([[], [Surface(4, square(0.5))]]).following(follows, origins, axes)
     above, down = Pose(np.array([0.0, 0.0, 4.0]), np.eye(3)), np.array([[0.0, 0.0, -1.0]])
     assert scene.cast(above, down, 9.0).distance[0] == 3.0
-    scene.let_follow(is_placed)
+    scene = scene.following(is_placed, origins, axes)
     lifted = np.eye(4)
     lifted[2, 3] = 2.5
     scene.place(1, lifted)
     assert scene.cast(above, down, 9.0).distance[0] == 1.5
-    scene.let_follow(follows)
+    scene = scene.following(follows, origins, axes)
     assert scene.cast(above, down, 9.0).distance[0] == 3.0
     origins[0, 0] = 2.0
     assert scene.cast(above, down, 9.0).distance[0] == np.inf

@@ -35,11 +35,9 @@ class Bodies(NamedTuple):
     engine: Whole
     """Number of the engine's body that each follows; below 0 it is placed, (b,)."""
     world_from_body: Array
-    """(b, 4, 4) [m]."""
+    """As it was when rays came near the body last; NaN before, where it follows, (b, 4, 4) [m]."""
     body_from_world: Array
-    """(b, 4, 4) [m]."""
-    seen: Array
-    """Origin and axes of the engine's body that the frames are for, (b, 12)."""
+    """The inverse of that, (b, 4, 4) [m]."""
     centres: Array
     """Of each ball in W when its box was made, then its radius, (b, 4) [m]."""
     boxes: Array
@@ -76,10 +74,10 @@ def bodies_of(balls: Array, engine: Whole, place: Engine) -> Bodies:
         place: where those are.
     """
     n = len(balls)
-    eyes = np.tile(np.eye(4), (n, 1, 1))
+    frames = np.tile(np.eye(4), (n, 1, 1))
+    frames[engine >= 0] = np.nan
     centres = np.zeros((n, 4))
-    seen = np.full((n, 12), np.nan)
-    _find_centres(balls, engine, eyes, place, centres)
+    _find_centres(balls, engine, frames, place, centres)
     half = (1.0 + ROOM) * centres[:, 3:]
     tree = build_nodes(centres[:, :3] - half, centres[:, :3] + half)
     parents, leaves = np.full(len(tree.links), -1, np.int32), np.zeros(n, np.int32)
@@ -90,7 +88,7 @@ def bodies_of(balls: Array, engine: Whole, place: Engine) -> Bodies:
                 leaves[tree.order[where : where + count]] = 2 * node + side
             elif where:
                 parents[where] = 2 * node + side
-    return Bodies(balls, engine.copy(), eyes, eyes.copy(), seen, centres, *tree, parents, leaves)
+    return Bodies(balls, engine, frames, frames.copy(), centres, *tree, parents, leaves)
 
 
 @njit
@@ -178,19 +176,19 @@ def renew_frames(bodies: Bodies, place: Engine, body: int) -> None:
     followed = bodies.engine[body]
     if followed < 0:
         return
-    o, a, seen = place.origins[followed], place.axes[followed], bodies.seen[body]
+    o, a, frame = place.origins[followed], place.axes[followed], bodies.world_from_body[body]
     is_same = True
     for i in range(3):
-        is_same &= seen[i] == o[i]
+        is_same &= frame[i, 3] == o[i]
         for j in range(3):
-            is_same &= seen[3 + 3 * i + j] == a[i, j]
+            is_same &= frame[i, j] == a[i, j]
     if is_same:
         return
-    frame = bodies.world_from_body[body]
     for i in range(3):
-        seen[i] = frame[i, 3] = o[i]
+        frame[i, 3], frame[3, i] = o[i], 0.0
         for j in range(3):
-            seen[3 + 3 * i + j] = frame[i, j] = a[i, j]
+            frame[i, j] = a[i, j]
+    frame[3, 3] = 1.0
     invert(frame, bodies.body_from_world[body])
 
 

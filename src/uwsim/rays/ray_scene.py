@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import inverse, product
-from .bodies import NO_ENGINE, Bodies, Engine, bodies_of, renew_all_frames
+from .bodies import NO_ENGINE, Engine, bodies_of, renew_all_frames
 from .cover import Balls, covering_balls
 from .kernel import Hits, cast_rays
 from .tree import build_tree
@@ -55,7 +55,7 @@ class RayScene:
             balls=np.concatenate([np.zeros((0, 4)), *(each.balls for each in built)]),
         )
         self._engine = NO_ENGINE
-        self._bodies = self._laid(np.full(len(built), -1, np.int32))
+        self._bodies = bodies_of(self._trees.balls, np.full(len(built), -1, np.int32), NO_ENGINE)
         covers = [
             cover for body, surfaces in enumerate(bodies) for cover in _covers(body, surfaces)
         ]
@@ -63,9 +63,6 @@ class RayScene:
         sizes = [len(balls) for balls, _, _ in covers]
         self._cover_bodies = np.repeat([body for _, body, _ in covers], sizes).astype(np.int32)
         self._cover_surfaces = np.repeat([n for _, _, n in covers], sizes).astype(np.int32)
-
-    def _laid(self, engine: npt.NDArray[np.int32]) -> Bodies:
-        return bodies_of(self._trees.balls, engine, self._engine)
 
     def following(self, engine: npt.NDArray[np.int32], origins: Array, axes: Array) -> RayScene:
         """Return a scene of the same bodies that shares their triangles, and follows an engine.
@@ -78,14 +75,8 @@ class RayScene:
         """
         other = copy.copy(self)
         other._engine = Engine(origins, axes)
-        other._bodies = other._laid(engine)
+        other._bodies = bodies_of(self._trees.balls, engine, other._engine)
         return other
-
-    def let_follow(self, engine: npt.NDArray[np.int32]) -> None:
-        """Set which of the engine's bodies each body is on from now on, or below 0, (b,)."""
-        changed = self._bodies.engine != engine
-        self._bodies.engine[changed] = engine[changed]
-        self._bodies.seen[changed] = np.nan
 
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
         """Set the pose of a body that follows nothing; the matrix (4, 4) may scale [m]."""
@@ -94,10 +85,14 @@ class RayScene:
             self._bodies.body_from_world[body] = inverse(world_from_body)
             frame[:] = world_from_body
 
+    def frames(self) -> Array:
+        """Return ``world_from_body`` of each body now, (b, 4, 4) [m]; not to be written to."""
+        renew_all_frames(self._bodies, self._engine)
+        return self._bodies.world_from_body
+
     def balls(self) -> Balls:
         """Balls that cover each surface, where they are now."""
-        renew_all_frames(self._bodies, self._engine)
-        frames = self._bodies.world_from_body[self._cover_bodies]
+        frames = self.frames()[self._cover_bodies]
         centre = (frames[:, :3, :3] * self._cover[:, None, :3]).sum(axis=2) + frames[:, :3, 3]
         scale = np.sqrt((frames[:, :3, :3] ** 2).sum(axis=1).max(axis=1))  # of the longest column
         return Balls(centre, self._cover[:, 3] * scale, self._cover_surfaces)

@@ -62,6 +62,7 @@ CACHES = {
     "RayScene._bodies": "is compared with the engine when it is used",
     "RayScene._engine": "is MuJoCo's memory",
     "SceneRays._carried": "is compared with the state when it is used",
+    "SceneRays._laid": "is laid anew for other carried objects",
     "SceneRays._placed": "is compared with the state when it is used",
     "Schedule._rows": "is written before it is read",
     "Scenery._drawn_heaps": "is compared with the heaps when it is used",

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 
 import numpy as np
-import numpy.typing as npt
 
 from ...acoustics import MATERIALS, Material
 from ...base.geometry import Array, Pose
@@ -36,8 +34,9 @@ class SceneRays:
         self._bodies, self._heaps = model.ray_bodies, tuple(heaps)
         self._engine = engine
         self._cast_heaps: dict[int, tuple[int, RayScene]] = {}
-        self._carried: list[int] = []  # when it was seen last which bodies are to be placed
-        self._placed: list[tuple[int, Callable[[], Array]]] = []
+        self._carried: list[int] | None = None  # the objects that followed links when it was laid
+        self._laid: RayScene | None = None  # fixed bodies as the first body, then all that move
+        self._placed: list[tuple[int, Callable[[], Array]]] = []  # those that follow no engine's
         self.materials: tuple[Material, ...] = (
             *self._bodies.materials,
             *(MATERIALS["sand"] for _ in heaps),
@@ -54,7 +53,6 @@ class SceneRays:
         begins: Array | None = None,
     ) -> Hits:
         """Cast rays from the origin of a sensor; see `RayScene.cast`."""
-        self._place()
         hits = self._scene.cast(world_from_sensor, directions, reach, begins)
         for number, heap in enumerate(self._heaps):
             on_sand = self._sand(number, heap).cast(world_from_sensor, directions, reach, begins)
@@ -66,18 +64,26 @@ class SceneRays:
 
     def balls(self) -> Balls:
         """Balls that cover each surface, but for the sand of heaps; see `RayScene.balls`."""
-        self._place()
         return self._scene.balls()
 
-    def _place(self) -> None:
-        """Put all bodies where they are now."""
-        scene, poses = self._scene, self._engine.poses
+    @property
+    def _scene(self) -> RayScene:
+        """The bodies of the scene, where they are now."""
+        poses, carried = self._engine.poses, list(self._engine.poses.state.carried)
         poses.refresh()
-        if self._carried != list(poses.state.carried):
-            self._carried = list(poses.state.carried)
-            scene.let_follow(self._followed())
+        if self._laid is None or self._carried != carried:
+            movers = self._bodies.movers
+            engine = np.array([-1, *(poses.engine_body(*each) for each in movers)], np.int32)
+            self._laid = self._bodies.scene.following(engine, poses.origins, poses.axes)
+            self._carried = carried
+            self._placed = [
+                (number, self._frame(*owner))
+                for number, owner in enumerate(movers, start=1)
+                if engine[number] < 0
+            ]
         for body, frame in self._placed:
-            scene.place(body, frame())
+            self._laid.place(body, frame())
+        return self._laid
 
     def _sand(self, number: int, heap: Heap) -> RayScene:
         """The triangles of a heap as it is now."""
@@ -88,27 +94,6 @@ class SceneRays:
             known = heap.version, RayScene([[Surface(surface, triangles)]])
             self._cast_heaps[number] = known
         return known[1]
-
-    def _followed(self) -> npt.NDArray[np.int32]:
-        """The engine's body that each body is where it is, or below 0; the first is what is fixed.
-
-        The others are noted as those that are to be placed.
-        """
-        poses = self._engine.poses
-        movers = self._bodies.movers
-        found = np.array([-1, *(poses.engine_body(*each) for each in movers)], np.int32)
-        self._placed = [
-            (number, self._frame(*owner))
-            for number, owner in enumerate(movers, start=1)
-            if found[number] < 0
-        ]
-        return found
-
-    @cached_property
-    def _scene(self) -> RayScene:
-        """Fixed bodies as the first body, then all that move."""
-        poses = self._engine.poses
-        return self._bodies.scene.following(self._followed(), poses.origins, poses.axes)
 
     def _frame(self, vehicle: int | None, link: str, thing: int | None) -> Callable[[], Array]:
         """The present pose of a link or an object, (4, 4) [m]."""
