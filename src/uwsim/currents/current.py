@@ -12,6 +12,7 @@ import numpy as np
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import product
 from ..schema import Spec
+from ..world import Flow
 
 MAX_SPEED = 100.0
 """No current of a file or a function is faster: turbidity currents and tsunamis reach
@@ -110,6 +111,11 @@ class Current(abc.ABC):
     ) -> tuple[Array, Array]:
         """Return velocity and acceleration, which physics asks for at every step."""
         return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
+
+
+def is_steady(flow: Flow) -> bool:
+    """Whether a flow says that it is the same at all times; one that is no `Current` does not."""
+    return isinstance(flow, Current) and flow.is_steady
 
 
 def everywhere(points: Array, x: float, y: float, z: float) -> Array:

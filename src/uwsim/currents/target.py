@@ -8,7 +8,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..world import Flow
-from .current import Current
+from .current import Current, is_steady
 
 
 class TargetCurrent(Current):
@@ -25,7 +25,7 @@ class TargetCurrent(Current):
     @property
     def is_steady(self) -> bool:
         """Whether the other one is."""
-        return isinstance(self._current, Current) and self._current.is_steady
+        return is_steady(self._current)
 
     @property
     def is_still(self) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..world import Flow
-from .current import Current, CurrentSpec, Place
+from .current import Current, CurrentSpec, Place, is_steady
 
 
 class TotalCurrent(Current):
@@ -26,7 +26,7 @@ class TotalCurrent(Current):
     @property
     def is_steady(self) -> bool:
         """Whether all of them are the same at all times."""
-        return all(isinstance(each, Current) and each.is_steady for each in self._currents)
+        return all(is_steady(current) for current in self._currents)
 
     @property
     def is_still(self) -> bool:

@@ -14,7 +14,7 @@ from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...base.record import Record
 from ...currents import Place, TotalCurrent, bind_currents
-from ...currents.current import Current
+from ...currents.current import is_steady
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
 from ...scene.spec import SceneSpec
@@ -107,7 +107,7 @@ class WaterMotion:
         if self._steady is not None and self._steady[0] is flow and self._steady[1] == vehicles:
             return self._steady[2]
         if flow.is_uniform:
-            if not isinstance(flow, Current) or not flow.is_steady:
+            if not is_steady(flow):
                 return self._everywhere(times, vehicles)
             rows = self._everywhere(times[:1], vehicles)
             self._steady = flow, vehicles, rows
