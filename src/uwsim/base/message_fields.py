@@ -48,8 +48,11 @@ def unfit(message: object, of: str = "", *, converts: bool = True) -> str | None
     Lists and tuples given for arrays become arrays, or do not fit (``converts``). ``of`` is the
     path to a message in another, with a dot behind it.
     """
-    if _is_plainly_fit(message):
-        return None
+    return None if _is_plainly_fit(message) else _misfit(message, of, converts)
+
+
+def _misfit(message: object, of: str, converts: bool) -> str | None:
+    """Report as `unfit` does, field by field."""
     for name, kind, inner in _definition(cast(Hashable, message.__class__)):
         value = getattr(message, name)
         wrong: str | None = None
@@ -84,7 +87,7 @@ def prepare(message: object) -> str | None:
     """Report as `unfit` does; the arrays of a message that fits are read-only from now on."""
     if _is_plainly_fit(message, freezes=True):
         return None
-    wrong = unfit(message)
+    wrong = _misfit(message, "", converts=True)
     if wrong is None:
         freeze(message)
     return wrong

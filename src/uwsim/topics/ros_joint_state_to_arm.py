@@ -94,9 +94,8 @@ class JointCommand(Interface):
         """
         if message.name != self._named:
             self._named = list(message.name)
-            self._places = np.array([self._place(name) for name in message.name], np.int64)
-            if not message.name:
-                self._places = np.arange(len(self._names))
+            named = self._named or self._names
+            self._places = np.array([self._place(name) for name in named], np.int64)
         n = min(len(self._places), len(given))
         places, values = self._places[:n], np.array(given[:n], dtype=np.float64)
         last = {
