@@ -150,7 +150,7 @@ class Schedule:
             timers = self._timers
             for timer in timers:
                 if timer.sampling is not None and step >= timer.state.counts[DUE]:
-                    timer.sampling.sampler.prepare()
+                    timer.sampling.sampler.prepare(step * self._timestep)
             take_due(self.table, step)
             for timer, is_fired in zip(timers, self._rows["is_fired"].tolist(), strict=True):
                 is_stopped = timers is not self._timers and timer not in self._timers

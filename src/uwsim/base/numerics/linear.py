@@ -60,6 +60,12 @@ def turned_back(rotation: Array, vector: Array) -> Array:
 
 
 @njit
+def turned_rows(rotation: Array, vectors: Array) -> Array:
+    """``vectors @ rotation.T`` for (3, 3) and (n, 3), as `product` computes it."""
+    return matrices(vectors, rotation.T.copy())
+
+
+@njit
 def cross(left: Array, right: Array) -> Array:
     """Vector product of (3,) and (3,), quickly."""
     found = np.empty(3)
