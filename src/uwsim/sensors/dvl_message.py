@@ -6,98 +6,27 @@ A velocity that is not known is NaN and its status ``V``; a good one has ``A``.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-
-import numpy as np
 
 from ..acoustics import SeaWater
-from ..base.geometry import Array, Pose
-from ..base.numerics.linear import product, turned
-from ..base.record import Record
+from ..base.geometry import Array
+from ..base.numerics.linear import product
 from ..messages import DVL, Header
+from . import dvl_kernel as k
 
 GOOD, BAD = "A", "V"
 """Status of a velocity in PD6."""
 
 
-@dataclass(slots=True)
-class TrackState(Record):
-    """What is known of the velocity over one thing."""
-
-    instrument: Array
-    """The velocity in the axes of the sensor, (3,) [m/s]."""
-    world: Array
-    """The velocity in W, (3,) [m/s]."""
-    error: float
-    """The error velocity [m/s]."""
-    made_good: Array
-    """East, north and up since the beginning, over the time with a velocity, (3,) [m]."""
-    time: float | None
-    """When the last ping was [s]."""
-    last: float
-    """When there was a velocity last [s]."""
-
-    @staticmethod
-    def unknown() -> TrackState:
-        """Return that of a sensor that has not pinged."""
-        unknown = np.full(3, math.nan)
-        return TrackState(unknown, unknown.copy(), math.nan, np.zeros(3), None, 0.0)
-
-
-class Track:
-    """A velocity, and how far it has led."""
-
-    def __init__(self) -> None:
-        self.state = TrackState.unknown()
-        """What is known."""
-
-    def take(
-        self, time: float, pose: Pose, found: tuple[Array, float] | None, noise: Array
-    ) -> None:
-        """Take the velocity of a ping at ``time`` [s]: in the sensor's axes, with its error."""
-        state = self.state
-        lasted = 0.0 if state.time is None else time - state.time
-        state.time = time
-        if found is None:
-            state.instrument, state.world = np.full(3, math.nan), np.full(3, math.nan)
-            state.error = math.nan
-            return
-        state.instrument, state.error = found[0] + noise, found[1]
-        state.world = turned(pose.rotation, state.instrument)
-        state.made_good = state.made_good + state.world * lasted
-        state.last = time
-
-    def age(self) -> float:
-        """Since the last velocity [s]."""
-        return 0.0 if self.state.time is None else self.state.time - self.state.last
-
-    @property
-    def status(self) -> str:
-        """``A`` or ``V``."""
-        return BAD if math.isnan(float(self.state.instrument[0])) else GOOD
-
-
-def dvl_message(
-    header: Header,
-    tracks: tuple[Track, Track],
-    *,
-    heights: tuple[float, float],
-    ship_from_world: Array,
-    water: SeaWater,
-    depth: float,
-    beams: tuple[Array, Array],
-) -> DVL:
-    """Return the message.
+def dvl_message(header: Header, values: Array, *, water: SeaWater, water_layer: float) -> DVL:
+    """Return the message of a ping.
 
     Args:
         header: its header.
-        tracks: of the bottom and of the water.
-        heights: over the bottom, and to the layer of water [m].
-        ship_from_world: axes of the vehicle's base, (3, 3).
+        values: of the sample, `dvl_kernel.N_VALUES` numbers.
         water: where the sensor is.
-        depth: of the sensor [m].
-        beams: ranges [m] and velocities [m/s] along the beams on the bottom, (4,) each.
+        water_layer: distance to the layer of water along the axis of the sensor [m].
     """
+    depth = float(values[k.DEPTH])
     message = DVL(
         header=header,
         header_dvl=header.frame_id,
@@ -105,20 +34,27 @@ def dvl_message(
         temperature=water.temperature,
         depth=depth,
         sound_speed=water.sound_speed(depth),
-        raw_data=" ".join(repr(number) for each in beams for number in each.tolist()),
+        raw_data=" ".join(repr(number) for number in values[k.RANGES : k.SHIP].tolist()),
     )
-    for letter, track, height in zip("bw", tracks, heights, strict=True):
-        state = track.state
-        ship = product(ship_from_world, state.world)
-        values = {
-            **dict(zip(("i_x_axis", "i_y_axis", "i_z_axis"), state.instrument, strict=True)),
+    ship_from_world = values[k.SHIP :].reshape(3, 3).T
+    heights = float(values[k.HEIGHT]), water_layer
+    for letter, first, height in zip("bw", (k.BOTTOM, k.WATER), heights, strict=True):
+        track = values[first : first + k.N_TRACK]
+        instrument, world = track[k.INSTRUMENT : k.WORLD], track[k.WORLD : k.ERROR]
+        ship = product(ship_from_world, world)
+        numbers = {
+            **dict(zip(("i_x_axis", "i_y_axis", "i_z_axis"), instrument, strict=True)),
             **dict(zip(("s_longitudinal", "s_transverse", "s_normal"), ship, strict=True)),
-            **dict(zip(("e_east", "e_north", "e_upwards"), state.world, strict=True)),
-            **dict(zip(("d_east", "d_north", "d_upwards"), state.made_good, strict=True)),
-            **{"i_error": state.error, "d_range": height, "d_time": track.age()},
+            **dict(zip(("e_east", "e_north", "e_upwards"), world, strict=True)),
+            **dict(
+                zip(("d_east", "d_north", "d_upwards"), track[k.MADE_GOOD : k.TIME], strict=True)
+            ),
+            **{"i_error": track[k.ERROR], "d_range": height},
+            **{"d_time": track[k.TIME] - track[k.LAST]},
         }
-        for name, value in values.items():
+        for name, value in numbers.items():
             setattr(message, letter + name, float(value))
         for axes in "ise":
-            setattr(message, f"{letter}{axes}_status", track.status)
+            status = BAD if math.isnan(instrument[0]) else GOOD
+            setattr(message, f"{letter}{axes}_status", status)
     return message

@@ -88,6 +88,9 @@ class Carrier(Protocol):
     def world_from_base(self) -> Pose:
         """Where its base is now."""
 
+    def base_mount(self) -> Mount:
+        """Return the frame of its base."""
+
     def mount(self, spec: Mounted, *, visual: bool = False) -> Mount:
         """Fix something to its link, or to the link's visual frame: a frame that moves with it.
 

@@ -55,6 +55,7 @@ class WaterMotion:
         self._names: tuple[str, ...] = ()  # their names, each once
         self._felt = np.zeros(0, np.int64)  # the number of its name, for each point
         self._steady: tuple[Flow, Sequence[str], Array] | None = None  # what it was found for
+        self._even: tuple[Flow, dict[str, Array | None]] = self._sum, {}  # what it was found for
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
         for spec in specs:
@@ -175,6 +176,23 @@ class WaterMotion:
         localized = self._localized_from_world.transform(points)
         velocity = self._flow.velocity(localized, time, (vehicle,) * len(points))
         return product(velocity, self._localized_from_world.rotation)
+
+    def even(self, vehicle: str) -> Array | None:
+        """Return the velocity of water that moves the same everywhere and always, in W, (3,) [m/s].
+
+        None where it does not.
+
+        Args:
+            vehicle: the name of that which feels it.
+        """
+        flow = self._flow
+        if self._even[0] is not flow:
+            self._even = flow, {}
+        known = self._even[1]
+        if vehicle not in known:
+            is_even = flow.is_still or (flow.is_uniform and is_steady(flow))
+            known[vehicle] = self.velocity(np.zeros((1, 3)), 0.0, vehicle)[0] if is_even else None
+        return known[vehicle]
 
     def carried(self, world_from_base: Pose, time: float, timestep: float, vehicle: str) -> Pose:
         """Return where a vehicle is after a step of drifting with the water: ``p += v dt``."""
