@@ -145,7 +145,9 @@ class Engine:
         water: Array | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
-    ) -> None:
+        *,
+        samples_last: bool = False,
+    ) -> bool:
         """Advance all simulated bodies by some steps.
 
         Args:
@@ -155,24 +157,31 @@ class Engine:
                 where it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
+            samples_last: take them after the last step, too.
+
+        Returns:
+            Whether a timer of the samples was due after the last step, and they were taken.
 
         Raises:
             SimulationFailed: the engine warned, or a body moves faster than can be: what follows
                 would not be true.
         """
         if self._stepper is None:
-            return
+            return False
         self.grips.follow()
         self.lift.begin_step()
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
         try:
-            self._stepper.run(n, self.state.n_steps, water, samples, step)
+            is_sampled = self._stepper.run(
+                n, self.state.n_steps, water, samples, step, samples_last=samples_last
+            )
         finally:
             self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()
         self.contacts.look_again(hold=True)
         self.poses.moved()
+        return is_sampled
 
     def push(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
         """Let wrenches act on bodies in the steps from now on, in place of those before.

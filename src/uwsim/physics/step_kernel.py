@@ -130,15 +130,20 @@ def end(plans: Record) -> int:
 
 
 @njit
-def sample(plans: Record) -> None:
-    """Take the samples that are due after a step, with all bodies placed where they are then."""
+def sample(plans: Record) -> bool:
+    """Take the samples that are due after a step, with all bodies placed where they are then.
+
+    Returns whether a timer was due.
+    """
     plan = plans[0]
     if plan.samples == 0:
-        return
+        return False
     tables, step = carray(pointer(plan.samples), (1,), TABLE), plan.step + plan.ahead
-    if step >= word(tables[0].due):
-        call_both(plan.kinematics, plan.model, plan.data)
-        take_due(tables, step)
+    if step < word(tables[0].due):
+        return False
+    call_both(plan.kinematics, plan.model, plan.data)
+    take_due(tables, step)
+    return True
 
 
 @njit

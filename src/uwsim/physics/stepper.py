@@ -111,7 +111,9 @@ class Stepper:
         motion: Array | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
-    ) -> None:
+        *,
+        samples_last: bool = False,
+    ) -> bool:
         """Take steps.
 
         Args:
@@ -121,6 +123,10 @@ class Stepper:
                 rotation [rad/s] in W, (n, m, 9); one row counts for all; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
+            samples_last: take them after the last step, too.
+
+        Returns:
+            Whether a timer of the samples was due after the last step, and they were taken.
 
         Raises:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
@@ -154,6 +160,7 @@ class Stepper:
         if found != step_kernel.WENT_WELL:
             plan["step"] += 1
             self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
+        return samples_last and bool(step_kernel.sample(plan))
 
     def _bound_and_begin(self, plan: npt.NDArray[np.void]) -> int:
         """Complete a step, bound what bounces, sample, and begin the next step."""

@@ -70,21 +70,21 @@ class SceneStepper:
         self._schedule.apply_commands()
         self._step_devices()
         self._advect_kinematic()
-        n = self._n_alone(wanted) if wanted > 1 else 1
-        self._step_physics(n)
+        n, samples_last = self._plan_run(wanted) if wanted > 1 else (1, False)
+        is_sampled = self._step_physics(n, samples_last=samples_last)
         self.animate()
         self._contacts.update(self._step)
-        self.publish()
+        self.publish(is_sampled=is_sampled)
         for look in self._watchers:
             look()
         return n
 
-    def _n_alone(self, wanted: int) -> int:
+    def _plan_run(self, wanted: int) -> tuple[int, bool]:
         """How many steps from this one on the forces may act alone, of those wanted.
 
         In the step after them a command, a sample, a timer or a device may be due; observers,
         forces, water that is not the same everywhere and what drifts with it have to do in every
-        step.
+        step. The second value says whether the samples after the last of them need no preparation.
         """
         engine, water, now = self._engine, self._water, self._step
         delivery = self._bus.next_delivery
@@ -98,23 +98,28 @@ class SceneStepper:
             or not water.is_uniform
             or (self._drifting and not water.is_still)
         ):
-            return 1
-        dues = [delivery, self._schedule.due if self._network.is_idle else now]
+            return 1, False
+        for_python, unprepared = self._schedule.dues()
+        dues = [delivery, for_python if self._network.is_idle else now]
         dues += [timer.due for timer in self._image_timers]
         dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self._time - self._timestep
         rests = [math.inf, *(device.rests_until(began) for device in self._devices)]
         free = (min(rests) - began) // self._timestep - 1
-        n = min(wanted, MAX_RUN, min(dues) - now + 1, free)
-        return max(1, int(n))
+        n = int(min(wanted, MAX_RUN, min(dues) - now + 1, free))
+        return (n, now + n <= unprepared) if n > 1 else (1, False)
 
-    def publish(self) -> None:
-        """Take samples that are due, deliver messages and call algorithms."""
+    def publish(self, *, is_sampled: bool = False) -> None:
+        """Take samples that are due, deliver messages and call algorithms.
+
+        Args:
+            is_sampled: whether the samples of sensors were taken with the step.
+        """
         bus, step = self._bus, self._step
         for timer in self._image_timers:
             timer.tick(step)
         self._network.advance(nanoseconds(self._time))
-        self._schedule.tick(step)
+        self._schedule.tick(step, is_sampled=is_sampled)
         bus.deliver()
         for node in self._nodes:
             node.tick()
@@ -135,15 +140,18 @@ class SceneStepper:
             here = vehicle.world_from_base
             vehicle.drift(water.carried(here, self._time, self._timestep, vehicle.name))
 
-    def _step_physics(self, n: int) -> None:
-        """Advance the physics by some steps, in the flow of the water at their times."""
+    def _step_physics(self, n: int, *, samples_last: bool) -> bool:
+        """Advance the physics by some steps, in the flow of the water at their times.
+
+        Returns whether the samples that are due after them were taken.
+        """
         engine, water = self._engine, self._water
         if self._forces:
             engine.push(engine_wrenches(self._forces, self._time - self._timestep))
         if not engine.is_dynamic:
             engine.fall()
             self._below_ground.look(self._step)
-            return
+            return False
         first, half = self._step, 0.5 * self._timestep  # forces act in the middle of a step
         motion = None
         if not water.is_still:
@@ -151,10 +159,13 @@ class SceneStepper:
             motion = water.during(engine.submerged_positions, times, self._wet_names)
         before = engine.n_steps
         try:
-            engine.step(n, motion, self._schedule.table, first)
+            is_sampled = engine.step(
+                n, motion, self._schedule.table, first, samples_last=samples_last
+            )
         finally:
             self._bus.state.step = first + max(0, engine.n_steps - before - 1)
         self._below_ground.look(self._step)
+        return is_sampled
 
     def animate(self) -> None:
         """Move what devices animate."""
