@@ -10,7 +10,7 @@ import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
 from tests.support.opened import open_scene
-from uwsim.base.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose
 from uwsim.devices.dredge_tool import DredgeTool, DredgeToolSpec
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec

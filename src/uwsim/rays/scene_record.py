@@ -67,7 +67,7 @@ Record = Any
 
 def scene_record(trees: Trees, bodies: Bodies, place: Engine) -> npt.NDArray[np.void]:
     """Return the record of `SCENE` of a scene, (1,); its arrays have to live on."""
-    arrays = (*trees, *bodies, *place)
+    arrays: tuple[npt.NDArray[Any], ...] = (*trees, *bodies, *place)
     record = np.zeros(1, SCENE)
     for (name, (count, width)), array in zip(_ARRAYS.items(), arrays, strict=True):
         if not array.flags.c_contiguous:
@@ -173,4 +173,3 @@ def cast_in(
         carray(pointer(scene.axes), (scene.n_engine, 3, 3), np.float64),
     )
     cast_rays(trees, bodies, place, origin, directions, (begins, reach), hits)
-

@@ -15,7 +15,7 @@ from ..base.numerics.memory import carray, floats, pointer
 from ..rays import Hits
 from ..rays.scene_record import RAYS, cast_from
 from ..world.mounts import MOUNT, read_frame, read_motion
-from .janus import ENOUGH, SIGNS
+from .janus import ENOUGH, SIGNS, Flags
 
 DVL = np.dtype(
     [
@@ -48,10 +48,12 @@ DVL = np.dtype(
 INSTRUMENT, WORLD, ERROR, MADE_GOOD, TIME, LAST = 0, 3, 6, 7, 10, 11
 """Where the numbers of a track are; see `TrackState`."""
 N_TRACK = 12
-BOTTOM, WATER, HEIGHT, DEPTH, RANGES, ALONG, SHIP = 0, 12, 24, 25, 26, 30, 34
+SHIP = 12
+"""Behind the numbers of a track among the values: its velocity in the axes of the base [m/s]."""
+BOTTOM, WATER, HEIGHT, DEPTH, RANGES, ALONG = 0, 15, 30, 31, 32, 36
 """Where the values of a sample are: tracks, mean height [m], depth [m], ranges [m] and velocities
-[m/s] of the beams, axes of the vehicle's base in W by rows."""
-N_VALUES = 43
+[m/s] of the beams."""
+N_VALUES = 40
 THROUGH = 1e-6
 """How far behind a surface of its own vehicle a beam goes on [m]."""
 MAX_OWN = 32
@@ -110,9 +112,7 @@ def ping(
         beam, d = beams[i], directions[i]
         over_ground = 0.0 + d[0] * velocity[0] + d[1] * velocity[1] + d[2] * velocity[2]
         bottom[i] = scale[i] * over_ground + dvl.beam_std * normals[0, i]
-        carried = (
-            beam[0] * flow[3 * i] + beam[1] * flow[3 * i + 1] + beam[2] * flow[3 * i + 2]
-        )
+        carried = beam[0] * flow[3 * i] + beam[1] * flow[3 * i + 1] + beam[2] * flow[3 * i + 2]
         water[i] = scale[i] * (over_ground - carried) + dvl.water_std * normals[1, i]
         is_heard, axial = chances[i] >= dvl.dropout, ranges[i] * dvl.cosine
         is_good[i] = is_heard and dvl.min_altitude <= axial <= dvl.max_altitude
@@ -127,12 +127,22 @@ def ping(
     noise = dvl.std * normals[3, :3]
     take_velocity(floats(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
     take_velocity(floats(dvl.water, N_TRACK), time, axes, dvl, (water, is_wet), noise)
-    found[BOTTOM:WATER] = floats(dvl.bottom, N_TRACK)
-    found[WATER:HEIGHT] = floats(dvl.water, N_TRACK)
+    read_frame(dvl.base, base)
+    write_track(floats(dvl.bottom, N_TRACK), base[3:], found[BOTTOM:WATER])
+    write_track(floats(dvl.water, N_TRACK), base[3:], found[WATER:HEIGHT])
     found[HEIGHT] = height / n_good if n_good else math.nan
     found[DEPTH] = max(0.0, dvl.surface - frame[2])
-    read_frame(dvl.base, base)
-    found[SHIP:] = base[3:]
+
+
+@njit
+def write_track(track: Array, base: Array, found: Array) -> None:
+    """Write the numbers of a track, and its velocity in the axes of the base, by rows, (9,)."""
+    found[:SHIP] = track
+    for i in range(3):
+        total = 0.0
+        for j in range(3):
+            total += base[3 * j + i] * track[WORLD + j]
+        found[SHIP + i] = total
 
 
 @njit
@@ -165,7 +175,7 @@ def take_velocity(
     time: float,
     axes: Array,
     dvl: Record,
-    measured: tuple[Array, Array],
+    measured: tuple[Array, Flags],
     noise: Array,
 ) -> None:
     """Take the velocity of a ping at ``time`` [s] from those along the beams, some of them good."""

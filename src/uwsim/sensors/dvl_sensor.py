@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
 from ..base.geometry import Array
 from ..base.numerics.calls import address_of, function_address
@@ -142,7 +143,7 @@ class Dvl(CompiledSensor):
         )
         """What takes the numbers of a sample."""
 
-    def _parameters(self) -> np.ndarray:
+    def _parameters(self) -> npt.NDArray[np.void]:
         """Return what compiled code has to know of it, a record of `dvl_kernel.DVL`, (1,)."""
         spec, janus, state, row = self._spec, self._janus, self.state, np.zeros(1, kernel.DVL)
         row["mount"], row["base"] = self._mount.functions, self._base.functions

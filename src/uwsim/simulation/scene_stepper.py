@@ -99,7 +99,7 @@ class SceneStepper:
             or (self._drifting and not water.is_still)
         ):
             return 1, False
-        for_python, unprepared = self._schedule.dues()
+        for_python, unprepared = self._schedule.dues(now + wanted - 1)
         dues = [delivery, for_python if self._network.is_idle else now]
         dues += [timer.due for timer in self._image_timers]
         dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]

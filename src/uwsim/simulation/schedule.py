@@ -122,8 +122,11 @@ class Schedule:
         table["due"], table["timestep"] = address_of(self.state.due), self._timestep
         return table
 
-    def dues(self) -> tuple[int, int]:
+    def dues(self, last: int) -> tuple[int, int]:
         """Return when Python is needed, in steps.
+
+        Args:
+            last: the step behind which nobody asks.
 
         Returns:
             The step at which compiled steps have to end, as something is due for Python; and that
@@ -131,10 +134,13 @@ class Schedule:
         """
         for_python = unprepared = NEVER
         for timer in self._timers:
+            due = int(timer.state.counts[DUE])
+            if due > last or due >= unprepared:
+                continue
             if not timer.is_alone:
-                unprepared = min(unprepared, int(timer.state.counts[DUE]))
-            elif timer.is_called:
-                for_python = min(for_python, int(timer.state.counts[DUE]))
+                unprepared = due
+            elif due < for_python and timer.is_called:
+                for_python = due
         return min(for_python, unprepared), unprepared
 
     def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:

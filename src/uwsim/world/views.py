@@ -190,8 +190,9 @@ class SensorWorld(TimedWorld, Protocol):
         """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
 
     def even_water(self, vehicle: str) -> npt.NDArray[np.float64] | None:
-        """Return the velocity of water that moves the same everywhere and always, as a vehicle
-        feels it, in W, (3,) [m/s]; None where it does not.
+        """Return the velocity of water that moves the same everywhere and always; None if not.
+
+        In W, (3,) [m/s], as a vehicle feels it.
         """
 
     def water_velocity(
