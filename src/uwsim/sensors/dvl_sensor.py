@@ -139,7 +139,6 @@ class Dvl(CompiledSensor):
             n_values=kernel.N_VALUES,
             prepare=self._prepare,
             is_alone=self._is_alone,
-            kept=(self.state, mount, self._base, world.rays, self._is_own, self._flow),
         )
         """What takes the numbers of a sample."""
 
