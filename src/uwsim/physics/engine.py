@@ -33,6 +33,7 @@ from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
 from .uwsim_physics import UwsimPhysics
+from .water_function import WaterFunction
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -142,7 +143,7 @@ class Engine:
     def step(
         self,
         n: int,
-        water: Array | None,
+        water: WaterFunction | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
     ) -> None:
@@ -150,9 +151,7 @@ class Engine:
 
         Args:
             n: how many.
-            water: in each step, at each body that it acts on, its velocity [m/s], acceleration
-                [m/s2] and rotation [rad/s] in W, (n, m, 9); one row counts for all steps; None
-                where it is still.
+            water: how it moves at the bodies that it acts on; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
 
@@ -162,6 +161,8 @@ class Engine:
         """
         if self._stepper is None:
             return
+        if water is not None and water.needs_points:
+            self.poses.refresh()
         self.grips.follow()
         self.lift.begin_step()
         if self._bounces is not None:
@@ -309,6 +310,7 @@ class Engine:
             [each.servos for each in self.actuation.values()],
             placed,
             self._wet.tolist(),
+            self._felt_at,
             self._check,
             self._bounces,
         )

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import call_both
+from ..base.numerics.calls import call, call_both
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import Ints64, carray, floats, longs, pointer, small, word
 from ..base.sampling import TABLE, take_due
@@ -20,10 +20,9 @@ from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
 from .islands import choose_islands
+from .water_function import POINT, ROTATION, VELOCITY, WATER_ROW
 
 _TINY = 1e-15  # mjMINVAL
-ROW = 9
-"""Of the water at a body: velocity, acceleration and rotation."""
 WENT_WELL, WARNED, TOO_FAST = range(3)
 """What became of a step; of one that is too fast the degree of freedom is added."""
 
@@ -54,8 +53,12 @@ PLAN = np.dtype(
         ("samples", np.int64),  # a record of `sampling.TABLE`; 0: none are taken
         ("ahead", np.int64),  # steps of the simulation's clock less those of this count
         ("kinematics", np.int64),  # the address of MuJoCo's function
-        ("water", np.int64),  # a row of `ROW` numbers for each in each step to come
-        ("n_water", np.int64),  # steps that have one; behind them the water is as it was
+        ("felt_at", np.int64),  # where these feel it, in their axes, three numbers each
+        ("water_rows", np.int64),  # how it moves there, `WATER_ROW` numbers each
+        ("flow", np.int64),  # the addresses of a `WaterFunction` and its parameters
+        ("flow_parameters", np.int64),
+        ("needs_points", np.int64),  # whether it reads where the bodies are
+        ("n_water", np.int64),  # steps in which it is asked; behind them the water is as it was
     ],
     align=True,
 )
@@ -71,7 +74,7 @@ def begin(plans: Record) -> None:
     m, d = plan.model, plan.data
     at = longs(plan.offsets, plan.n_offsets)
     if plan.n_water > 0:
-        set_water(plan, floats(word(d + at[f.USERDATA]), word(m + at[f.NUSERDATA])))
+        set_water(plan, at)
     qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
     ctrl = floats(word(d + at[f.CTRL]), word(m + at[f.NU]))
     set_thrusters(plan, at, qpos, ctrl)
@@ -130,15 +133,18 @@ def end(plans: Record) -> int:
 
 
 @njit
-def sample(plans: Record) -> None:
-    """Take the samples that are due after a step, with all bodies placed where they are then."""
+def sample_and_begin(plans: Record) -> None:
+    """Take the samples that are due after a step, and begin the next."""
     plan = plans[0]
-    if plan.samples == 0:
-        return
-    tables, step = carray(pointer(plan.samples), (1,), TABLE), plan.step + plan.ahead
-    if step >= word(tables[0].due):
+    step = plan.step + plan.ahead
+    is_due = False
+    if plan.samples != 0:
+        is_due = step >= word(carray(pointer(plan.samples), (1,), TABLE)[0].due)
+    if is_due or plan.needs_points != 0:
         call_both(plan.kinematics, plan.model, plan.data)
-        take_due(tables, step)
+    if is_due:
+        take_due(carray(pointer(plan.samples), (1,), TABLE), step)
+    begin(plans)
 
 
 @njit
@@ -146,23 +152,35 @@ def end_and_begin(plans: Record) -> int:
     """Complete a step, sample, and begin the next, if the first went well."""
     found = end(plans)
     if found == WENT_WELL:
-        sample(plans)
-        begin(plans)
+        sample_and_begin(plans)
     return found
 
 
 @njit
-def set_water(plan: Record, userdata: Array) -> None:
-    """Let the water move as the next row of the table says."""
-    wet = longs(plan.wet, plan.n_wet)
-    rows = floats(plan.water, ROW * plan.n_wet)
-    for i in range(plan.n_wet):
+def set_water(plan: Record, at: Ints64) -> None:
+    """Let the water move in the step that begins as its function says, at its middle."""
+    d, n = plan.data, plan.n_wet
+    wet = longs(plan.wet, n)
+    rows = floats(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
+    if plan.needs_points != 0:
+        felt_at = floats(plan.felt_at, 3 * n)
+        for i in range(n):
+            origin = floats(word(d + at[f.XPOS]) + 24 * wet[i], 3)
+            axes = floats(word(d + at[f.XMAT]) + 72 * wet[i], 9)
+            x, y, z = felt_at[3 * i], felt_at[3 * i + 1], felt_at[3 * i + 2]
+            for k in range(3):
+                rows[i, POINT + k] = (
+                    origin[k] + axes[3 * k] * x + axes[3 * k + 1] * y + axes[3 * k + 2] * z
+                )
+    time = (plan.step + plan.ahead + 1) * plan.timestep - 0.5 * plan.timestep
+    call(plan.flow, plan.flow_parameters, plan.water_rows, time)
+    userdata = floats(word(d + at[f.USERDATA]), word(plan.model + at[f.NUSERDATA]))
+    for i in range(n):
         to = WATER_COLUMNS * wet[i]
         for k in range(6):
-            userdata[to + k] = rows[ROW * i + k]
+            userdata[to + k] = rows[i, VELOCITY + k]
         for k in range(3):
-            userdata[to + TURN + k] = rows[ROW * i + 6 + k]
-    plan.water += 8 * ROW * plan.n_wet
+            userdata[to + TURN + k] = rows[i, ROTATION + k]
     plan.n_water -= 1
 
 

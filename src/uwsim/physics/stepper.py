@@ -22,7 +22,9 @@ from .actuation.servos import Servos
 from .bounce_limit import BounceLimit
 from .engine_warnings import StepCheck
 from .hydrodynamics import callback
+from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.hydrodynamics import Hydrodynamics
+from .water_function import WATER_ROW, WaterFunction
 
 AUTOPILOT_PERIOD = 0.02
 """Period of the autopilots [s]."""
@@ -48,6 +50,7 @@ class Stepper:
         servos: of their joints.
         placed: joints of the vehicles that stay where they are put.
         wet: bodies whose water is set.
+        felt_at: where these feel it, in their axes, (n, 3) [m].
         check: says what is wrong with a step.
         bounces: bounds the energy of objects that bounce; None where none does.
     """
@@ -60,6 +63,7 @@ class Stepper:
         servos: Sequence[Servos],
         placed: Sequence[int],
         wet: Sequence[int],
+        felt_at: Array,
         check: StepCheck,
         bounces: BounceLimit | None,
     ) -> None:
@@ -88,7 +92,9 @@ class Stepper:
         counters = check.counters
         plan["warnings"], plan["n_warnings"] = counters.ctypes.data, len(counters)
         plan["stride"] = counters.strides[0]
-        self._n_wet = len(wet)
+        self._wet, self._felt_at = list(wet), np.ascontiguousarray(felt_at)
+        self._rows = np.zeros((len(wet), WATER_ROW))  # of the water at these bodies
+        plan["felt_at"], plan["water_rows"] = address_of(self._felt_at), address_of(self._rows)
         self.state = StepperState()
         """What the next step depends on."""
         self._step: Callable[[mujoco.MjModel, mujoco.MjData], None] = (
@@ -108,7 +114,7 @@ class Stepper:
         self,
         n: int,
         first: int,
-        motion: Array | None,
+        water: WaterFunction | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
     ) -> None:
@@ -117,8 +123,7 @@ class Stepper:
         Args:
             n: how many.
             first: how many were taken before.
-            motion: of the water at the bodies in each step, velocity [m/s], acceleration [m/s2] and
-                rotation [rad/s] in W, (n, m, 9); one row counts for all; None: it is still.
+            water: how it moves at the bodies, which are placed; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
 
@@ -126,17 +131,11 @@ class Stepper:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
                 not be true.
         """
-        if motion is None and self.state.has_flow:
-            motion = np.zeros((1, self._n_wet, step_kernel.ROW))
-            self.state.has_flow = False
-        elif motion is not None:
-            self.state.has_flow = True
+        self._set_water(water, n)
         plan, model, data, advance = self._plan, self._model, self._data, self._step
         plan["step"] = first
         plan["samples"] = 0 if samples is None else address_of(samples)
         plan["ahead"] = step - 1 - first
-        plan["water"] = 0 if motion is None else motion.ctypes.data
-        plan["n_water"] = 0 if motion is None else len(motion)
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
         step_kernel.begin(plan)
@@ -155,14 +154,28 @@ class Stepper:
             plan["step"] += 1
             self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
 
+    def _set_water(self, water: WaterFunction | None, n: int) -> None:
+        """Let the water of the next steps move so; None: it is still."""
+        plan = self._plan
+        if water is not None:
+            self.state.has_flow = True
+            plan["flow"], plan["flow_parameters"] = water.function, address_of(water.parameters)
+            plan["needs_points"], plan["n_water"] = water.needs_points, 1 if water.is_steady else n
+            return
+        plan["needs_points"] = plan["n_water"] = 0
+        if self.state.has_flow:
+            self.state.has_flow = False
+            at_bodies = self._data.userdata[: WATER_COLUMNS * self._model.nbody]
+            rows = at_bodies.reshape(-1, WATER_COLUMNS)  # (bodies, columns)
+            rows[self._wet, :6] = rows[self._wet, TURN : TURN + 3] = 0.0
+
     def _bound_and_begin(self, plan: npt.NDArray[np.void]) -> int:
         """Complete a step, bound what bounces, sample, and begin the next step."""
         assert self._bounces is not None
         found = int(step_kernel.end(plan))
         if found == step_kernel.WENT_WELL:
             self._bounces.apply()
-            step_kernel.sample(plan)
-            step_kernel.begin(plan)
+            step_kernel.sample_and_begin(plan)
         return found
 
 

@@ -95,7 +95,7 @@ class SceneStepper:
             or self._contacts.is_laid
             or not engine.is_dynamic
             or engine.moves_by_step
-            or not water.is_uniform
+            or water.is_asked_where_bodies_are(self._wet_names)
             or (self._drifting and not water.is_still)
         ):
             return 1
