@@ -57,6 +57,16 @@ class FlowFunction:
         return self.function, address_of(self.parameters)
 
 
+def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
+    """Return a record of `QUERY` about a point for each vehicle, (1,), and what it refers to."""
+    points, velocity, acceleration = np.zeros((3, len(vehicles), 3))
+    query = np.zeros(1, QUERY)
+    query["n"], query["vehicles"] = len(vehicles), address_of(vehicles)
+    query["points"], query["velocity"] = address_of(points), address_of(velocity)
+    query["acceleration"] = address_of(acceleration)
+    return query, vehicles, points, velocity, acceleration
+
+
 @njit
 def write_everywhere(query: Record, velocity: Array, acceleration: Array) -> None:
     """Answer with one velocity and one acceleration, (3,), for all points."""

@@ -33,7 +33,7 @@ from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
 from .uwsim_physics import UwsimPhysics
-from .water_function import WaterFunction
+from .water_function import DriftFunction, WaterFunction
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -146,6 +146,8 @@ class Engine:
         water: WaterFunction | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
+        *,
+        drift: DriftFunction | None = None,
     ) -> None:
         """Advance all simulated bodies by some steps.
 
@@ -154,6 +156,7 @@ class Engine:
             water: how it moves at the bodies that it acts on; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
+            drift: moves the vehicles that are not simulated; None: they stay.
 
         Raises:
             SimulationFailed: the engine warned, or a body moves faster than can be: what follows
@@ -168,7 +171,7 @@ class Engine:
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
         try:
-            self._stepper.run(n, self.state.n_steps, water, samples, step)
+            self._stepper.run(n, self.state.n_steps, water, samples, step, drift=drift)
         finally:
             self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()

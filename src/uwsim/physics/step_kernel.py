@@ -43,6 +43,8 @@ PLAN = np.dtype(
         ("placed", np.int64),  # places in qpos and qvel of bodies that stay where they are put
         ("n_placed", np.int64),
         ("poses", np.int64),  # where those are, seven numbers each
+        ("drift", np.int64),  # the addresses of a `DriftFunction` and its parameters; 0: none moves
+        ("drift_parameters", np.int64),
         ("speeds", np.int64),  # `engine_warnings.speeds_of`
         ("n_speeds", np.int64),
         ("warnings", np.int64),  # MuJoCo's counters
@@ -73,9 +75,11 @@ def begin(plans: Record) -> None:
     plan = plans[0]
     m, d = plan.model, plan.data
     at = longs(plan.offsets, plan.n_offsets)
+    qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
+    if plan.n_placed > 0:
+        keep_placed(plan, qpos)
     if plan.n_water > 0:
         set_water(plan, at)
-    qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
     ctrl = floats(word(d + at[f.CTRL]), word(m + at[f.NU]))
     set_thrusters(plan, at, qpos, ctrl)
     nv = word(m + at[f.NV])
@@ -94,11 +98,6 @@ def begin(plans: Record) -> None:
         states = carray(pointer(servos[3 * i + 1]), (servos[3 * i + 2],), JOINT_STATE)
         move_on(plan.timestep, joints, states, qpos)
         pull(plan.timestep, joints, states, engine)
-    placed = longs(plan.placed, 2 * plan.n_placed)
-    poses = floats(plan.poses, 7 * plan.n_placed)
-    for i in range(plan.n_placed):
-        for k in range(7):
-            poses[7 * i + k] = qpos[placed[2 * i] + k]
     if plan.is_in_middle != 0:
         to_the_middle(m, d, at)
 
@@ -133,17 +132,28 @@ def end(plans: Record) -> int:
 
 
 @njit
+def sample(plans: Record) -> bool:
+    """Take the samples that are due after a step, with all bodies placed where they are then.
+
+    Returns whether a timer was due.
+    """
+    plan = plans[0]
+    if plan.samples == 0:
+        return False
+    tables, step = carray(pointer(plan.samples), (1,), TABLE), plan.step + plan.ahead
+    if step < word(tables[0].due):
+        return False
+    call_both(plan.kinematics, plan.model, plan.data)
+    take_due(tables, step)
+    return True
+
+
+@njit
 def sample_and_begin(plans: Record) -> None:
     """Take the samples that are due after a step, and begin the next."""
-    plan = plans[0]
-    step = plan.step + plan.ahead
-    is_due = False
-    if plan.samples != 0:
-        is_due = step >= word(carray(pointer(plan.samples), (1,), TABLE)[0].due)
-    if is_due or plan.needs_points != 0:
+    plan, is_placed = plans[0], sample(plans)
+    if plan.needs_points != 0 and not is_placed:
         call_both(plan.kinematics, plan.model, plan.data)
-    if is_due:
-        take_due(carray(pointer(plan.samples), (1,), TABLE), step)
     begin(plans)
 
 
@@ -154,6 +164,23 @@ def end_and_begin(plans: Record) -> int:
     if found == WENT_WELL:
         sample_and_begin(plans)
     return found
+
+
+@njit
+def keep_placed(plan: Record, qpos: Array) -> None:
+    """Write down where the bodies are that stay where they are put, after they have drifted."""
+    placed = longs(plan.placed, 2 * plan.n_placed)
+    poses = floats(plan.poses, 7 * plan.n_placed)
+    for i in range(plan.n_placed):
+        for k in range(7):
+            poses[7 * i + k] = qpos[placed[2 * i] + k]
+    if plan.drift == 0:
+        return
+    time = (plan.step + plan.ahead + 1) * plan.timestep
+    call(plan.drift, plan.drift_parameters, plan.poses, time)
+    for i in range(plan.n_placed):
+        for k in range(7):
+            qpos[placed[2 * i] + k] = poses[7 * i + k]
 
 
 @njit

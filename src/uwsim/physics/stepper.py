@@ -24,12 +24,27 @@ from .engine_warnings import StepCheck
 from .hydrodynamics import callback
 from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.hydrodynamics import Hydrodynamics
-from .water_function import WATER_ROW, WaterFunction
+from .water_function import WATER_ROW, DriftFunction, WaterFunction
 
 AUTOPILOT_PERIOD = 0.02
 """Period of the autopilots [s]."""
 
 Ints = npt.NDArray[np.int64]
+
+_STEP, _SAMPLES, _AHEAD, _FLOW, _FLOW_PARAMETERS, _NEEDS_POINTS, _N_WATER, _DRIFT, _DRIFT_PARAMETERS = (
+    step_kernel.PLAN.fields[name][1] // 8  # type: ignore[index]  # words before the field
+    for name in (
+        "step",
+        "samples",
+        "ahead",
+        "flow",
+        "flow_parameters",
+        "needs_points",
+        "n_water",
+        "drift",
+        "drift_parameters",
+    )
+)
 
 
 @dataclass(slots=True)
@@ -71,6 +86,8 @@ class Stepper:
         self._bounces = bounces
         self._model, self._data, self._water, self._check = model, data, water, check
         self._plan = plan = np.zeros(1, step_kernel.PLAN)
+        self._words = plan.view(np.int64).data  # a number is set faster there than in a field
+        self._table: tuple[npt.NDArray[np.void] | None, int] = None, 0  # of samples; its address
         uses_callback = callback.has_slot()
         plan["model"], plan["data"] = model._address, data._address
         plan["is_in_middle"] = uses_callback
@@ -108,7 +125,7 @@ class Stepper:
     @property
     def n_steps(self) -> int:
         """Steps taken since the beginning; one that failed counts."""
-        return int(self._plan["step"][0])
+        return self._words[_STEP]
 
     def run(
         self,
@@ -117,6 +134,8 @@ class Stepper:
         water: WaterFunction | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
+        *,
+        drift: DriftFunction | None = None,
     ) -> None:
         """Take steps.
 
@@ -126,16 +145,21 @@ class Stepper:
             water: how it moves at the bodies, which are placed; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
+            drift: moves the vehicles that are not simulated; None: they stay.
 
         Raises:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
                 not be true.
         """
+        plan, words, model, data = self._plan, self._words, self._model, self._data
+        if samples is not self._table[0]:
+            self._table = samples, 0 if samples is None else address_of(samples)
+        words[_STEP], words[_SAMPLES], words[_AHEAD] = first, self._table[1], step - 1 - first
         self._set_water(water, n)
-        plan, model, data, advance = self._plan, self._model, self._data, self._step
-        plan["step"] = first
-        plan["samples"] = 0 if samples is None else address_of(samples)
-        plan["ahead"] = step - 1 - first
+        words[_DRIFT] = 0
+        if drift is not None:
+            words[_DRIFT], words[_DRIFT_PARAMETERS] = drift.function, drift.address
+        advance = self._step
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
         step_kernel.begin(plan)
@@ -151,18 +175,18 @@ class Stepper:
             if self._bounces is not None and found == step_kernel.WENT_WELL:
                 self._bounces.apply()
         if found != step_kernel.WENT_WELL:
-            plan["step"] += 1
+            words[_STEP] += 1
             self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
 
     def _set_water(self, water: WaterFunction | None, n: int) -> None:
         """Let the water of the next steps move so; None: it is still."""
-        plan = self._plan
+        words = self._words
         if water is not None:
             self.state.has_flow = True
-            plan["flow"], plan["flow_parameters"] = water.function, address_of(water.parameters)
-            plan["needs_points"], plan["n_water"] = water.needs_points, 1 if water.is_steady else n
+            words[_FLOW], words[_FLOW_PARAMETERS] = water.function, water.address
+            words[_NEEDS_POINTS], words[_N_WATER] = water.needs_points, 1 if water.is_steady else n
             return
-        plan["needs_points"] = plan["n_water"] = 0
+        words[_NEEDS_POINTS] = words[_N_WATER] = 0
         if self.state.has_flow:
             self.state.has_flow = False
             at_bodies = self._data.userdata[: WATER_COLUMNS * self._model.nbody]

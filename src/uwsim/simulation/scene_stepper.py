@@ -49,6 +49,7 @@ class SceneStepper:
         vehicles, engine = world.model.scene.vehicles, world.engine
         placed = [i for i in range(len(vehicles)) if not engine.is_simulated(i)]
         self._drifting = [world.vehicles[i] for i in placed]
+        self._drifting_names = tuple(vehicle.name for vehicle in self._drifting)
         self._wet_names = tuple(
             "" if i is None else vehicles[i].name for i in engine.submerged_vehicles()
         )
@@ -69,9 +70,11 @@ class SceneStepper:
         self._bus.state.step += 1
         self._schedule.apply_commands()
         self._step_devices()
-        self._advect_kinematic()
-        n = self._n_alone(wanted) if wanted > 1 else 1
-        self._step_physics(n)
+        is_led = self._drifts_by_python
+        if is_led:
+            self._advect_kinematic()
+        n = self._n_alone(wanted) if wanted > 1 and not is_led else 1
+        self._step_physics(n, drifts=not is_led)
         self.animate()
         self._contacts.update(self._step)
         self.publish()
@@ -83,8 +86,7 @@ class SceneStepper:
         """How many steps from this one on the forces may act alone, of those wanted.
 
         In the step after them a command, a sample, a timer or a device may be due; observers,
-        forces, water that is not the same everywhere and what drifts with it have to do in every
-        step.
+        forces and water that Python computes from where bodies are have to do in every step.
         """
         engine, water, now = self._engine, self._water, self._step
         delivery = self._bus.next_delivery
@@ -96,7 +98,6 @@ class SceneStepper:
             or not engine.is_dynamic
             or engine.moves_by_step
             or water.is_asked_where_bodies_are(self._wet_names)
-            or (self._drifting and not water.is_still)
         ):
             return 1
         dues = [delivery, self._schedule.due if self._network.is_idle else now]
@@ -126,17 +127,34 @@ class SceneStepper:
         for device in self._devices:
             device.step(time)
 
+    @property
+    def _drifts_by_python(self) -> bool:
+        """Whether vehicles drift that compiled steps cannot move."""
+        engine, water = self._engine, self._water
+        if not self._drifting or water.is_still:
+            return False
+        return (
+            not engine.is_dynamic
+            or engine.moves_by_step  # what is carried is placed beside a vehicle that has drifted
+            or bool(self._forces)
+            or any(vehicle.is_recorded for vehicle in self._drifting)
+            or water.drift(self._drifting_names, self._timestep, self._time) is None
+        )
+
     def _advect_kinematic(self) -> None:
         """Advect kinematic vehicles with the water, as the original does."""
         water = self._water
-        if water.is_still:
-            return
         for vehicle in self._drifting:
             here = vehicle.world_from_base
             vehicle.drift(water.carried(here, self._time, self._timestep, vehicle.name))
 
-    def _step_physics(self, n: int) -> None:
-        """Advance the physics by some steps, in the flow of the water at their times."""
+    def _step_physics(self, n: int, *, drifts: bool) -> None:
+        """Advance the physics by some steps, in the flow of the water at their times.
+
+        Args:
+            n: how many.
+            drifts: whether vehicles that are not simulated drift in them.
+        """
         engine, water = self._engine, self._water
         if self._forces:
             engine.push(engine_wrenches(self._forces, self._time - self._timestep))
@@ -145,13 +163,16 @@ class SceneStepper:
             self._below_ground.look(self._step)
             return
         first, half = self._step, 0.5 * self._timestep  # forces act in the middle of a step
-        motion = None
+        motion = drift = None
         if not water.is_still:
             times = [(first + k) * self._timestep - half for k in range(n)]
             motion = water.during(engine.submerged_positions, times, self._wet_names)
+            if drifts and self._drifting:
+                until = (first + n - 1) * self._timestep
+                drift = water.drift(self._drifting_names, self._timestep, until)
         before = engine.n_steps
         try:
-            engine.step(n, motion, self._schedule.table, first)
+            engine.step(n, motion, self._schedule.table, first, drift=drift)
         finally:
             self._bus.state.step = first + max(0, engine.n_steps - before - 1)
         self._below_ground.look(self._step)

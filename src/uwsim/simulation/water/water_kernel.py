@@ -20,7 +20,7 @@ from ...base.geometry import Array, Pose
 from ...base.numerics.calls import address_of, call, function_address
 from ...base.numerics.jit import njit
 from ...base.numerics.memory import carray, floats, pointer
-from ...currents.flow_function import FLOW, QUERY, FlowFunction
+from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
 from ...physics.water_function import (
     ACCELERATION,
     POINT,
@@ -71,8 +71,8 @@ def of_flow(
         is_uniform: whether it flows the same everywhere.
         is_steady: whether it is uniform and flows the same at all times.
     """
-    at_bodies, *kept = _query(vehicles)
-    around_them, *others = _query(np.repeat(vehicles, N_AROUND))
+    at_bodies, *kept = query_of(vehicles)
+    around_them, *others = query_of(np.repeat(vehicles, N_AROUND))
     row = np.zeros(1, WATER)
     row["flow"], row["n"], row["is_uniform"] = flow.addresses, len(vehicles), is_uniform
     row["rotation"] = localized_from_world.rotation
@@ -106,18 +106,6 @@ def of_rows(rows: Array) -> WaterFunction:
         is_steady=len(rows) == 1,
         kept=(rows,),
     )
-
-
-def _query(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
-    """Return a record of `QUERY` about a point for each vehicle, and the arrays it refers to."""
-    query, (points, velocity, acceleration) = (
-        np.zeros(1, QUERY),
-        np.zeros((3, len(vehicles), 3)),
-    )
-    query["n"], query["vehicles"] = len(vehicles), address_of(vehicles)
-    query["points"], query["velocity"] = address_of(points), address_of(velocity)
-    query["acceleration"] = address_of(acceleration)
-    return query, vehicles, points, velocity, acceleration
 
 
 def write_next_rows(parameters: int, values: int, time: float) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -18,14 +19,14 @@ from ...currents.current import compiled, is_steady
 from ...currents.flow_function import FlowFunction
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
-from ...physics.water_function import WaterFunction
+from ...physics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
 from ...world import Flow
+from .drift_kernel import of_drift
 from .water_kernel import NEARBY, of_flow, of_rows
 
-_Found = tuple[
-    Flow | None, Sequence[str], tuple[WaterFunction | None, FlowFunction | None]
-]  # a flow, the vehicles that feel it, and its functions
+F = TypeVar("F")
+_Found = tuple[Flow | None, Sequence[str], FlowFunction | None, F | None]
 WaterRow = tuple[Array, Array, Array | None]
 """Velocity, acceleration and rotation of the water at some points."""
 
@@ -55,7 +56,9 @@ class WaterMotion:
         self._sum: Flow = self._scene_current
         self.state = WaterState()
         """What changes of it."""
-        self._functions: _Found = None, (), (None, None)
+        # a flow, the vehicles it is felt by, and its functions
+        self._felt: _Found[WaterFunction] = None, (), None, None
+        self._drift: _Found[DriftFunction] = None, (), None, None
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
         for spec in specs:
@@ -112,26 +115,45 @@ class WaterMotion:
             found[0, :, 6:9] = rotation
         return of_rows(found)
 
+    def drift(self, vehicles: Sequence[str], timestep: float, until: float) -> DriftFunction | None:
+        """Return what moves vehicles with the water as `carried` does, in compiled steps.
+
+        None where Python has to be asked.
+
+        Args:
+            vehicles: names of all vehicles that are not simulated.
+            timestep: length of a step [s].
+            until: the end of the last step [s].
+        """
+        flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._drift
+        if flow is not for_flow or vehicles != for_vehicles:
+            felt, names = _numbered(vehicles)
+            compiled_flow, function = compiled(flow, names), None
+            if compiled_flow is not None:
+                function = of_drift(compiled_flow, self._world_from_localized, felt, timestep)
+            self._drift = flow, vehicles, compiled_flow, function
+        if compiled_flow is not None:
+            compiled_flow.prepare(until)
+        return function
+
     def _compiled(
         self, vehicles: Sequence[str]
     ) -> tuple[WaterFunction | None, FlowFunction | None]:
         """Return the functions of the present flow; None where Python has to be asked."""
-        flow, (for_flow, for_vehicles, functions) = self._flow, self._functions
+        flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._felt
         if flow is not for_flow or vehicles != for_vehicles:
             felt, names = _numbered(vehicles)
-            compiled_flow = compiled(flow, names)
-            water = None
+            compiled_flow, function = compiled(flow, names), None
             if compiled_flow is not None:
-                water = of_flow(
+                function = of_flow(
                     compiled_flow,
                     self._localized_from_world,
                     felt,
                     is_uniform=flow.is_uniform,
                     is_steady=flow.is_uniform and is_steady(flow),
                 )
-            functions = water, compiled_flow
-            self._functions = flow, vehicles, functions
-        return functions
+            self._felt = flow, vehicles, compiled_flow, function
+        return function, compiled_flow
 
     def _everywhere(self, times: Sequence[float], vehicles: Sequence[str]) -> Array:
         """Return rows of uniform water: a vehicle's points feel the same, asked for once."""
