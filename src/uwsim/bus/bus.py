@@ -309,7 +309,8 @@ class Bus:
         """The step at which `deliver` has something to hand out; inf where nothing waits."""
         if self.state.due_now:
             return self.step
-        return min((post[0] for post in self.state.due_later), default=math.inf)
+        later = self.state.due_later
+        return min([post[0] for post in later]) if later else math.inf
 
     @property
     def topics(self) -> dict[str, str]:

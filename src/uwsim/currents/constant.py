@@ -7,23 +7,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.geometry import Array
+from ..base.geometry import Triple
+from ..base.numerics.calls import function_address
+from ..base.numerics.memory import carray, floats, pointer
 from ..schema import element
-from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
+from .compiled import CompiledCurrent
+from .current import MAX_SPEED, CurrentSpec, Place
+from .flow_function import QUERY, FlowFunction, write_everywhere
 
 
 @dataclass(frozen=True, kw_only=True)
 class ConstantSpec(CurrentSpec):
     """A ``<u:constant>``: the same velocity everywhere and always."""
 
-    velocity: tuple[float, float, float] = element(
-        namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED
-    )
+    velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """Velocity of the water, in L [m/s]."""
 
     def bind(self, place: Place) -> Constant:
@@ -31,12 +32,19 @@ class ConstantSpec(CurrentSpec):
         return Constant(self.velocity)
 
 
-@dataclass(frozen=True)
-class Constant(Current):
-    """A uniform, steady velocity; no boundary layer, no turbulence."""
+class Constant(CompiledCurrent):
+    """A uniform, steady velocity; no boundary layer, no turbulence.
 
-    components: tuple[float, float, float]
-    """The velocity of the water, in L [m/s]."""
+    Args:
+        velocity: of the water, in L [m/s].
+    """
+
+    def __init__(self, velocity: Triple) -> None:
+        self._velocity = velocity
+        self._flow = FlowFunction(
+            function=function_address(flow_constant),
+            parameters=np.array(velocity, dtype=np.float64),
+        )
 
     @property
     def is_uniform(self) -> bool:
@@ -51,12 +59,10 @@ class Constant(Current):
     @property
     def is_still(self) -> bool:
         """Whether its velocity is zero."""
-        return not any(self.components)
+        return not any(self._velocity)
 
-    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        return everywhere(points, *self.components)
 
-    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return zeros, (n, 3) [m/s2]."""
-        return np.zeros((len(points), 3))
+def flow_constant(parameters: int, values: int, time: float) -> None:
+    """Answer a query about a constant current; see `uwsim.currents.flow_function`."""
+    query = carray(pointer(values), (1,), QUERY)[0]
+    write_everywhere(query, floats(parameters, 3), np.zeros(3))

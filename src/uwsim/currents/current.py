@@ -13,6 +13,7 @@ from ..base.geometry import Array, Pose
 from ..base.numerics.linear import product
 from ..schema import Spec
 from ..world import Flow
+from .flow_function import FlowFunction
 
 MAX_SPEED = 100.0
 """No current of a file or a function is faster: turbidity currents and tsunamis reach
@@ -82,6 +83,14 @@ class Current(abc.ABC):
         """Whether it is the same at all times."""
         return self.is_still
 
+    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+        """Return its function for compiled code; None where Python has to be asked in every step.
+
+        Args:
+            vehicles: their names, by the numbers that queries have for them.
+        """
+        return None
+
     @abc.abstractmethod
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L.
@@ -113,13 +122,11 @@ class Current(abc.ABC):
         return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
 
 
+def compiled(flow: Flow, vehicles: Sequence[str]) -> FlowFunction | None:
+    """Return `Current.compiled` of a flow; None of one that is no `Current`."""
+    return flow.compiled(vehicles) if isinstance(flow, Current) else None
+
+
 def is_steady(flow: Flow) -> bool:
     """Whether a flow says that it is the same at all times; one that is no `Current` does not."""
     return isinstance(flow, Current) and flow.is_steady
-
-
-def everywhere(points: Array, x: float, y: float, z: float) -> Array:
-    """Return one vector for every point, (n, 3)."""
-    vectors = np.empty((len(points), 3))
-    vectors[:] = x, y, z
-    return vectors

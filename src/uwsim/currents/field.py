@@ -18,7 +18,7 @@ import csv
 import io
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -28,9 +28,14 @@ import numpy.typing as npt
 
 from ..base.files.input_files import read_bytes
 from ..base.geometry import Array
+from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import carray, floats, pointer
 from ..errors import AssetError
 from ..schema import MAX_NUMBER, element, number
-from .current import MAX_SPEED, Current, CurrentSpec, Place
+from .compiled import CompiledCurrent
+from .current import MAX_SPEED, CurrentSpec, Place
+from .flow_function import QUERY, FlowFunction, Record, fill
 from .units import unit
 
 Ints = npt.NDArray[np.int64]
@@ -288,7 +293,24 @@ def _number(name: str, cell: str, where: str) -> float:
     return value
 
 
-class Field(Current):
+FIELD = np.dtype(
+    [
+        ("start", np.float64),  # time in the file when the simulation begins [s]
+        ("is_still_outside", np.int64),
+        ("axes", np.int64, 4),  # the addresses of the values of t, x, y, z, and how many
+        ("lengths", np.int64, 4),
+        ("velocities", np.int64),  # of the velocities in L, (t, nodes, 3) [m/s]
+        ("n_nodes", np.int64),
+        ("corners", np.int64),  # of records of `CORNER`
+        ("n_corners", np.int64),
+    ]
+)
+"""A field, for compiled code."""
+CORNER = np.dtype([("is_upper", np.int64, 3), ("offset", np.int64)])
+"""A corner of a cell: its node along x, y, z, and its number less that of the lowest."""
+
+
+class Field(CompiledCurrent):
     """Velocities of a grid, linear between its nodes along each of t, x, y, z.
 
     Linear interpolation keeps neither mass nor the curl exactly: a field that conserves volume at
@@ -297,76 +319,106 @@ class Field(Current):
     """
 
     def __init__(self, grid: Grid, *, start: float = 0.0, outside: str = "edge") -> None:
-        self._times = grid.axes[0]
-        self._axes = grid.axes[1:]
-        self._start, self._is_still_outside = start, outside == "still"
         n_t, n_x, n_y, n_z, _ = grid.velocities.shape
-        self._velocities = grid.velocities.reshape(n_t, n_x * n_y * n_z, 3)
-        self._strides = (n_y * n_z, n_z, 1)
-        used = [len(axis) > 1 for axis in self._axes]
-        corners = np.array(  # (c, 3): which of the two nodes along x, y, z
-            [corner for corner in itertools.product((0, 1), repeat=3) if _within(corner, used)]
+        axes = [np.ascontiguousarray(axis, dtype=np.float64) for axis in grid.axes]
+        velocities = np.ascontiguousarray(grid.velocities, dtype=np.float64)
+        used = [n > 1 for n in (n_x, n_y, n_z)]
+        existing = [
+            corner for corner in itertools.product((0, 1), repeat=3) if _within(corner, used)
+        ]
+        corners = np.zeros(len(existing), CORNER)
+        corners["is_upper"] = existing
+        corners["offset"] = (corners["is_upper"] * (n_y * n_z, n_z, 1)).sum(axis=1)
+        row = np.zeros(1, FIELD)
+        row["start"], row["is_still_outside"] = start, outside == "still"
+        row["axes"], row["lengths"] = [address_of(axis) for axis in axes], grid.velocities.shape[:4]
+        row["velocities"], row["n_nodes"] = address_of(velocities), n_x * n_y * n_z
+        row["corners"], row["n_corners"] = address_of(corners), len(corners)
+        self._flow = FlowFunction(
+            function=function_address(flow_field), parameters=row, kept=(axes, velocities, corners)
         )
-        self._corners = corners.T.copy()  # (3, c)
-        self._offsets = (corners * np.array(self._strides)).sum(axis=1)[:, None]  # (c, 1)
-
-    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        i, fraction, _ = self._at(time)
-        nodes, weights = self._around(points)
-        now = self._velocities[i][nodes]  # (c, n, 3)
-        if fraction > 0.0:
-            now += (self._velocities[i + 1][nodes] - now) * fraction
-        velocities: Array = (weights[:, :, None] * now).sum(axis=0)
-        return velocities
-
-    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return how fast it changes between two times of the file, in L, (n, 3) [m/s2]."""
-        i, _, span = self._at(time)
-        if span == 0.0:
-            return np.zeros((len(points), 3))
-        nodes, weights = self._around(points)
-        change = self._velocities[i + 1][nodes] - self._velocities[i][nodes]  # (c, n, 3)
-        slope: Array = (weights[:, :, None] * change).sum(axis=0) / span
-        return slope
-
-    def _at(self, time: float) -> tuple[int, float, float]:
-        """Index of the time before, share of the way to the next, and how far that is [s]."""
-        times, now = self._times, self._start + time
-        last = len(times) - 1
-        if now < times[0] or last == 0:
-            return 0, 0.0, 0.0
-        if now >= times[-1]:
-            return last, 0.0, 0.0
-        i = int(np.searchsorted(times, now, side="right")) - 1
-        span = float(times[i + 1] - times[i])
-        return i, float(now - times[i]) / span, span
-
-    def _around(self, points: Array) -> tuple[npt.NDArray[np.int64], Array]:
-        """The nodes around each point and their interpolation weights, (c, n)."""
-        node = np.zeros(len(points), dtype=np.int64)
-        shares = np.empty((3, 2, len(points)))  # along x, y, z: of the lower and the upper node
-        is_inside = np.ones(len(points), dtype=bool)
-        for k, (axis, stride) in enumerate(zip(self._axes, self._strides, strict=True)):
-            if len(axis) == 1:
-                shares[k, 0], shares[k, 1] = 1.0, 0.0
-                continue
-            at = points[:, k]
-            i = axis[1:-1].searchsorted(at, side="right")
-            lower = axis[i]
-            upper = (at - lower) / (axis[i + 1] - lower)
-            if self._is_still_outside:
-                is_inside &= (upper >= 0.0) & (upper <= 1.0)
-            shares[k, 1] = np.minimum(np.maximum(upper, 0.0), 1.0)
-            shares[k, 0] = 1.0 - shares[k, 1]
-            node += i * stride
-        x, y, z = shares
-        weights: Array = x[self._corners[0]] * y[self._corners[1]] * z[self._corners[2]]  # (c, n)
-        if self._is_still_outside:
-            weights *= is_inside
-        return node + self._offsets, weights
 
 
 def _within(corner: tuple[int, ...], used: list[bool]) -> bool:
     """Whether a corner exists: along an axis of one node there is only the lower."""
     return all(along or which == 0 for which, along in zip(corner, used, strict=True))
+
+
+@njit
+def axis_of(current: Record, k: int) -> Array:
+    """Return the values of t, x, y or z."""
+    return floats(current.axes[k], current.lengths[k])
+
+
+@njit
+def moment(current: Record, time: float) -> tuple[int, float, float]:
+    """Index of the time before, share of the way to the next, and how far that is [s]."""
+    times, now = axis_of(current, 0), current.start + time
+    last = len(times) - 1
+    if now < times[0] or last == 0:
+        return 0, 0.0, 0.0
+    if now >= times[last]:
+        return last, 0.0, 0.0
+    i = np.searchsorted(times, now, side="right") - 1
+    span = times[i + 1] - times[i]
+    return i, (now - times[i]) / span, span
+
+
+@njit
+def surround(current: Record, point: Array, shares: Array) -> tuple[int, bool]:
+    """Find the cell of a point: the number of its lowest node, and whether it is in the grid.
+
+    Args:
+        current: the field.
+        point: in L, (3,) [m].
+        shares: into which those of the lower and the upper node are written, (3, 2).
+    """
+    node, is_inside = 0, True
+    for k in range(3):
+        axis = axis_of(current, 1 + k)
+        n = len(axis)
+        node *= n
+        shares[k, 0], shares[k, 1] = 1.0, 0.0
+        if n > 1:
+            i = np.searchsorted(axis[1:-1], point[k], side="right")
+            upper = (point[k] - axis[i]) / (axis[i + 1] - axis[i])
+            is_inside = is_inside and 0.0 <= upper <= 1.0
+            shares[k, 1] = min(max(upper, 0.0), 1.0)
+            shares[k, 0] = 1.0 - shares[k, 1]
+            node += i
+    return node, is_inside
+
+
+def flow_field(parameters: int, values: int, time: float) -> None:
+    """Answer a query about a field; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), FIELD)[0]
+    query = carray(pointer(values), (1,), QUERY)[0]
+    corners = carray(pointer(current.corners), (current.n_corners,), CORNER)
+    i, fraction, span = moment(current, time)
+    size = 3 * current.n_nodes
+    now = floats(current.velocities + 8 * size * i, size)
+    later = floats(current.velocities + 8 * size * (i + 1 if span > 0.0 else i), size)
+    shares, velocity, change = np.empty((3, 2)), np.empty(3), np.empty(3)
+    for p in range(query.n):
+        node, is_inside = surround(current, floats(query.points + 24 * p, 3), shares)
+        velocity[:], change[:] = 0.0, 0.0
+        for c in range(current.n_corners):
+            corner = corners[c]
+            x, y, z = corner.is_upper
+            weight = shares[0, x] * shares[1, y] * shares[2, z]
+            if current.is_still_outside != 0 and not is_inside:
+                weight *= 0.0
+            first = 3 * (node + corner.offset)
+            for k in range(3):
+                here = now[first + k]
+                difference = later[first + k] - here
+                if fraction > 0.0:
+                    velocity[k] += weight * (here + difference * fraction)
+                else:
+                    velocity[k] += weight * here
+                change[k] += weight * difference
+        fill(query.velocity + 24 * p, 1, velocity)
+        if query.acceleration != 0:
+            if span > 0.0:
+                change /= span
+            fill(query.acceleration + 24 * p, 1, change)

@@ -12,15 +12,19 @@ r"""gaussMarkov: a current that is a Gauss-Markov process about a mean.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ..base.geometry import Array, Triple
+from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import carray, floats, pointer
 from ..schema import element
-from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
-from .random_table import Draws
+from .compiled import CompiledCurrent
+from .current import MAX_SPEED, CurrentSpec, Place
+from .flow_function import QUERY, FlowFunction, write_everywhere
+from .random_table import ROWS, RandomTable
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,10 +44,21 @@ class GaussMarkovSpec(CurrentSpec):
 
     def bind(self, place: Place) -> GaussMarkov:
         """Take the stream ``current``."""
-        return GaussMarkov(self, Draws(place.stream("current").standard_normal, 3))
+        return GaussMarkov(self, place.stream("current"))
 
 
-class GaussMarkov(Current):
+GAUSS_MARKOV = np.dtype(
+    [
+        ("mean", np.float64, 3),
+        ("deviation", np.float64, 3),
+        ("step", np.float64),
+        ("states", np.int64),  # the address of a record of `random_table.ROWS`
+    ]
+)
+"""A Gauss-Markov process, for compiled code."""
+
+
+class GaussMarkov(CompiledCurrent):
     r"""A first-order Gauss-Markov process, the same everywhere.
 
     .. math:: \dot x + \mu x = w, \quad v = \bar v + x
@@ -65,39 +80,53 @@ class GaussMarkov(Current):
     Not modelled: any change with place; correlation between axes; limits to the speed.
     """
 
-    def __init__(self, spec: GaussMarkovSpec, draws: Draws) -> None:
-        self._spec, self._draws = spec, draws
-        self._keep = math.exp(-spec.mu * spec.step)
-        self._stir = math.sqrt(-math.expm1(-2.0 * spec.mu * spec.step))
-        self._states = [draws.row(0)]  # of unit variance, at k * step, (k, 3)
+    def __init__(self, spec: GaussMarkovSpec, random: np.random.Generator) -> None:
+        keep = math.exp(-spec.mu * spec.step)
+        stir = math.sqrt(-math.expm1(-2.0 * spec.mu * spec.step))
+        states = RandomTable(  # of unit variance, at k * step
+            lambda shape, before: _walk(keep, stir, random.standard_normal(shape), before), 3
+        )
+        row = np.zeros(1, GAUSS_MARKOV)
+        row["mean"], row["deviation"], row["step"] = spec.mean, spec.deviation, spec.step
+        row["states"] = address_of(states.record)
+        self._flow = FlowFunction(
+            function=function_address(flow_gauss_markov),
+            parameters=row,
+            prepare=lambda until: states.extend(math.floor(max(0.0, until) / spec.step + 1e-6) + 1),
+            kept=(states,),
+        )
 
     @property
     def is_uniform(self) -> bool:
         """Whether it is the same everywhere."""
         return True
 
-    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        here, after, fraction = self._around(time)
-        spec = self._spec
-        x, y, z = (
-            mean + sigma * (a + (b - a) * fraction)
-            for mean, sigma, a, b in zip(spec.mean, spec.deviation, here, after, strict=True)
-        )
-        return everywhere(points, x, y, z)
 
-    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return zeros, (n, 3) [m/s2]: it has no derivative, and that of its pieces is not one."""
-        return np.zeros((len(points), 3))
+@njit
+def _walk(keep: float, stir: float, noise: Array, before: Array) -> Array:
+    """Return the next states of unit variance, (n, 3), from normal numbers and those before."""
+    states = noise.copy()
+    for i in range(len(noise)):
+        if i > 0 or len(before) > 0:
+            last = states[i - 1] if i > 0 else before[-1]
+            for k in range(3):
+                states[i, k] = keep * last[k] + stir * noise[i, k]
+    return states
 
-    def _around(self, time: float) -> tuple[list[float], list[float], float]:
-        """The states before and after ``time``, and how far it is from one to the other."""
-        at = max(0.0, time) / self._spec.step
-        k = math.floor(at + 1e-6)
-        while len(self._states) < k + 2:
-            noise = self._draws.row(len(self._states))
-            last = self._states[-1]
-            self._states.append(
-                [self._keep * x + self._stir * n for x, n in zip(last, noise, strict=True)]
-            )
-        return self._states[k], self._states[k + 1], max(0.0, at - k)
+
+def flow_gauss_markov(parameters: int, values: int, time: float) -> None:
+    """Answer a query about a Gauss-Markov process; see `uwsim.currents.flow_function`.
+
+    Its acceleration is zero: it has no derivative, and that of its pieces is not one.
+    """
+    current = carray(pointer(parameters), (1,), GAUSS_MARKOV)[0]
+    table = carray(pointer(current.states), (1,), ROWS)[0]
+    states = floats(table.rows, 3 * table.n)
+    at = max(0.0, time) / current.step
+    k = math.floor(at + 1e-6)
+    fraction = max(0.0, at - k)
+    velocity = np.empty(3)
+    for i in range(3):
+        here, after = states[3 * k + i], states[3 * k + 3 + i]
+        velocity[i] = current.mean[i] + current.deviation[i] * (here + (after - here) * fraction)
+    write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, np.zeros(3))

@@ -24,19 +24,22 @@ knows the ground: the depth of the water is what the file says.
 
 from __future__ import annotations
 
-import abc
 import itertools
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from ..base.geometry import Array, Triple
-from ..base.numerics.elementwise import log, power
+from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import carray, floats, pointer
 from ..errors import BadSetting
 from ..schema import Spec, element
-from .current import MAX_SPEED, Current, CurrentSpec, Place
+from .compiled import CompiledCurrent
+from .current import MAX_SPEED, CurrentSpec, Place
+from .flow_function import QUERY, FlowFunction, Record, write_no_acceleration
 
 KARMAN = 0.41
 """Von Karman's constant [1]."""
@@ -116,28 +119,31 @@ class LayersSpec(CurrentSpec):
         return Layers(self, place)
 
 
-class Profile(Current, abc.ABC):
+DOWN = np.dtype([("surface", np.float64), ("upward", np.float64, 3), ("origin", np.float64)])
+"""Height of the still water in W [m], the z axis of W in L, and the height of L's origin [m]."""
+OVER_GROUND = np.dtype(
+    [
+        ("down", DOWN),
+        ("velocity", np.float64, 3),  # at the surface, in L [m/s]
+        ("depth", np.float64),  # of the ground [m]
+        ("exponent", np.float64),  # of the power law
+        ("roughness", np.float64),  # of the logarithmic law [m]
+        ("log_depth", np.float64),  # the logarithm of depth over roughness
+    ],
+    align=True,
+)
+"""A profile over ground, for compiled code."""
+LAYERS = np.dtype([("down", DOWN), ("layers", np.int64), ("n_layers", np.int64)], align=True)
+"""Layers, for compiled code: the address of depths [m] and velocities in L [m/s], (n, 4)."""
+
+
+class Profile(CompiledCurrent):
     """A steady current that depends on depth alone."""
-
-    def __init__(self, place: Place) -> None:
-        self._place = place
-
-    @abc.abstractmethod
-    def at_depth(self, depths: Array) -> Array:
-        """Return the velocity in L at ``depths`` below the still surface (n,) [m]: (n, 3) [m/s]."""
 
     @property
     def is_steady(self) -> bool:
         """Whether it is the same at all times: yes."""
         return True
-
-    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        return self.at_depth(self._place.depths(points))
-
-    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return zeros, (n, 3) [m/s2]."""
-        return np.zeros((len(points), 3))
 
 
 class PowerProfile(Profile):
@@ -151,15 +157,9 @@ class PowerProfile(Profile):
     """
 
     def __init__(self, spec: PowerProfileSpec, place: Place) -> None:
-        super().__init__(place)
-        self._surface = np.array(spec.velocity)  # (3,) [m/s]
-        self._depth, self._exponent = spec.depth, spec.exponent
-
-    def at_depth(self, depths: Array) -> Array:
-        """Return the velocity at a depth, (n, 3) [m/s]."""
-        height = np.clip(1.0 - depths / self._depth, 0.0, 1.0)
-        velocities: Array = power(height, self._exponent)[:, None] * self._surface
-        return velocities
+        row = _over_ground(place, spec.velocity, spec.depth)
+        row["exponent"] = spec.exponent
+        self._flow = FlowFunction(function=function_address(flow_power), parameters=row)
 
 
 class LogProfile(Profile):
@@ -174,16 +174,10 @@ class LogProfile(Profile):
     """
 
     def __init__(self, spec: LogProfileSpec, place: Place) -> None:
-        super().__init__(place)
-        self._surface = np.array(spec.velocity)  # (3,) [m/s]
-        self._depth, self._roughness = spec.depth, spec.roughness
-
-    def at_depth(self, depths: Array) -> Array:
-        """Return the velocity at a depth, (n, 3) [m/s]."""
-        heights = np.clip(self._depth - depths, self._roughness, self._depth)
-        share = log(heights / self._roughness) / math.log(self._depth / self._roughness)
-        velocities: Array = share[:, None] * self._surface
-        return velocities
+        row = _over_ground(place, spec.velocity, spec.depth)
+        row["roughness"] = spec.roughness
+        row["log_depth"] = math.log(spec.depth / spec.roughness)
+        self._flow = FlowFunction(function=function_address(flow_log), parameters=row)
 
 
 class Layers(Profile):
@@ -193,13 +187,90 @@ class Layers(Profile):
     """
 
     def __init__(self, spec: LayersSpec, place: Place) -> None:
-        super().__init__(place)
-        self._depths = np.array([layer.depth for layer in spec.layers])  # (k,) [m]
-        self._velocities = np.array([layer.velocity for layer in spec.layers])  # (k, 3) [m/s]
+        layers = np.array([(layer.depth, *layer.velocity) for layer in spec.layers])  # (k, 4)
+        row = np.zeros(1, LAYERS)
+        row["down"] = _down(place)
+        row["layers"], row["n_layers"] = address_of(layers), len(layers)
+        self._flow = FlowFunction(
+            function=function_address(flow_layers), parameters=row, kept=(layers,)
+        )
 
-    def at_depth(self, depths: Array) -> Array:
-        """Return the velocity at a depth, (n, 3) [m/s]."""
-        velocities = np.empty((len(depths), 3))
-        for axis in range(3):
-            velocities[:, axis] = np.interp(depths, self._depths, self._velocities[:, axis])
-        return velocities
+
+def _down(place: Place) -> npt.NDArray[np.void]:
+    """Return the record of `DOWN` of a scene, (1,)."""
+    row, pose = np.zeros(1, DOWN), place.world_from_localized
+    row["surface"], row["upward"], row["origin"] = (
+        place.surface_height,
+        pose.rotation[2],
+        pose.position[2],
+    )
+    return row
+
+
+def _over_ground(place: Place, velocity: Triple, depth: float) -> npt.NDArray[np.void]:
+    row = np.zeros(1, OVER_GROUND)
+    row["down"], row["velocity"], row["depth"] = _down(place), velocity, depth
+    return row
+
+
+@njit
+def depth_of(down: Record, points: Array, i: int) -> float:
+    """Return how far below the still surface point i of (3 n,) is [m]; above it negative."""
+    up = down.upward
+    height = 0.0 + points[3 * i] * up[0] + points[3 * i + 1] * up[1] + points[3 * i + 2] * up[2]
+    below: float = down.surface - (height + down.origin)
+    return below
+
+
+@njit
+def within(value: float, least: float, most: float) -> float:
+    """Return the nearest number within limits; not a number stays so."""
+    return least if value < least else most if value > most else value
+
+
+def flow_power(parameters: int, values: int, time: float) -> None:
+    """Answer a query about a power profile; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
+    query = carray(pointer(values), (1,), QUERY)[0]
+    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    for i in range(query.n):
+        depth = depth_of(current.down, points, i)
+        share = math.pow(within(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
+        for k in range(3):
+            velocities[3 * i + k] = share * current.velocity[k]
+    write_no_acceleration(query)
+
+
+def flow_log(parameters: int, values: int, time: float) -> None:
+    """Answer a query about a logarithmic profile; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
+    query = carray(pointer(values), (1,), QUERY)[0]
+    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    for i in range(query.n):
+        depth = depth_of(current.down, points, i)
+        height = within(current.depth - depth, current.roughness, current.depth)
+        share = math.log(height / current.roughness) / current.log_depth
+        for k in range(3):
+            velocities[3 * i + k] = share * current.velocity[k]
+    write_no_acceleration(query)
+
+
+def flow_layers(parameters: int, values: int, time: float) -> None:
+    """Answer a query about layers; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), LAYERS)[0]
+    query = carray(pointer(values), (1,), QUERY)[0]
+    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    layers = floats(current.layers, 4 * current.n_layers).reshape((current.n_layers, 4))
+    for i in range(query.n):
+        depth = depth_of(current.down, points, i)
+        below = 0  # of the first layer that is below
+        while below < len(layers) and layers[below, 0] <= depth:
+            below += 1
+        above, low = max(0, below - 1), min(below, len(layers) - 1)
+        for k in range(3):
+            top = layers[above, 1 + k]
+            velocities[3 * i + k] = top
+            if above < low and depth != layers[above, 0]:
+                slope = (layers[low, 1 + k] - top) / (layers[low, 0] - layers[above, 0])
+                velocities[3 * i + k] = slope * (depth - layers[above, 0]) + top
+    write_no_acceleration(query)

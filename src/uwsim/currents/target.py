@@ -7,8 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import call, function_address
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import carray, floats, longs, pointer
 from ..world import Flow
-from .current import Current, is_steady
+from .current import Current, compiled, is_steady
+from .flow_function import FLOW, QUERY, FlowFunction, Record
 
 
 class TargetCurrent(Current):
@@ -31,6 +35,21 @@ class TargetCurrent(Current):
     def is_still(self) -> bool:
         """Whether the other one is."""
         return self._current.is_still
+
+    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+        """Return its function; None where the other one has none."""
+        flow = compiled(self._current, vehicles)
+        if flow is None:
+            return None
+        row, names = np.zeros(1, TARGET), list(vehicles)
+        row["flow"] = flow.addresses
+        row["target"] = names.index(self._target) if self._target in names else -1
+        return FlowFunction(
+            function=function_address(flow_target),
+            parameters=row,
+            prepare=flow.prepare,
+            kept=(flow,),
+        )
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
@@ -55,3 +74,27 @@ class TargetCurrent(Current):
         if any(is_other):
             vectors[is_other] = 0.0
         return vectors
+
+
+TARGET = np.dtype([("flow", FLOW), ("target", np.int64)])
+"""A current, and the number of the only vehicle that it acts on, for compiled code."""
+
+
+def flow_target(parameters: int, values: int, time: float) -> None:
+    """Answer a query about the current of a target; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), TARGET)[0]
+    query = carray(pointer(values), (1,), QUERY)[0]
+    call(current.flow.function, current.flow.parameters, values, time)
+    clear_others(query, query.velocity, current.target)
+    if query.acceleration != 0:
+        clear_others(query, query.acceleration, current.target)
+
+
+@njit
+def clear_others(query: Record, address: int, target: int) -> None:
+    """Set to 0 the vectors (n, 3) at an address that are not the target's."""
+    vectors = floats(address, 3 * query.n)
+    for i in range(query.n):
+        if query.vehicles == 0 or longs(query.vehicles, query.n)[i] != target:
+            for k in range(3):
+                vectors[3 * i + k] = 0.0

@@ -16,13 +16,17 @@ r"""tidal: a current of tidal constituents.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from ..base.geometry import Array
+import numpy as np
+
+from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.memory import carray, pointer
 from ..schema import Spec, element
-from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
+from .compiled import CompiledCurrent
+from .current import MAX_SPEED, CurrentSpec, Place
+from .flow_function import QUERY, FlowFunction, write_everywhere
 
 DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.9430356}
 """Speed of each constituent (Doodson): periods of 12.4206, 12, 23.9345 and 25.8193 h."""
@@ -68,7 +72,22 @@ class TidalSpec(CurrentSpec):
         return Tidal(self)
 
 
-class Tidal(Current):
+TERM = np.dtype(
+    [
+        ("rate", np.float64),  # [rad/s]
+        ("lag", np.float64),  # [rad]
+        ("major", np.float64),  # [m/s]
+        ("minor", np.float64),
+        ("cosine", np.float64),  # of the inclination
+        ("sine", np.float64),
+    ]
+)
+"""The ellipse of one constituent, for compiled code."""
+TIDAL = np.dtype([("start", np.float64), ("terms", np.int64), ("n_terms", np.int64)])
+"""A tidal current, for compiled code: its start [s], and the address of records of `TERM`."""
+
+
+class Tidal(CompiledCurrent):
     r"""The sum of tidal ellipses, the same everywhere.
 
     .. math:: v = \sum_i R(\alpha_i)
@@ -83,40 +102,36 @@ class Tidal(Current):
     """
 
     def __init__(self, spec: TidalSpec) -> None:
-        self._start = spec.start
-        self._terms = [
-            (
-                each.angular_rate,
-                each.phase,
-                each.semi_major,
-                each.semi_minor,
-                math.cos(each.inclination),
-                math.sin(each.inclination),
-            )
-            for each in spec.constituents
-        ]
+        terms = np.zeros(len(spec.constituents), TERM)
+        for term, each in zip(terms, spec.constituents, strict=True):
+            term["rate"], term["lag"] = each.angular_rate, each.phase
+            term["major"], term["minor"] = each.semi_major, each.semi_minor
+            term["cosine"], term["sine"] = math.cos(each.inclination), math.sin(each.inclination)
+        row = np.zeros(1, TIDAL)
+        row["start"], row["terms"], row["n_terms"] = spec.start, address_of(terms), len(terms)
+        self._flow = FlowFunction(
+            function=function_address(flow_tidal), parameters=row, kept=(terms,)
+        )
 
     @property
     def is_uniform(self) -> bool:
         """Whether it is the same everywhere."""
         return True
 
-    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        x = y = 0.0
-        for rate, lag, major, minor, cosine, sine in self._terms:
-            angle = rate * (self._start + time) - lag
-            along, across = major * math.cos(angle), minor * math.sin(angle)
-            x += along * cosine - across * sine
-            y += along * sine + across * cosine
-        return everywhere(points, x, y, 0.0)
 
-    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return its derivative, in L, (n, 3) [m/s2]."""
-        x = y = 0.0
-        for rate, lag, major, minor, cosine, sine in self._terms:
-            angle = rate * (self._start + time) - lag
-            along, across = -rate * major * math.sin(angle), rate * minor * math.cos(angle)
-            x += along * cosine - across * sine
-            y += along * sine + across * cosine
-        return everywhere(points, x, y, 0.0)
+def flow_tidal(parameters: int, values: int, time: float) -> None:
+    """Answer a query about a tidal current; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), TIDAL)[0]
+    terms = carray(pointer(current.terms), (current.n_terms,), TERM)
+    velocity, acceleration = np.zeros(3), np.zeros(3)
+    for i in range(current.n_terms):
+        term = terms[i]
+        angle = term.rate * (current.start + time) - term.lag
+        cosine, sine = math.cos(angle), math.sin(angle)
+        along, across = term.major * cosine, term.minor * sine
+        velocity[0] += along * term.cosine - across * term.sine
+        velocity[1] += along * term.sine + across * term.cosine
+        along, across = -term.rate * term.major * sine, term.rate * term.minor * cosine
+        acceleration[0] += along * term.cosine - across * term.sine
+        acceleration[1] += along * term.sine + across * term.cosine
+    write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, acceleration)

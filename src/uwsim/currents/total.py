@@ -8,8 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import address_of, call, function_address
+from ..base.numerics.memory import carray, floats, pointer
 from ..world import Flow
-from .current import Current, CurrentSpec, Place, is_steady
+from .current import Current, CurrentSpec, Place, compiled, is_steady
+from .flow_function import FLOW, QUERY, FlowFunction
 
 
 class TotalCurrent(Current):
@@ -33,6 +36,30 @@ class TotalCurrent(Current):
         """Whether all of them are."""
         return not self._currents
 
+    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+        """Return its function; None where one of them has none."""
+        found = [compiled(current, vehicles) for current in self._currents]
+        flows = [flow for flow in found if flow is not None]
+        if len(flows) < len(found):
+            return None
+        if len(flows) == 1:
+            return flows[0]
+        parts, row = np.zeros(len(flows), FLOW), np.zeros(1, TOTAL)
+        for part, flow in zip(parts, flows, strict=True):
+            part["function"], part["parameters"] = flow.addresses
+        row["parts"], row["n"] = address_of(parts), len(parts)
+
+        def prepare(until: float) -> None:
+            for flow in flows:
+                flow.prepare(until)
+
+        return FlowFunction(
+            function=function_address(flow_total),
+            parameters=row,
+            prepare=prepare,
+            kept=(parts, flows),
+        )
+
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
         parts = [current.velocity(points, time, vehicles) for current in self._currents]
@@ -51,6 +78,31 @@ def _sum(parts: list[Array], n: int) -> Array:
     for part in parts[1:]:
         parts[0] += part
     return parts[0]
+
+
+TOTAL = np.dtype([("parts", np.int64), ("n", np.int64)])
+"""The address of records of `flow_function.FLOW`, and how many, for compiled code."""
+
+
+def flow_total(parameters: int, values: int, time: float) -> None:
+    """Answer a query about a sum of currents; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), TOTAL)[0]
+    parts = carray(pointer(current.parts), (current.n,), FLOW)
+    query = carray(pointer(values), (1,), QUERY)[0]
+    wanted = query.velocity, query.acceleration
+    size = 3 * query.n
+    part_of = np.empty(2 * size)  # the velocities and accelerations of one current
+    for i in range(current.n):
+        if i > 0:
+            query.velocity = part_of.ctypes.data
+            query.acceleration = part_of.ctypes.data + 8 * size if wanted[1] != 0 else 0
+        call(parts[i].function, parts[i].parameters, values, time)
+        for k in range(2 if i > 0 else 0):
+            if wanted[k] != 0:
+                total = floats(wanted[k], size)
+                for j in range(size):
+                    total[j] += part_of[k * size + j]
+    query.velocity, query.acceleration = wanted
 
 
 def bind_currents(specs: Sequence[CurrentSpec], place: Place) -> TotalCurrent:

@@ -14,13 +14,18 @@ r"""uwsimSinusoid: the current of UWSim's benchmarks, with sinusoidal speed and 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
-from ..base.geometry import Array, Triple
+import numpy as np
+
+from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import carray, floats, pointer
 from ..schema import element
-from .current import MAX_SPEED, Current, CurrentSpec, Place, everywhere
-from .random_table import Draws
+from .compiled import CompiledCurrent
+from .current import MAX_SPEED, CurrentSpec, Place
+from .flow_function import QUERY, FlowFunction, Record, write_everywhere
+from .random_table import ROWS, RandomTable
 
 MIN_PERIOD = 0.01
 """No water swells and turns faster [s]."""
@@ -60,11 +65,24 @@ class UwsimSinusoidSpec(CurrentSpec):
 
     def bind(self, place: Place) -> UwsimSinusoid:
         """Take the stream ``current``."""
-        generator = place.stream("current")
-        return UwsimSinusoid(self, Draws(lambda size: generator.uniform(-1.0, 1.0, size), 3))
+        return UwsimSinusoid(self, place.stream("current"))
 
 
-class UwsimSinusoid(Current):
+SWING = np.dtype([("mean", np.float64), ("variation", np.float64), ("rate", np.float64)])
+"""A sine of time about a mean; its rate is in rad/s."""
+SINUSOID = np.dtype(
+    [
+        ("speed", SWING),
+        ("theta", SWING),
+        ("phi", SWING),
+        ("random", np.float64),
+        ("draws", np.int64),  # the address of a record of `random_table.ROWS`
+    ]
+)
+"""UWSim's current, for compiled code."""
+
+
+class UwsimSinusoid(CompiledCurrent):
     r"""The original's function of time, the same everywhere.
 
     .. math::
@@ -82,13 +100,22 @@ class UwsimSinusoid(Current):
     Not modelled: any change with place. The acceleration leaves out the jumps of the noise.
     """
 
-    def __init__(self, spec: UwsimSinusoidSpec, draws: Draws) -> None:
-        self._spec, self._draws = spec, draws
-        self._speed_rate = 2.0 * math.pi / spec.speed_period  # [rad/s]
-        self._theta_rate = 2.0 * math.pi / spec.theta_period  # [rad/s]
-        self._phi_rate = 2.0 * math.pi / spec.phi_period  # [rad/s]
-        self._time = math.nan  # of the newest motion [s]
-        self._motion: tuple[Triple, Triple] = ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
+    def __init__(self, spec: UwsimSinusoidSpec, random: np.random.Generator) -> None:
+        self._is_still = spec.speed == spec.speed_variation == 0.0
+        draws = RandomTable(lambda shape, _: random.uniform(-1.0, 1.0, shape), 3)
+        row = np.zeros(1, SINUSOID)
+        for name in ("speed", "theta", "phi"):
+            row[name]["mean"] = getattr(spec, name)
+            row[name]["variation"] = getattr(spec, f"{name}_variation")
+            row[name]["rate"] = 2.0 * math.pi / getattr(spec, f"{name}_period")
+        row["random"], row["draws"] = spec.random, address_of(draws.record)
+        is_random = spec.random != 0.0
+        self._flow = FlowFunction(
+            function=function_address(flow_sinusoid),
+            parameters=row,
+            prepare=lambda until: draws.extend(draw_of(until)) if is_random else None,
+            kept=(draws,),
+        )
 
     @property
     def is_uniform(self) -> bool:
@@ -98,47 +125,42 @@ class UwsimSinusoid(Current):
     @property
     def is_still(self) -> bool:
         """Whether its speed is zero at all times."""
-        return self._spec.speed == self._spec.speed_variation == 0.0
+        return self._is_still
 
-    def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        return everywhere(points, *self._at(time)[0])
 
-    def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the derivative with the random factors held, in L, (n, 3) [m/s2]."""
-        return everywhere(points, *self._at(time)[1])
+@njit
+def draw_of(time: float) -> int:
+    """Return the number of the random factors that hold at a time [s]."""
+    return max(0, math.floor(time * RATE + 1e-6))
 
-    def _at(self, time: float) -> tuple[Triple, Triple]:
-        """Velocity [m/s] and acceleration [m/s2]; both are asked for at every step."""
-        if time != self._time:
-            self._time, self._motion = time, self._move(time)
-        return self._motion
 
-    def _move(self, time: float) -> tuple[Triple, Triple]:
-        spec = self._spec
-        a, b, c = self._factors(time)
-        speed = a * (spec.speed + spec.speed_variation * math.sin(self._speed_rate * time))
-        theta = b * (spec.theta + spec.theta_variation * math.sin(self._theta_rate * time))
-        phi = c * (spec.phi + spec.phi_variation * math.sin(self._phi_rate * time))
-        dspeed = a * spec.speed_variation * self._speed_rate * math.cos(self._speed_rate * time)
-        dtheta = b * spec.theta_variation * self._theta_rate * math.cos(self._theta_rate * time)
-        dphi = c * spec.phi_variation * self._phi_rate * math.cos(self._phi_rate * time)
-        sine, cosine = math.sin(theta), math.cos(theta)
-        aside, along = -math.sin(phi), math.cos(phi)
-        flat, dflat = speed * sine, dspeed * sine + speed * cosine * dtheta
-        return (
-            (flat * aside, flat * along, speed * cosine),
-            (
-                dflat * aside - flat * along * dphi,
-                dflat * along + flat * aside * dphi,
-                dspeed * cosine - speed * sine * dtheta,
-            ),
-        )
+@njit
+def swung(swing: Record, factor: float, time: float) -> tuple[float, float]:
+    """Return the value of a sine at a time, and its derivative."""
+    turn = swing.rate * time
+    return (
+        factor * (swing.mean + swing.variation * math.sin(turn)),
+        factor * swing.variation * swing.rate * math.cos(turn),
+    )
 
-    def _factors(self, time: float) -> tuple[float, float, float]:
-        """The factors of speed, theta and phi at a time."""
-        e = self._spec.random
-        if e == 0.0:
-            return 1.0, 1.0, 1.0
-        r = self._draws.row(math.floor(time * RATE + 1e-6))
-        return 1.0 + e * r[0], 1.0 + e * r[1], 1.0 + e * r[2]
+
+def flow_sinusoid(parameters: int, values: int, time: float) -> None:
+    """Answer a query about UWSim's current; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), SINUSOID)[0]
+    a, b, c, e = 1.0, 1.0, 1.0, current.random
+    if e != 0.0:
+        table, first = carray(pointer(current.draws), (1,), ROWS)[0], 3 * draw_of(time)
+        rows = floats(table.rows, 3 * table.n)
+        a, b, c = 1.0 + e * rows[first], 1.0 + e * rows[first + 1], 1.0 + e * rows[first + 2]
+    speed, dspeed = swung(current.speed, a, time)
+    theta, dtheta = swung(current.theta, b, time)
+    phi, dphi = swung(current.phi, c, time)
+    sine, cosine = math.sin(theta), math.cos(theta)
+    aside, along = -math.sin(phi), math.cos(phi)
+    flat, dflat = speed * sine, dspeed * sine + speed * cosine * dtheta
+    velocity, acceleration = np.empty(3), np.empty(3)
+    velocity[0], velocity[1], velocity[2] = flat * aside, flat * along, speed * cosine
+    acceleration[0] = dflat * aside - flat * along * dphi
+    acceleration[1] = dflat * along + flat * aside * dphi
+    acceleration[2] = dspeed * cosine - speed * sine * dtheta
+    write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, acceleration)

@@ -33,6 +33,7 @@ from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
 from .uwsim_physics import UwsimPhysics
+from .water_function import DriftFunction, WaterFunction
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -142,22 +143,22 @@ class Engine:
     def step(
         self,
         n: int,
-        water: Array | None,
+        water: WaterFunction | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
         *,
         samples_last: bool = False,
+        drift: DriftFunction | None = None,
     ) -> bool:
         """Advance all simulated bodies by some steps.
 
         Args:
             n: how many.
-            water: in each step, at each body that it acts on, its velocity [m/s], acceleration
-                [m/s2] and rotation [rad/s] in W, (n, m, 9); one row counts for all steps; None
-                where it is still.
+            water: how it moves at the bodies that it acts on; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
             samples_last: take them after the last step, too.
+            drift: moves the vehicles that are not simulated; None: they stay.
 
         Returns:
             Whether a timer of the samples was due after the last step, and they were taken.
@@ -168,13 +169,21 @@ class Engine:
         """
         if self._stepper is None:
             return False
+        if water is not None and water.needs_points:
+            self.poses.refresh()
         self.grips.follow()
         self.lift.begin_step()
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
         try:
             is_sampled = self._stepper.run(
-                n, self.state.n_steps, water, samples, step, samples_last=samples_last
+                n,
+                self.state.n_steps,
+                water,
+                samples,
+                step,
+                samples_last=samples_last,
+                drift=drift,
             )
         finally:
             self.state.n_steps = self._stepper.n_steps
@@ -318,6 +327,7 @@ class Engine:
             [each.servos for each in self.actuation.values()],
             placed,
             self._wet.tolist(),
+            self._felt_at,
             self._check,
             self._bounces,
         )

@@ -100,7 +100,8 @@ class Grips:
     @property
     def is_carrying(self) -> bool:
         """Whether a body of the engine follows a vehicle that is not simulated."""
-        return any(self._follows(thing, hold) for thing, hold in self.state.held.items())
+        held = self.state.held
+        return bool(held) and any(self._follows(thing, hold) for thing, hold in held.items())
 
     @property
     def is_holding(self) -> bool:

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import call_both
+from ..base.numerics.calls import call, call_both
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import Ints64, carray, floats, longs, pointer, small, word
 from ..base.sampling import TABLE, take_due
@@ -20,10 +20,9 @@ from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
 from .islands import choose_islands
+from .water_function import POINT, ROTATION, VELOCITY, WATER_ROW
 
 _TINY = 1e-15  # mjMINVAL
-ROW = 9
-"""Of the water at a body: velocity, acceleration and rotation."""
 WENT_WELL, WARNED, TOO_FAST = range(3)
 """What became of a step; of one that is too fast the degree of freedom is added."""
 
@@ -44,6 +43,8 @@ PLAN = np.dtype(
         ("placed", np.int64),  # places in qpos and qvel of bodies that stay where they are put
         ("n_placed", np.int64),
         ("poses", np.int64),  # where those are, seven numbers each
+        ("drift", np.int64),  # the addresses of a `DriftFunction` and its parameters; 0: none moves
+        ("drift_parameters", np.int64),
         ("speeds", np.int64),  # `engine_warnings.speeds_of`
         ("n_speeds", np.int64),
         ("warnings", np.int64),  # MuJoCo's counters
@@ -54,8 +55,12 @@ PLAN = np.dtype(
         ("samples", np.int64),  # a record of `sampling.TABLE`; 0: none are taken
         ("ahead", np.int64),  # steps of the simulation's clock less those of this count
         ("kinematics", np.int64),  # the address of MuJoCo's function
-        ("water", np.int64),  # a row of `ROW` numbers for each in each step to come
-        ("n_water", np.int64),  # steps that have one; behind them the water is as it was
+        ("felt_at", np.int64),  # where these feel it, in their axes, three numbers each
+        ("water_rows", np.int64),  # how it moves there, `WATER_ROW` numbers each
+        ("flow", np.int64),  # the addresses of a `WaterFunction` and its parameters
+        ("flow_parameters", np.int64),
+        ("needs_points", np.int64),  # whether it reads where the bodies are
+        ("n_water", np.int64),  # steps in which it is asked; behind them the water is as it was
     ],
     align=True,
 )
@@ -70,9 +75,11 @@ def begin(plans: Record) -> None:
     plan = plans[0]
     m, d = plan.model, plan.data
     at = longs(plan.offsets, plan.n_offsets)
-    if plan.n_water > 0:
-        set_water(plan, floats(word(d + at[f.USERDATA]), word(m + at[f.NUSERDATA])))
     qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
+    if plan.n_placed > 0:
+        keep_placed(plan, qpos)
+    if plan.n_water > 0:
+        set_water(plan, at)
     ctrl = floats(word(d + at[f.CTRL]), word(m + at[f.NU]))
     set_thrusters(plan, at, qpos, ctrl)
     nv = word(m + at[f.NV])
@@ -91,11 +98,6 @@ def begin(plans: Record) -> None:
         states = carray(pointer(servos[3 * i + 1]), (servos[3 * i + 2],), JOINT_STATE)
         move_on(plan.timestep, joints, states, qpos)
         pull(plan.timestep, joints, states, engine)
-    placed = longs(plan.placed, 2 * plan.n_placed)
-    poses = floats(plan.poses, 7 * plan.n_placed)
-    for i in range(plan.n_placed):
-        for k in range(7):
-            poses[7 * i + k] = qpos[placed[2 * i] + k]
     if plan.is_in_middle != 0:
         to_the_middle(m, d, at)
 
@@ -147,27 +149,65 @@ def sample(plans: Record) -> bool:
 
 
 @njit
+def sample_and_begin(plans: Record) -> None:
+    """Take the samples that are due after a step, and begin the next."""
+    plan, is_placed = plans[0], sample(plans)
+    if plan.needs_points != 0 and not is_placed:
+        call_both(plan.kinematics, plan.model, plan.data)
+    begin(plans)
+
+
+@njit
 def end_and_begin(plans: Record) -> int:
     """Complete a step, sample, and begin the next, if the first went well."""
     found = end(plans)
     if found == WENT_WELL:
-        sample(plans)
-        begin(plans)
+        sample_and_begin(plans)
     return found
 
 
 @njit
-def set_water(plan: Record, userdata: Array) -> None:
-    """Let the water move as the next row of the table says."""
-    wet = longs(plan.wet, plan.n_wet)
-    rows = floats(plan.water, ROW * plan.n_wet)
-    for i in range(plan.n_wet):
+def keep_placed(plan: Record, qpos: Array) -> None:
+    """Write down where the bodies are that stay where they are put, after they have drifted."""
+    placed = longs(plan.placed, 2 * plan.n_placed)
+    poses = floats(plan.poses, 7 * plan.n_placed)
+    for i in range(plan.n_placed):
+        for k in range(7):
+            poses[7 * i + k] = qpos[placed[2 * i] + k]
+    if plan.drift == 0:
+        return
+    time = (plan.step + plan.ahead + 1) * plan.timestep
+    call(plan.drift, plan.drift_parameters, plan.poses, time)
+    for i in range(plan.n_placed):
+        for k in range(7):
+            qpos[placed[2 * i] + k] = poses[7 * i + k]
+
+
+@njit
+def set_water(plan: Record, at: Ints64) -> None:
+    """Let the water move in the step that begins as its function says, at its middle."""
+    d, n = plan.data, plan.n_wet
+    wet = longs(plan.wet, n)
+    rows = floats(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
+    if plan.needs_points != 0:
+        felt_at = floats(plan.felt_at, 3 * n)
+        for i in range(n):
+            origin = floats(word(d + at[f.XPOS]) + 24 * wet[i], 3)
+            axes = floats(word(d + at[f.XMAT]) + 72 * wet[i], 9)
+            x, y, z = felt_at[3 * i], felt_at[3 * i + 1], felt_at[3 * i + 2]
+            for k in range(3):
+                rows[i, POINT + k] = (
+                    origin[k] + axes[3 * k] * x + axes[3 * k + 1] * y + axes[3 * k + 2] * z
+                )
+    time = (plan.step + plan.ahead + 1) * plan.timestep - 0.5 * plan.timestep
+    call(plan.flow, plan.flow_parameters, plan.water_rows, time)
+    userdata = floats(word(d + at[f.USERDATA]), word(plan.model + at[f.NUSERDATA]))
+    for i in range(n):
         to = WATER_COLUMNS * wet[i]
         for k in range(6):
-            userdata[to + k] = rows[ROW * i + k]
+            userdata[to + k] = rows[i, VELOCITY + k]
         for k in range(3):
-            userdata[to + TURN + k] = rows[ROW * i + 6 + k]
-    plan.water += 8 * ROW * plan.n_wet
+            userdata[to + TURN + k] = rows[i, ROTATION + k]
     plan.n_water -= 1
 
 

@@ -22,12 +22,39 @@ from .actuation.servos import Servos
 from .bounce_limit import BounceLimit
 from .engine_warnings import StepCheck
 from .hydrodynamics import callback
+from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.hydrodynamics import Hydrodynamics
+from .water_function import WATER_ROW, DriftFunction, WaterFunction
 
 AUTOPILOT_PERIOD = 0.02
 """Period of the autopilots [s]."""
 
 Ints = npt.NDArray[np.int64]
+
+(
+    _STEP,
+    _SAMPLES,
+    _AHEAD,
+    _FLOW,
+    _FLOW_PARAMETERS,
+    _NEEDS_POINTS,
+    _N_WATER,
+    _DRIFT,
+    _DRIFT_PARAMETERS,
+) = (
+    step_kernel.PLAN.fields[name][1] // 8  # type: ignore[index]  # words before the field
+    for name in (
+        "step",
+        "samples",
+        "ahead",
+        "flow",
+        "flow_parameters",
+        "needs_points",
+        "n_water",
+        "drift",
+        "drift_parameters",
+    )
+)
 
 
 @dataclass(slots=True)
@@ -48,6 +75,7 @@ class Stepper:
         servos: of their joints.
         placed: joints of the vehicles that stay where they are put.
         wet: bodies whose water is set.
+        felt_at: where these feel it, in their axes, (n, 3) [m].
         check: says what is wrong with a step.
         bounces: bounds the energy of objects that bounce; None where none does.
     """
@@ -60,6 +88,7 @@ class Stepper:
         servos: Sequence[Servos],
         placed: Sequence[int],
         wet: Sequence[int],
+        felt_at: Array,
         check: StepCheck,
         bounces: BounceLimit | None,
     ) -> None:
@@ -67,6 +96,8 @@ class Stepper:
         self._bounces = bounces
         self._model, self._data, self._water, self._check = model, data, water, check
         self._plan = plan = np.zeros(1, step_kernel.PLAN)
+        self._words = plan.view(np.int64).data  # a number is set faster there than in a field
+        self._table: tuple[npt.NDArray[np.void] | None, int] = None, 0  # of samples; its address
         uses_callback = callback.has_slot()
         plan["model"], plan["data"] = model._address, data._address
         plan["is_in_middle"] = uses_callback
@@ -88,7 +119,9 @@ class Stepper:
         counters = check.counters
         plan["warnings"], plan["n_warnings"] = counters.ctypes.data, len(counters)
         plan["stride"] = counters.strides[0]
-        self._n_wet = len(wet)
+        self._wet, self._felt_at = list(wet), np.ascontiguousarray(felt_at)
+        self._rows = np.zeros((len(wet), WATER_ROW))  # of the water at these bodies
+        plan["felt_at"], plan["water_rows"] = address_of(self._felt_at), address_of(self._rows)
         self.state = StepperState()
         """What the next step depends on."""
         self._step: Callable[[mujoco.MjModel, mujoco.MjData], None] = (
@@ -102,28 +135,29 @@ class Stepper:
     @property
     def n_steps(self) -> int:
         """Steps taken since the beginning; one that failed counts."""
-        return int(self._plan["step"][0])
+        return self._words[_STEP]
 
     def run(
         self,
         n: int,
         first: int,
-        motion: Array | None,
+        water: WaterFunction | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
         *,
         samples_last: bool = False,
+        drift: DriftFunction | None = None,
     ) -> bool:
         """Take steps.
 
         Args:
             n: how many.
             first: how many were taken before.
-            motion: of the water at the bodies in each step, velocity [m/s], acceleration [m/s2] and
-                rotation [rad/s] in W, (n, m, 9); one row counts for all; None: it is still.
+            water: how it moves at the bodies, which are placed; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
             samples_last: take them after the last step, too.
+            drift: moves the vehicles that are not simulated; None: they stay.
 
         Returns:
             Whether a timer of the samples was due after the last step, and they were taken.
@@ -132,17 +166,15 @@ class Stepper:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
                 not be true.
         """
-        if motion is None and self.state.has_flow:
-            motion = np.zeros((1, self._n_wet, step_kernel.ROW))
-            self.state.has_flow = False
-        elif motion is not None:
-            self.state.has_flow = True
-        plan, model, data, advance = self._plan, self._model, self._data, self._step
-        plan["step"] = first
-        plan["samples"] = 0 if samples is None else address_of(samples)
-        plan["ahead"] = step - 1 - first
-        plan["water"] = 0 if motion is None else motion.ctypes.data
-        plan["n_water"] = 0 if motion is None else len(motion)
+        plan, words, model, data = self._plan, self._words, self._model, self._data
+        if samples is not self._table[0]:
+            self._table = samples, 0 if samples is None else address_of(samples)
+        words[_STEP], words[_SAMPLES], words[_AHEAD] = first, self._table[1], step - 1 - first
+        self._set_water(water, n)
+        words[_DRIFT] = 0
+        if drift is not None:
+            words[_DRIFT], words[_DRIFT_PARAMETERS] = drift.function, drift.address
+        advance = self._step
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
         step_kernel.begin(plan)
@@ -158,9 +190,24 @@ class Stepper:
             if self._bounces is not None and found == step_kernel.WENT_WELL:
                 self._bounces.apply()
         if found != step_kernel.WENT_WELL:
-            plan["step"] += 1
+            words[_STEP] += 1
             self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
         return samples_last and bool(step_kernel.sample(plan))
+
+    def _set_water(self, water: WaterFunction | None, n: int) -> None:
+        """Let the water of the next steps move so; None: it is still."""
+        words = self._words
+        if water is not None:
+            self.state.has_flow = True
+            words[_FLOW], words[_FLOW_PARAMETERS] = water.function, water.address
+            words[_NEEDS_POINTS], words[_N_WATER] = water.needs_points, 1 if water.is_steady else n
+            return
+        words[_NEEDS_POINTS] = words[_N_WATER] = 0
+        if self.state.has_flow:
+            self.state.has_flow = False
+            at_bodies = self._data.userdata[: WATER_COLUMNS * self._model.nbody]
+            rows = at_bodies.reshape(-1, WATER_COLUMNS)  # (bodies, columns)
+            rows[self._wet, :6] = rows[self._wet, TURN : TURN + 3] = 0.0
 
     def _bound_and_begin(self, plan: npt.NDArray[np.void]) -> int:
         """Complete a step, bound what bounces, sample, and begin the next step."""
@@ -168,8 +215,7 @@ class Stepper:
         found = int(step_kernel.end(plan))
         if found == step_kernel.WENT_WELL:
             self._bounces.apply()
-            step_kernel.sample(plan)
-            step_kernel.begin(plan)
+            step_kernel.sample_and_begin(plan)
         return found
 
 

@@ -49,6 +49,7 @@ class SceneStepper:
         vehicles, engine = world.model.scene.vehicles, world.engine
         placed = [i for i in range(len(vehicles)) if not engine.is_simulated(i)]
         self._drifting = [world.vehicles[i] for i in placed]
+        self._drifting_names = tuple(vehicle.name for vehicle in self._drifting)
         self._wet_names = tuple(
             "" if i is None else vehicles[i].name for i in engine.submerged_vehicles()
         )
@@ -69,9 +70,11 @@ class SceneStepper:
         self._bus.state.step += 1
         self._schedule.apply_commands()
         self._step_devices()
-        self._advect_kinematic()
-        n, samples_last = self._plan_run(wanted) if wanted > 1 else (1, False)
-        is_sampled = self._step_physics(n, samples_last=samples_last)
+        is_led = self._drifts_by_python
+        if is_led:
+            self._advect_kinematic()
+        n, samples_last = self._plan_run(wanted) if wanted > 1 and not is_led else (1, False)
+        is_sampled = self._step_physics(n, samples_last=samples_last, drifts=not is_led)
         self.animate()
         self._contacts.update(self._step)
         self.publish(is_sampled=is_sampled)
@@ -83,8 +86,8 @@ class SceneStepper:
         """How many steps from this one on the forces may act alone, of those wanted.
 
         In the step after them a command, a sample, a timer or a device may be due; observers,
-        forces, water that is not the same everywhere and what drifts with it have to do in every
-        step. The second value says whether the samples after the last of them need no preparation.
+        forces and water that Python computes from where bodies are have to do in every step. The
+        second value says whether the samples after the last of them need no preparation.
         """
         engine, water, now = self._engine, self._water, self._step
         delivery = self._bus.next_delivery
@@ -95,8 +98,7 @@ class SceneStepper:
             or self._contacts.is_laid
             or not engine.is_dynamic
             or engine.moves_by_step
-            or not water.is_uniform
-            or (self._drifting and not water.is_still)
+            or water.is_asked_where_bodies_are(self._wet_names)
         ):
             return 1, False
         for_python, unprepared = self._schedule.dues(now + wanted - 1)
@@ -131,19 +133,37 @@ class SceneStepper:
         for device in self._devices:
             device.step(time)
 
+    @property
+    def _drifts_by_python(self) -> bool:
+        """Whether vehicles drift that compiled steps cannot move."""
+        engine, water = self._engine, self._water
+        if not self._drifting or water.is_still:
+            return False
+        return (
+            not engine.is_dynamic
+            or engine.moves_by_step  # what is carried is placed beside a vehicle that has drifted
+            or bool(self._forces)
+            or any(vehicle.is_recorded for vehicle in self._drifting)
+            or water.drift(self._drifting_names, self._timestep, self._time) is None
+        )
+
     def _advect_kinematic(self) -> None:
         """Advect kinematic vehicles with the water, as the original does."""
         water = self._water
-        if water.is_still:
-            return
         for vehicle in self._drifting:
             here = vehicle.world_from_base
             vehicle.drift(water.carried(here, self._time, self._timestep, vehicle.name))
 
-    def _step_physics(self, n: int, *, samples_last: bool) -> bool:
+    def _step_physics(self, n: int, *, samples_last: bool, drifts: bool) -> bool:
         """Advance the physics by some steps, in the flow of the water at their times.
 
-        Returns whether the samples that are due after them were taken.
+        Args:
+            n: how many.
+            samples_last: take the samples that are due after the last of them.
+            drifts: whether vehicles that are not simulated drift in them.
+
+        Returns:
+            Whether samples were due after the last, and taken.
         """
         engine, water = self._engine, self._water
         if self._forces:
@@ -153,14 +173,22 @@ class SceneStepper:
             self._below_ground.look(self._step)
             return False
         first, half = self._step, 0.5 * self._timestep  # forces act in the middle of a step
-        motion = None
+        motion = drift = None
         if not water.is_still:
             times = [(first + k) * self._timestep - half for k in range(n)]
             motion = water.during(engine.submerged_positions, times, self._wet_names)
+            if drifts and self._drifting:
+                until = (first + n - 1) * self._timestep
+                drift = water.drift(self._drifting_names, self._timestep, until)
         before = engine.n_steps
         try:
             is_sampled = engine.step(
-                n, motion, self._schedule.table, first, samples_last=samples_last
+                n,
+                motion,
+                self._schedule.table,
+                first,
+                samples_last=samples_last,
+                drift=drift,
             )
         finally:
             self._bus.state.step = first + max(0, engine.n_steps - before - 1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -14,16 +15,20 @@ from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...base.record import Record
 from ...currents import Place, TotalCurrent, bind_currents
-from ...currents.current import is_steady
+from ...currents.current import compiled, is_steady
+from ...currents.flow_function import FlowFunction
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
+from ...physics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
 from ...world import Flow
+from .drift_kernel import of_drift
+from .water_kernel import NEARBY, of_flow, of_rows
 
+F = TypeVar("F")
+_Found = tuple[Flow | None, Sequence[str], FlowFunction | None, F | None]
 WaterRow = tuple[Array, Array, Array | None]
 """Velocity, acceleration and rotation of the water at some points."""
-NEARBY = 0.05
-"""Half the distance over which shear is taken [m]."""
 
 
 @dataclass(slots=True)
@@ -51,10 +56,9 @@ class WaterMotion:
         self._sum: Flow = self._scene_current
         self.state = WaterState()
         """What changes of it."""
-        self._felt_by: Sequence[str] = ()  # the vehicle at each point of `during`
-        self._names: tuple[str, ...] = ()  # their names, each once
-        self._felt = np.zeros(0, np.int64)  # the number of its name, for each point
-        self._steady: tuple[Flow, Sequence[str], Array] | None = None  # what it was found for
+        # a flow, the vehicles it is felt by, and its functions
+        self._felt: _Found[WaterFunction] = None, (), None, None
+        self._drift: _Found[DriftFunction] = None, (), None, None
         self._even: tuple[Flow, dict[str, Array | None]] = self._sum, {}  # what it was found for
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
@@ -81,57 +85,85 @@ class WaterMotion:
         """Whether the water does not move at all."""
         return self._flow.is_still
 
-    @property
-    def is_uniform(self) -> bool:
-        """Whether it moves the same everywhere, or not at all."""
-        return self._flow.is_still or self._flow.is_uniform
+    def is_asked_where_bodies_are(self, vehicles: Sequence[str]) -> bool:
+        """Whether Python has to be asked in every step where the bodies of `during` are then."""
+        flow = self._flow
+        return not (flow.is_still or flow.is_uniform or self._compiled(vehicles)[0] is not None)
 
     def during(
         self, positions: Callable[[], Array], times: Sequence[float], vehicles: Sequence[str]
-    ) -> Array | None:
-        """Return how the water moves at some points at some times, in W; None if it is still.
-
-        Of water that is the same everywhere and always there is one row for all times.
+    ) -> WaterFunction | None:
+        """Return how the water moves at some bodies at some times, in W; None if it is still.
 
         Args:
-            positions: where the points are now, in W, (n, 3) [m]; several times take water that
-                is uniform.
-            times: [s].
+            positions: where the bodies are now, in W, (n, 3) [m].
+            times: in the middle of each step [s]; one step alone, if `is_asked_where_bodies_are`.
             vehicles: as `at` takes them.
-
-        Returns:
-            Velocity [m/s], acceleration [m/s2] and rotation [rad/s], (times or 1, n, 9).
         """
         flow = self._flow
         if flow.is_still:
             return None
-        if self._steady is not None and self._steady[0] is flow and self._steady[1] == vehicles:
-            return self._steady[2]
+        function, compiled_flow = self._compiled(vehicles)
+        if function is not None and compiled_flow is not None:
+            compiled_flow.prepare(times[-1])
+            return function
         if flow.is_uniform:
-            if not is_steady(flow):
-                return self._everywhere(times, vehicles)
-            rows = self._everywhere(times[:1], vehicles)
-            self._steady = flow, vehicles, rows
-            return rows
-        points = positions()
-        found = np.zeros((len(times), len(vehicles), 9))
-        for row, time in zip(found, times, strict=True):
-            row[:, 0:3], row[:, 3:6], rotation = self.at(points, time, vehicles)
-            if rotation is not None:
-                row[:, 6:9] = rotation
-        return found
+            asked = times[:1] if is_steady(flow) else times
+            return of_rows(self._everywhere(asked, vehicles))
+        found = np.zeros((1, len(vehicles), 9))
+        found[0, :, 0:3], found[0, :, 3:6], rotation = self.at(positions(), times[0], vehicles)
+        if rotation is not None:
+            found[0, :, 6:9] = rotation
+        return of_rows(found)
+
+    def drift(self, vehicles: Sequence[str], timestep: float, until: float) -> DriftFunction | None:
+        """Return what moves vehicles with the water as `carried` does, in compiled steps.
+
+        None where Python has to be asked.
+
+        Args:
+            vehicles: names of all vehicles that are not simulated.
+            timestep: length of a step [s].
+            until: the end of the last step [s].
+        """
+        flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._drift
+        if flow is not for_flow or vehicles != for_vehicles:
+            felt, names = _numbered(vehicles)
+            compiled_flow, function = compiled(flow, names), None
+            if compiled_flow is not None:
+                function = of_drift(compiled_flow, self._world_from_localized, felt, timestep)
+            self._drift = flow, vehicles, compiled_flow, function
+        if compiled_flow is not None:
+            compiled_flow.prepare(until)
+        return function
+
+    def _compiled(
+        self, vehicles: Sequence[str]
+    ) -> tuple[WaterFunction | None, FlowFunction | None]:
+        """Return the functions of the present flow; None where Python has to be asked."""
+        flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._felt
+        if flow is not for_flow or vehicles != for_vehicles:
+            felt, names = _numbered(vehicles)
+            compiled_flow, function = compiled(flow, names), None
+            if compiled_flow is not None:
+                function = of_flow(
+                    compiled_flow,
+                    self._localized_from_world,
+                    felt,
+                    is_uniform=flow.is_uniform,
+                    is_steady=flow.is_uniform and is_steady(flow),
+                )
+            self._felt = flow, vehicles, compiled_flow, function
+        return function, compiled_flow
 
     def _everywhere(self, times: Sequence[float], vehicles: Sequence[str]) -> Array:
-        """Return `during` of uniform water: a vehicle's points feel the same, asked for once."""
-        if vehicles != self._felt_by:
-            names = tuple(dict.fromkeys(vehicles))
-            self._felt_by, self._names = tuple(vehicles), names
-            self._felt = np.array([names.index(name) for name in vehicles], dtype=np.int64)
-        flow, names, points = self._flow, self._names, np.zeros((len(self._names), 3))
+        """Return rows of uniform water: a vehicle's points feel the same, asked for once."""
+        felt, names = _numbered(vehicles)
+        flow, points = self._flow, np.zeros((len(names), 3))
         localized = np.empty((len(times), 2, len(names), 3))
         for row, time in zip(localized, times, strict=True):
             row[0], row[1] = flow.motion(points, time, names)
-        return _spread(localized, self._felt, self._localized_from_world.rotation)
+        return _spread(localized, felt, self._localized_from_world.rotation)
 
     def at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
         r"""Return how the water moves, in W.
@@ -202,12 +234,18 @@ class WaterMotion:
         return Pose(moved, world_from_base.rotation)
 
 
+def _numbered(vehicles: Sequence[str]) -> tuple[npt.NDArray[np.int64], tuple[str, ...]]:
+    """Return the number of each name, and the names, each once."""
+    names = tuple(dict.fromkeys(vehicles))
+    return np.array([names.index(name) for name in vehicles], dtype=np.int64), names
+
+
 @njit
 def _spread(localized: Array, felt: npt.NDArray[np.int64], turn: Array) -> Array:
     """Turn velocities and accelerations (times, 2, m, 3) to W, and give each point its own.
 
     Returns:
-        What `WaterMotion.during` does, (times, n, 9).
+        Rows as `of_rows` takes them, (times, n, 9).
     """
     found = np.zeros((len(localized), len(felt), 9))
     for t in range(len(localized)):

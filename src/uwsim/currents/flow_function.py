@@ -1,0 +1,91 @@
+"""The function of a current, for compiled code.
+
+It is one of `uwsim.base.numerics.calls`: its parameters are a record of the current's own, and its
+values a record of `QUERY`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..base.geometry import Array
+from ..base.numerics.calls import address_of
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import floats
+
+QUERY = np.dtype(
+    [
+        ("n", np.int64),  # points that are asked about
+        ("points", np.int64),  # the address of where they are in L, (n, 3) [m]
+        ("vehicles", np.int64),  # of the number of the vehicle at each, (n,); 0: there is none
+        ("velocity", np.int64),  # of what is written, (n, 3) [m/s]
+        ("acceleration", np.int64),  # likewise [m/s2]; 0: it is not asked for
+    ]
+)
+"""A question about the water at some points, and where the answer is written."""
+FLOW = np.dtype([("function", np.int64), ("parameters", np.int64)])
+"""The addresses of a current's function and of its parameters."""
+
+Record = Any
+
+
+def _nothing(until: float) -> None:
+    """Prepare nothing."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FlowFunction:
+    """The function of a current."""
+
+    function: int
+    """Its address; see `uwsim.base.numerics.calls`."""
+    parameters: npt.NDArray[Any]
+    """The array that the function reads at its address."""
+    prepare: Callable[[float], None] = _nothing
+    """Makes ready what the function needs up to a time [s]: its random numbers."""
+    kept: tuple[object, ...] = field(default=())
+    """What the parameters have the addresses of."""
+
+    @property
+    def addresses(self) -> tuple[int, int]:
+        """The numbers of `FLOW`."""
+        return self.function, address_of(self.parameters)
+
+
+def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
+    """Return a record of `QUERY` about a point for each vehicle, (1,), and what it refers to."""
+    points, velocity, acceleration = np.zeros((3, len(vehicles), 3))
+    query = np.zeros(1, QUERY)
+    query["n"], query["vehicles"] = len(vehicles), address_of(vehicles)
+    query["points"], query["velocity"] = address_of(points), address_of(velocity)
+    query["acceleration"] = address_of(acceleration)
+    return query, vehicles, points, velocity, acceleration
+
+
+@njit
+def write_everywhere(query: Record, velocity: Array, acceleration: Array) -> None:
+    """Answer with one velocity and one acceleration, (3,), for all points."""
+    fill(query.velocity, query.n, velocity)
+    if query.acceleration != 0:
+        fill(query.acceleration, query.n, acceleration)
+
+
+@njit
+def write_no_acceleration(query: Record) -> None:
+    """Answer that the water does not accelerate, if that is asked."""
+    if query.acceleration != 0:
+        fill(query.acceleration, query.n, np.zeros(3))
+
+
+@njit
+def fill(address: int, n: int, vector: Array) -> None:
+    """Write a vector (3,) for each of n points at an address."""
+    vectors = floats(address, 3 * n)
+    for i in range(n):
+        for k in range(3):
+            vectors[3 * i + k] = vector[k]

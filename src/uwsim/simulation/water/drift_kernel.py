@@ -1,0 +1,71 @@
+"""The drift of vehicles that are not simulated, in compiled code: `WaterMotion.carried`."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ...base.geometry import Pose, write_quaternion
+from ...base.numerics.calls import address_of, call, function_address
+from ...base.numerics.memory import carray, floats, pointer
+from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...physics.step_kernel import rotation_of
+from ...physics.water_function import DriftFunction
+
+DRIFT = np.dtype(
+    [
+        ("flow", FLOW),
+        ("query", np.int64),  # the address of a record of `QUERY`, with a point a vehicle
+        ("timestep", np.float64),  # [s]
+        ("rotation", np.float64, (3, 3)),  # of W from L
+        ("position", np.float64, 3),
+        ("back", np.float64, (3, 3)),  # of L from W
+        ("origin", np.float64, 3),
+    ],
+    align=True,
+)
+"""What drifts, for compiled code."""
+
+
+def of_drift(
+    flow: FlowFunction, world_from_localized: Pose, vehicles: npt.NDArray[np.int64], timestep: float
+) -> DriftFunction:
+    """Return the function of vehicles that drift as a compiled function says.
+
+    Args:
+        flow: the function, in L.
+        world_from_localized: W from L.
+        vehicles: the number that ``flow`` has for each, (n,).
+        timestep: length of a step [s].
+    """
+    query, *kept = query_of(vehicles)
+    query["acceleration"] = 0
+    back = world_from_localized.inverse()
+    row = np.zeros(1, DRIFT)
+    row["flow"], row["query"], row["timestep"] = flow.addresses, address_of(query), timestep
+    row["rotation"], row["position"] = world_from_localized.rotation, world_from_localized.position
+    row["back"], row["origin"] = back.rotation, back.position
+    return DriftFunction(function=function_address(drift), parameters=row, kept=(flow, query, kept))
+
+
+def drift(parameters: int, values: int, time: float) -> None:
+    """Move vehicles by a step; see `uwsim.physics.water_function.DriftFunction`."""
+    drifting = carray(pointer(parameters), (1,), DRIFT)[0]
+    query = carray(pointer(drifting.query), (1,), QUERY)[0]
+    poses = floats(values, 7 * query.n).reshape((query.n, 7))
+    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    for i in range(query.n):
+        x, y, z = poses[i, 0], poses[i, 1], poses[i, 2]
+        for k in range(3):
+            turn = drifting.back[k]
+            points[3 * i + k] = turn[0] * x + turn[1] * y + turn[2] * z + drifting.origin[k]
+    call(drifting.flow.function, drifting.flow.parameters, drifting.query, time)
+    for i in range(query.n):
+        for k in range(3):
+            points[3 * i + k] += velocities[3 * i + k] * drifting.timestep
+        x, y, z = points[3 * i], points[3 * i + 1], points[3 * i + 2]
+        for k in range(3):
+            turn = drifting.rotation[k]
+            poses[i, k] = turn[0] * x + turn[1] * y + turn[2] * z + drifting.position[k]
+        rotation = rotation_of(poses[i, 3], poses[i, 4], poses[i, 5], poses[i, 6])
+        write_quaternion(rotation, poses[i, 3:7])

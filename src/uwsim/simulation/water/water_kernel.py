@@ -1,0 +1,191 @@
+r"""The motion of the water at bodies, in compiled code.
+
+In W, from the velocity :math:`u` and its change :math:`\partial u/\partial t` that the flow says in
+L: the acceleration of the water which passes a point, and how fast it turns,
+
+.. math:: \frac{Du}{Dt} = \frac{\partial u}{\partial t} + (u \cdot \nabla) u, \qquad
+    \tfrac12 \nabla \times u
+
+with central differences over `NEARBY`.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...base.geometry import Array, Pose
+from ...base.numerics.calls import address_of, call, function_address
+from ...base.numerics.jit import njit
+from ...base.numerics.memory import carray, floats, pointer
+from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...physics.water_function import (
+    ACCELERATION,
+    POINT,
+    ROTATION,
+    VELOCITY,
+    WATER_ROW,
+    WaterFunction,
+)
+
+NEARBY = 0.05
+"""Half the distance over which shear is taken [m]."""
+N_AROUND = 6
+"""Points around a body: ahead of it along x, y, z of L, then behind it."""
+
+WATER = np.dtype(
+    [
+        ("flow", FLOW),
+        ("n", np.int64),  # bodies
+        ("is_uniform", np.int64),
+        ("rotation", np.float64, (3, 3)),  # of L from W
+        ("position", np.float64, 3),
+        ("at_bodies", np.int64),  # the address of a record of `QUERY`
+        ("around_them", np.int64),  # likewise, with `N_AROUND` points a body
+    ],
+    align=True,
+)
+"""The water of a scene, for compiled code."""
+ROWS = np.dtype([("rows", np.int64), ("n_left", np.int64), ("n", np.int64)])
+"""The address of rows that were computed beforehand, how many steps have one, and bodies."""
+
+Record = Any
+
+
+def of_flow(
+    flow: FlowFunction,
+    localized_from_world: Pose,
+    vehicles: npt.NDArray[np.int64],
+    *,
+    is_uniform: bool,
+    is_steady: bool,
+) -> WaterFunction:
+    """Return the function of water that flows as a compiled function says.
+
+    Args:
+        flow: the function, in L.
+        localized_from_world: L from W.
+        vehicles: the number that ``flow`` has for the vehicle at each body, (n,).
+        is_uniform: whether it flows the same everywhere.
+        is_steady: whether it is uniform and flows the same at all times.
+    """
+    at_bodies, *kept = query_of(vehicles)
+    around_them, *others = query_of(np.repeat(vehicles, N_AROUND))
+    row = np.zeros(1, WATER)
+    row["flow"], row["n"], row["is_uniform"] = flow.addresses, len(vehicles), is_uniform
+    row["rotation"] = localized_from_world.rotation
+    row["position"] = localized_from_world.position
+    row["at_bodies"], row["around_them"] = address_of(at_bodies), address_of(around_them)
+    return WaterFunction(
+        function=function_address(write_water),
+        parameters=row,
+        needs_points=not is_uniform,
+        is_steady=is_steady,
+        kept=(flow, at_bodies, around_them, kept, others),
+    )
+
+
+def of_rows(rows: Array) -> WaterFunction:
+    """Return the function of water that was computed beforehand.
+
+    Args:
+        rows: velocity, acceleration and rotation of the water in each step, (steps, n, 9); a single
+            one counts for all steps.
+    """
+    parameters = np.zeros(1, ROWS)
+    parameters["rows"], parameters["n_left"], parameters["n"] = (
+        address_of(rows),
+        len(rows),
+        rows.shape[1],
+    )
+    return WaterFunction(
+        function=function_address(write_next_rows),
+        parameters=parameters,
+        is_steady=len(rows) == 1,
+        kept=(rows,),
+    )
+
+
+def write_next_rows(parameters: int, values: int, time: float) -> None:
+    """Write rows that were computed beforehand; see `uwsim.physics.water_function`."""
+    table = carray(pointer(parameters), (1,), ROWS)[0]
+    if table.n_left == 0:
+        return
+    size = WATER_ROW - VELOCITY
+    ready, rows = floats(table.rows, size * table.n), floats(values, WATER_ROW * table.n)
+    for i in range(table.n):
+        for k in range(size):
+            rows[WATER_ROW * i + VELOCITY + k] = ready[size * i + k]
+    table.rows += 8 * size * table.n
+    table.n_left -= 1
+
+
+def write_water(parameters: int, values: int, time: float) -> None:
+    """Write how the water moves; see `uwsim.physics.water_function`."""
+    water = carray(pointer(parameters), (1,), WATER)[0]
+    query = carray(pointer(water.at_bodies), (1,), QUERY)[0]
+    rows = floats(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
+    if water.is_uniform == 0:
+        localize(water, rows, floats(query.points, 3 * water.n))
+    call(water.flow.function, water.flow.parameters, water.at_bodies, time)
+    velocities = floats(query.velocity, 3 * water.n)
+    accelerations = floats(query.acceleration, 3 * water.n)
+    if water.is_uniform == 0:
+        shear(water, rows, floats(query.points, 3 * water.n), velocities, accelerations, time)
+    for i in range(water.n):
+        turn_into(water.rotation, velocities[3 * i : 3 * i + 3], rows[i, VELOCITY:ACCELERATION])
+        turn_into(water.rotation, accelerations[3 * i : 3 * i + 3], rows[i, ACCELERATION:ROTATION])
+
+
+@njit
+def localize(water: Record, rows: Array, points: Array) -> None:
+    """Write the points of rows into (3 n,), in L."""
+    for i in range(water.n):
+        x, y, z = rows[i, POINT], rows[i, POINT + 1], rows[i, POINT + 2]
+        for k in range(3):
+            turn = water.rotation[k]
+            points[3 * i + k] = turn[0] * x + turn[1] * y + turn[2] * z + water.position[k]
+
+
+@njit
+def shear(
+    water: Record, rows: Array, points: Array, velocities: Array, accelerations: Array, time: float
+) -> None:
+    """Add to the accelerations in L what comes of shear, and write the rotations into the rows."""
+    query = carray(pointer(water.around_them), (1,), QUERY)[0]
+    around = floats(query.points, 3 * N_AROUND * water.n).reshape((water.n, 2, 3, 3))
+    for i in range(water.n):
+        for side in range(2):
+            for j in range(3):
+                for k in range(3):
+                    around[i, side, j, k] = points[3 * i + k]
+                around[i, side, j, j] += NEARBY if side == 0 else -NEARBY
+    query.acceleration = 0
+    call(water.flow.function, water.flow.parameters, water.around_them, time)
+    found = floats(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 2, 3, 3))
+    gradient, rotation = np.empty((3, 3)), np.empty(3)  # rows of the gradient are components
+    for i in range(water.n):
+        for k in range(3):
+            carried = 0.0
+            for j in range(3):
+                gradient[k, j] = (found[i, 0, j, k] - found[i, 1, j, k]) / (2.0 * NEARBY)
+                carried += gradient[k, j] * velocities[3 * i + j]
+            accelerations[3 * i + k] += carried
+        for k in range(3):
+            following, last = (k + 1) % 3, (k + 2) % 3
+            rotation[k] = 0.5 * (gradient[last, following] - gradient[following, last])
+        turn_into(water.rotation, rotation, rows[i, ROTATION:WATER_ROW])
+
+
+@njit
+def turn_into(rotation: Array, vector: Array, found: Array) -> None:
+    """Write a vector of L in W, by the rotation of L from W."""
+    for k in range(3):
+        found[k] = (
+            0.0
+            + vector[0] * rotation[0, k]
+            + vector[1] * rotation[1, k]
+            + vector[2] * rotation[2, k]
+        )
