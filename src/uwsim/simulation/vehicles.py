@@ -8,9 +8,11 @@ from functools import partial
 
 import numpy as np
 
+from ..base.gathering import addresses_in, gathering
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import turned_back
 from ..base.record import Lazy, Record
+from ..base.sampling import Sampler
 from ..bus import Bus
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
@@ -227,6 +229,34 @@ class SceneVehicle:
     def let_go(self, thing: int) -> None:
         """Release an object that is held."""
         self._engine.grips.let_go(thing)
+
+    def base_sampler(self) -> Sampler:
+        """Return what takes samples of its base, 18 numbers; see `uwsim.vehicle.Vehicle`."""
+        addresses, led = self._engine.base_addresses(self.index), np.zeros(6)
+        own, other = addresses[12:].copy(), addresses_in(led)
+
+        def prepare(time: float) -> None:
+            self._engine.poses.refresh()
+            addresses[12:] = own if self._placed is None else other
+            if self._placed is not None:
+                led[:] = self._placed.twist(self._step())
+
+        def is_alone() -> bool:
+            is_free = self._placed is None
+            if is_free:
+                addresses[12:] = own
+            return is_free
+
+        return gathering(addresses, prepare=prepare, is_alone=is_alone, kept=(led, self._engine))
+
+    def joint_sampler(self) -> Sampler:
+        """Return what takes samples of its joints; see `uwsim.vehicle.Vehicle`."""
+        return gathering(
+            self._engine.joint_addresses(self.index),
+            prepare=lambda _: None,
+            is_alone=lambda: True,
+            kept=(self._engine,),
+        )
 
     def base_mount(self) -> MountedBody:
         """Return the frame of its base."""
