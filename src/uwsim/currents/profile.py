@@ -235,9 +235,12 @@ def flow_power(parameters: int, values: int, time: float) -> None:
     current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    depth, share = math.nan, 0.0
     for i in range(query.n):
-        depth = depth_of(current.down, points, i)
-        share = math.pow(within(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
+        here = depth_of(current.down, points, i)
+        if here != depth:  # neighbouring points are often as deep
+            depth = here
+            share = math.pow(within(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
         for k in range(3):
             velocities[3 * i + k] = share * current.velocity[k]
     write_no_acceleration(query)
@@ -248,10 +251,13 @@ def flow_log(parameters: int, values: int, time: float) -> None:
     current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    depth, share = math.nan, 0.0
     for i in range(query.n):
-        depth = depth_of(current.down, points, i)
-        height = within(current.depth - depth, current.roughness, current.depth)
-        share = math.log(height / current.roughness) / current.log_depth
+        here = depth_of(current.down, points, i)
+        if here != depth:
+            depth = here
+            height = within(current.depth - depth, current.roughness, current.depth)
+            share = math.log(height / current.roughness) / current.log_depth
         for k in range(3):
             velocities[3 * i + k] = share * current.velocity[k]
     write_no_acceleration(query)
