@@ -140,9 +140,7 @@ def beside_a_drifter(*, is_read: bool = False) -> Simulation:
         orientation=(0.1, -0.2, 0.7),
         parts=(imu,) if is_read else (),
     )
-    simulation = open_scene(
-        replace(scene, vehicles=(first, second), objects=(), ros_interfaces=())
-    )
+    simulation = open_scene(replace(scene, vehicles=(first, second), objects=(), ros_interfaces=()))
     simulation.advance(0.0)
     return simulation
 

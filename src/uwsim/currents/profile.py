@@ -32,7 +32,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Triple
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, pointer
 from ..errors import BadSetting
@@ -159,7 +159,7 @@ class PowerProfile(Profile):
     def __init__(self, spec: PowerProfileSpec, place: Place) -> None:
         row = _over_ground(place, spec.velocity, spec.depth)
         row["exponent"] = spec.exponent
-        self._flow = FlowFunction(function=function_address(flow_power), parameters=row)
+        self._flow = FlowFunction(function=flow_power, parameters=row)
 
 
 class LogProfile(Profile):
@@ -177,7 +177,7 @@ class LogProfile(Profile):
         row = _over_ground(place, spec.velocity, spec.depth)
         row["roughness"] = spec.roughness
         row["log_depth"] = math.log(spec.depth / spec.roughness)
-        self._flow = FlowFunction(function=function_address(flow_log), parameters=row)
+        self._flow = FlowFunction(function=flow_log, parameters=row)
 
 
 class Layers(Profile):
@@ -191,11 +191,7 @@ class Layers(Profile):
         row = np.zeros(1, LAYERS)
         row["down"] = _down(place)
         row["layers"], row["n_layers"] = address_of(layers), len(layers)
-        self._flow = FlowFunction(
-            function=function_address(flow_layers), parameters=row, kept=(layers,)
-        )
-
-
+        self._flow = FlowFunction(function=flow_layers, parameters=row, kept=(layers,))
 
 
 def _down(place: Place) -> npt.NDArray[np.void]:

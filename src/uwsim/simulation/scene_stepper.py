@@ -137,7 +137,9 @@ class SceneStepper:
             not engine.is_dynamic
             or engine.moves_by_step  # what is carried is placed beside a vehicle that has drifted
             or bool(self._forces)
-            or any(vehicle.is_recorded for vehicle in self._drifting)
+            or any(
+                vehicle.state.placed.part for vehicle in self._drifting
+            )  # its motion is recorded
             or water.drift(self._drifting_names, self._timestep, self._time) is None
         )
 

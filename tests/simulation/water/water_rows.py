@@ -8,7 +8,7 @@ import numpy as np
 
 from uwsim.base.numerics.calls import call
 from uwsim.base.numerics.jit import njit
-from uwsim.physics.water_function import POINT, VELOCITY, WATER_ROW, WaterFunction
+from uwsim.physics.hydrodynamics.water_function import POINT, VELOCITY, WATER_ROW, WaterFunction
 
 
 @njit

@@ -9,8 +9,8 @@ from ...base.geometry import Pose, write_quaternion
 from ...base.numerics.calls import address_of, call, function_address
 from ...base.numerics.memory import carray, floats, pointer
 from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...physics.hydrodynamics.water_function import DriftFunction
 from ...physics.step_kernel import rotation_of
-from ...physics.water_function import DriftFunction
 
 DRIFT = np.dtype(
     [
@@ -45,13 +45,11 @@ def of_drift(
     row["flow"], row["query"], row["timestep"] = flow.addresses, address_of(query), timestep
     row["rotation"], row["position"] = world_from_localized.rotation, world_from_localized.position
     row["back"], row["origin"] = back.rotation, back.position
-    return DriftFunction(
-        function=function_address(drift), parameters=row, kept=(flow, query, kept)
-    )
+    return DriftFunction(function=function_address(drift), parameters=row, kept=(flow, query, kept))
 
 
 def drift(parameters: int, values: int, time: float) -> None:
-    """Move vehicles by a step; see `uwsim.physics.water_function.DriftFunction`."""
+    """Move vehicles by a step; see `DriftFunction`."""
     drifting = carray(pointer(parameters), (1,), DRIFT)[0]
     query = carray(pointer(drifting.query), (1,), QUERY)[0]
     poses = floats(values, 7 * query.n).reshape((query.n, 7))

@@ -21,7 +21,7 @@ from ...base.numerics.calls import address_of, call, function_address
 from ...base.numerics.jit import njit
 from ...base.numerics.memory import carray, floats, pointer
 from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
-from ...physics.water_function import (
+from ...physics.hydrodynamics.water_function import (
     ACCELERATION,
     POINT,
     ROTATION,
@@ -109,7 +109,7 @@ def of_rows(rows: Array) -> WaterFunction:
 
 
 def write_next_rows(parameters: int, values: int, time: float) -> None:
-    """Write rows that were computed beforehand; see `uwsim.physics.water_function`."""
+    """Write rows that were computed beforehand; see `WaterFunction`."""
     table = carray(pointer(parameters), (1,), ROWS)[0]
     if table.n_left == 0:
         return
@@ -123,7 +123,7 @@ def write_next_rows(parameters: int, values: int, time: float) -> None:
 
 
 def write_water(parameters: int, values: int, time: float) -> None:
-    """Write how the water moves; see `uwsim.physics.water_function`."""
+    """Write how the water moves; see `WaterFunction`."""
     water = carray(pointer(parameters), (1,), WATER)[0]
     query = carray(pointer(water.at_bodies), (1,), QUERY)[0]
     rows = floats(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))

@@ -19,7 +19,7 @@ from ...currents.current import compiled, is_steady
 from ...currents.flow_function import FlowFunction
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
-from ...physics.water_function import DriftFunction, WaterFunction
+from ...physics.hydrodynamics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
 from ...world import Flow
 from .drift_kernel import of_drift
