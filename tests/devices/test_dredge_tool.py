@@ -10,7 +10,7 @@ import pytest
 
 from tests.simulation.small_robots import scene_of, shape, write_robot
 from tests.support.opened import open_scene
-from uwsim.base.geometry import Pose, rotation_from_rpy
+from uwsim.base.geometry import Pose
 from uwsim.devices.dredge_tool import DredgeTool, DredgeToolSpec
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.spec import SceneSpec
@@ -115,5 +115,5 @@ def test_a_dvl_over_a_buried_object_hears_the_sand(tmp_path: Path) -> None:
     with open_scene(replace(spec, vehicles=(rov,)), is_blind=True) as simulation:
         sensor = simulation.world.sensors.sensor("dvl", ("dvlSensor",))
         assert isinstance(sensor, Dvl)
-        ranges = sensor.ranges(Pose(np.array([0.0, 0.0, 1.0]), rotation_from_rpy(*looks_down)))
+        ranges = np.array(sensor.sample(0.0).raw_data.split()[:4], dtype=float)
         assert ranges == pytest.approx(below(simulation) / np.cos(np.radians(1.0)), abs=1e-3)

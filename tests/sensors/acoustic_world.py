@@ -43,6 +43,9 @@ class AcousticWorld:
         self.earth_origin: Geodetic | None = None
         self.current = np.zeros(3)
 
+    def even_water(self, vehicle: str) -> None:
+        return None
+
     def water_velocity(self, points: np.ndarray, time: float, vehicle: str) -> np.ndarray:
         return np.tile(self.current, (len(points), 1))
 
@@ -60,6 +63,9 @@ class FakeCarrier:
 
     def __init__(self, pose: Pose | None = None) -> None:
         self.pose = self.world_from_base = pose or Pose.identity()
+
+    def base_mount(self) -> FakeBody:
+        return FakeBody(tuple(self.pose.position), rotation=self.pose.rotation)
 
     def mount(self, spec: object, *, visual: bool = False) -> FakeBody:
         here = self.pose @ Pose.from_rpy(spec.position, spec.orientation)  # type: ignore[attr-defined]

@@ -120,7 +120,7 @@ def _always() -> bool:
     return True
 
 
-def _nothing() -> None:
+def _nothing(time: float) -> None:
     """Prepare nothing."""
 
 
@@ -134,8 +134,9 @@ class Sampler:
     """The array that the function reads at its address."""
     n_values: int
     """How many numbers it writes."""
-    prepare: Callable[[], None] = _nothing
-    """Brings up to date, in Python, what the function reads; called before samples in Python."""
+    prepare: Callable[[float], None] = _nothing
+    """Brings up to date, in Python, what the function reads; called with the time [s] of samples in
+    Python, before these."""
     is_alone: Callable[[], bool] = _always
     """Says whether the function needs no preparation in steps that compiled code takes."""
     kept: tuple[object, ...] = field(default=())
@@ -143,7 +144,7 @@ class Sampler:
 
     def take(self, time: float) -> Array:
         """Take a sample at ``time`` [s]: its numbers, (n,)."""
-        self.prepare()
+        self.prepare(time)
         return evaluate(self.function, address_of(self.parameters), self.n_values, time)
 
 

@@ -147,8 +147,9 @@ class Engine:
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
         *,
+        samples_last: bool = False,
         drift: DriftFunction | None = None,
-    ) -> None:
+    ) -> bool:
         """Advance all simulated bodies by some steps.
 
         Args:
@@ -156,14 +157,18 @@ class Engine:
             water: how it moves at the bodies that it acts on; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
+            samples_last: take them after the last step, too.
             drift: moves the vehicles that are not simulated; None: they stay.
+
+        Returns:
+            Whether a timer of the samples was due after the last step, and they were taken.
 
         Raises:
             SimulationFailed: the engine warned, or a body moves faster than can be: what follows
                 would not be true.
         """
         if self._stepper is None:
-            return
+            return False
         if water is not None and water.needs_points:
             self.poses.refresh()
         self.grips.follow()
@@ -171,12 +176,21 @@ class Engine:
         if self._bounces is not None:
             self._bounces.is_on = not self.grips.is_holding
         try:
-            self._stepper.run(n, self.state.n_steps, water, samples, step, drift=drift)
+            is_sampled = self._stepper.run(
+                n,
+                self.state.n_steps,
+                water,
+                samples,
+                step,
+                samples_last=samples_last,
+                drift=drift,
+            )
         finally:
             self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()
         self.contacts.look_again(hold=True)
         self.poses.moved()
+        return is_sampled
 
     def push(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
         """Let wrenches act on bodies in the steps from now on, in place of those before.

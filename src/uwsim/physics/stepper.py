@@ -131,8 +131,9 @@ class Stepper:
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
         *,
+        samples_last: bool = False,
         drift: DriftFunction | None = None,
-    ) -> None:
+    ) -> bool:
         """Take steps.
 
         Args:
@@ -141,7 +142,11 @@ class Stepper:
             water: how it moves at the bodies, which are placed; None: it is still.
             samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
+            samples_last: take them after the last step, too.
             drift: moves the vehicles that are not simulated; None: they stay.
+
+        Returns:
+            Whether a timer of the samples was due after the last step, and they were taken.
 
         Raises:
             SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
@@ -173,6 +178,7 @@ class Stepper:
         if found != step_kernel.WENT_WELL:
             words[_STEP] += 1
             self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
+        return samples_last and bool(step_kernel.sample(plan))
 
     def _set_water(self, water: WaterFunction | None, n: int) -> None:
         """Let the water of the next steps move so; None: it is still."""

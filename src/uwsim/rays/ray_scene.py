@@ -13,7 +13,8 @@ from ..base.geometry import Array, Pose
 from ..base.numerics.linear import inverse, product
 from .bodies import NO_ENGINE, Engine, bodies_of, renew_all_frames
 from .cover import Balls, covering_balls
-from .kernel import Hits, cast_rays
+from .kernel import Hits
+from .scene_record import cast_all, rays_record, scene_record
 from .tree import build_tree
 from .triangle import Trees
 
@@ -56,6 +57,7 @@ class RayScene:
         )
         self._engine = NO_ENGINE
         self._bodies = bodies_of(self._trees.balls, np.full(len(built), -1, np.int32), NO_ENGINE)
+        self._note()
         covers = [
             cover for body, surfaces in enumerate(bodies) for cover in _covers(body, surfaces)
         ]
@@ -76,7 +78,23 @@ class RayScene:
         other = copy.copy(self)
         other._engine = Engine(origins, axes)
         other._bodies = bodies_of(self._trees.balls, engine, other._engine)
+        other._note()
         return other
+
+    def _note(self) -> None:
+        """Write down where its arrays are."""
+        self.record = scene_record(self._trees, self._bodies, self._engine)
+        """Its arrays for compiled code, a record of `scene_record.SCENE`, (1,)."""
+        self.functions = rays_record(self.record)
+        """What casts rays in it from compiled code, a record of `scene_record.RAYS`, (1,)."""
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether compiled code finds all bodies where they are: yes."""
+        return True
+
+    def prepare(self) -> None:
+        """Bring what compiled code reads up to date: it is."""
 
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
         """Set the pose of a body that follows nothing; the matrix (4, 4) may scale [m]."""
@@ -112,13 +130,23 @@ class RayScene:
             reach: how far the rays go [m].
             begins: from where on each ray hits, (n,) [m]; without it from the origin.
         """
-        n = len(directions)
-        hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int32))
-        along = product(directions, world_from_sensor.rotation.T)
-        limits = np.zeros(n) if begins is None else begins, float(reach)
-        origin = world_from_sensor.position
-        cast_rays(self._trees, self._bodies, self._engine, origin, along, limits, hits)
-        return hits
+        return cast(self.functions, world_from_sensor, directions, reach, begins)
+
+
+def cast(
+    functions: npt.NDArray[np.void],
+    world_from_sensor: Pose,
+    directions: Array,
+    reach: float,
+    begins: Array | None,
+) -> Hits:
+    """Cast rays by the first of some records of `scene_record.RAYS`; see `RayScene.cast`."""
+    n = len(directions)
+    hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int32))
+    along = product(directions, world_from_sensor.rotation.T)
+    starts = np.zeros(n) if begins is None else begins
+    cast_all(functions, world_from_sensor.position, along, starts, float(reach), hits)
+    return hits
 
 
 def _covers(body: int, surfaces: Sequence[Surface]) -> list[tuple[Array, int, int]]:

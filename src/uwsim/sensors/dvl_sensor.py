@@ -19,21 +19,21 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+import numpy.typing as npt
 
-from ..base.geometry import Array, Pose
-from ..base.numerics.linear import product, turned_back
+from ..base.geometry import Array
+from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.draws import stream_of
+from ..base.numerics.linear import product
 from ..base.record import Record
+from ..base.sampling import Sampler
 from ..messages import DVL, header
 from ..schema import MAX_DISTANCE, element
 from ..world import MovingBody, SensorWorld
-from .dvl_message import Track, TrackState, dvl_message
+from . import dvl_kernel as kernel
+from .dvl_message import dvl_message
 from .janus import Flags, Janus
-from .sensor import Carrier, LookAt, SensorSpec
-
-THROUGH = 1e-6
-"""How far behind a surface of its own vehicle a beam goes on [m]."""
-MAX_OWN = 32
-"""Surfaces of its own vehicle that a beam goes through at most."""
+from .sensor import Carrier, CompiledSensor, LookAt, SensorSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,6 +84,23 @@ class DvlSensorSpec(SensorSpec):
 
 
 @dataclass(slots=True)
+class TrackState(Record):
+    """What is known of the velocity over one thing."""
+
+    numbers: Array
+    """The velocity in the axes of the sensor and in W [m/s], the error velocity [m/s], east, north
+    and up since the beginning over the time with a velocity [m], when the last ping was, NaN before
+    the first, and when there was a velocity last [s], (12,)."""
+
+    @staticmethod
+    def unknown() -> TrackState:
+        """Return that of a sensor that has not pinged."""
+        numbers = np.full(kernel.N_TRACK, math.nan)
+        numbers[kernel.MADE_GOOD : kernel.TIME], numbers[kernel.LAST] = 0.0, 0.0
+        return TrackState(numbers)
+
+
+@dataclass(slots=True)
 class DvlState(Record):
     """What changes of a Doppler velocity log."""
 
@@ -95,95 +112,88 @@ class DvlState(Record):
     """The velocity over the bottom."""
     water: TrackState
     """The velocity through the water."""
-    before: tuple[float, tuple[float, ...]] | None = None
-    """When the original's looked last [s], and where it was in W [m]."""
+    before: Array
+    """When the original's looked last, NaN before the first time [s], and its place in W [m]."""
 
 
-class Dvl:
+class Dvl(CompiledSensor):
     """A Doppler velocity log."""
 
     def __init__(
         self, spec: DvlSensorSpec, mount: MovingBody, world: SensorWorld, vehicle: Carrier
     ) -> None:
         self._spec, self._mount, self._world, self._vehicle = spec, mount, world, vehicle
+        self._base = vehicle.base_mount()
         self._janus = Janus(math.radians(spec.beam_angle))
         random = world.stream(f"{vehicle.name}/{spec.name}/noise")
         scale = 1.0 + spec.scale_std * random.standard_normal(4)
-        self._bottom, self._water = Track(), Track()
-        self.state = DvlState(random, scale, self._bottom.state, self._water.state)
+        bottom, water = TrackState.unknown(), TrackState.unknown()
+        self.state = DvlState(random, scale, bottom, water, np.full(4, math.nan))
         """What changes of it."""
         self._is_original = "dvl-differences" in world.compatibility
+        self._flow = np.zeros((4, 3))  # of the water at the beams, in W [m/s]
+        self._is_own = np.array([each == vehicle.name for each in world.rays.vehicles], np.uint8)
+        self.sampler = Sampler(
+            function=function_address(kernel.sample_dvl),
+            parameters=self._parameters(),
+            n_values=kernel.N_VALUES,
+            prepare=self._prepare,
+            is_alone=self._is_alone,
+        )
+        """What takes the numbers of a sample."""
 
-    def sample(self, time: float) -> DVL:
-        """Ping now, at ``time`` [s]."""
-        pose = self._mount.world_from_body
-        draws = self.state.random.standard_normal((4, 4)), self.state.random.random(4)
+    def _parameters(self) -> npt.NDArray[np.void]:
+        """Return what compiled code has to know of it, a record of `dvl_kernel.DVL`, (1,)."""
+        spec, janus, state, row = self._spec, self._janus, self.state, np.zeros(1, kernel.DVL)
+        row["mount"], row["base"] = self._mount.functions, self._base.functions
+        row["rays"], row["stream"] = self._world.rays.functions, stream_of(state.random)
+        row["directions"], row["cosine"] = janus.directions, janus.cosine
+        row["error_share"] = janus.error_share
+        row["std"], row["beam_std"], row["range_std"] = spec.std, spec.beam_std, spec.range_std
+        row["water_std"] = 3.0 * spec.beam_std if spec.water_std is None else spec.water_std
+        row["dropout"], row["water_layer"] = spec.dropout, spec.water_layer
+        row["min_altitude"], row["max_altitude"] = spec.min_altitude, spec.max_altitude
+        row["surface"], row["is_original"] = self._world.surface_height, self._is_original
+        row["is_own"], row["flow"] = address_of(self._is_own), address_of(self._flow)
+        row["scale"], row["before"] = address_of(state.scale), address_of(state.before)
+        row["bottom"] = address_of(state.bottom.numbers)
+        row["water"] = address_of(state.water.numbers)
+        return row
+
+    def _is_alone(self) -> bool:
+        """Whether samples need no preparation: neither the water's nor anything's."""
+        if not (self._mount.is_compiled and self._base.is_compiled):
+            return False
         if self._is_original:
-            x, y, z = (self._difference(pose, time) + self._spec.std * draws[0][3, :3]).tolist()
-            return DVL(bi_x_axis=x, bi_y_axis=y, bi_z_axis=z)
-        return self._ping(pose, time, *draws)
+            return True
+        flow = self._world.even_water(self._vehicle.name)
+        if flow is not None:
+            self._flow[:] = flow
+        return flow is not None and self._world.rays.is_compiled
 
-    def _ping(self, pose: Pose, time: float, normal: Array, uniform: Array) -> DVL:
-        """Measure with these random numbers, (4, 4) and (4,)."""
-        spec, janus, world = self._spec, self._janus, self._world
-        ranges = self.ranges(pose)
-        is_heard = uniform >= spec.dropout
-        is_good = is_heard & spec.is_bottom(ranges * janus.cosine)
-        velocity = turned_back(pose.rotation, self._mount.motion().velocity)
-        on_bottom = product(janus.directions, velocity)
-        along = self.state.scale * on_bottom + spec.beam_std * normal[0]
-        through, is_wet = self._along_water(pose, time, on_bottom, ranges)
-        water_std = 3.0 * spec.beam_std if spec.water_std is None else spec.water_std
-        through = self.state.scale * through + water_std * normal[1]
-        noise = spec.std * normal[3, :3]
-        ranges = np.where(is_good, ranges + spec.range_std * normal[2], math.nan)
-        self._bottom.take(time, pose, janus.velocity(along, is_good), noise)
-        self._water.take(time, pose, janus.velocity(through, is_heard & is_wet), noise)
-        down = -product(janus.directions, pose.rotation[2])  # drop of each beam over its length [1]
-        heights = (ranges * down)[is_good]
-        depth = world.surface_height - float(pose.position[2])
+    def _prepare(self, time: float) -> None:
+        """Look up where everything is, and how the water moves at ``time`` [s]."""
+        self._mount.prepare()
+        self._base.prepare()
+        if self._is_original:
+            return
+        self._world.rays.prepare()
+        flow = self._world.even_water(self._vehicle.name)
+        if flow is None:
+            pose, reach = self._mount.world_from_body, self._spec.water_layer / self._janus.cosine
+            points = pose.position + reach * product(self._janus.directions, pose.rotation.T)
+            flow = self._world.water_velocity(points, time, self._vehicle.name)
+        self._flow[:] = flow
+
+    def message(self, time: float, values: Array) -> DVL:
+        """Make the message of a sample taken at ``time`` [s]."""
+        if self._is_original:
+            x, y, z = values[:3].tolist()
+            return DVL(bi_x_axis=x, bi_y_axis=y, bi_z_axis=z)
+        spec = self._spec
         return dvl_message(
             header(time, spec.name),
-            (self._bottom, self._water),
-            heights=(float(heights.mean()) if heights.size else math.nan, spec.water_layer),
-            ship_from_world=self._vehicle.world_from_base.rotation.T,
-            water=world.sea_water,
-            depth=max(0.0, depth),
-            beams=(ranges, np.where(is_good, along, math.nan)),
+            values,
+            water=self._world.sea_water,
+            water_layer=spec.water_layer,
         )
-
-    def ranges(self, pose: Pose) -> Array:
-        """Return the distances along the beams to what is not the vehicle, (4,) [m]; inf: none."""
-        reach = self._spec.max_altitude / self._janus.cosine + 1.0
-        begins, found = np.zeros(4), np.full(4, math.inf)
-        waiting = np.arange(4)
-        own = self._world.rays.vehicles
-        for _ in range(MAX_OWN):
-            directions = np.ascontiguousarray(self._janus.directions[waiting])
-            hits = self._world.rays.cast(pose, directions, reach, begins[waiting])
-            is_own = np.array([s >= 0 and own[s] == self._vehicle.name for s in hits.surface])
-            found[waiting[~is_own]] = hits.distance[~is_own]
-            begins[waiting[is_own]] = hits.distance[is_own] + THROUGH
-            waiting = waiting[is_own]
-            if not len(waiting):
-                break
-        return found
-
-    def _along_water(
-        self, pose: Pose, time: float, over_ground: Array, ranges: Array
-    ) -> tuple[Array, Flags]:
-        """Velocities through the water along the beams (4,) [m/s], and where there is water."""
-        reach = self._spec.water_layer / self._janus.cosine
-        beams = product(self._janus.directions, pose.rotation.T)  # in W
-        points = pose.position + reach * beams
-        flow = self._world.water_velocity(points, time, self._vehicle.name)
-        is_wet = (ranges > reach) & (points[:, 2] < self._world.surface_height)
-        return over_ground - (beams * flow).sum(axis=1), is_wet
-
-    def _difference(self, pose: Pose, time: float) -> Array:
-        """The mean velocity since the last sample in the sensor's axes, as the original has it."""
-        before, self.state.before = self.state.before, (time, tuple(pose.position.tolist()))
-        if before is None or time <= before[0]:
-            return np.zeros(3)
-        moved = pose.position - np.array(before[1])
-        return turned_back(pose.rotation, moved / (time - before[0]))

@@ -21,11 +21,16 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import function_address
+from ..base.numerics.draws import STREAM, normal, stream_of
+from ..base.numerics.memory import carray, floats, pointer
 from ..base.record import RandomState
+from ..base.sampling import Sampler
 from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
-from ..world import Body, SensorWorld
-from .sensor import Carrier, SensorSpec
+from ..world import Mount, SensorWorld
+from ..world.mounts import MOUNT, read_frame
+from .sensor import Carrier, CompiledSensor, SensorSpec
 
 NO_FIX, FIX = -1, 0
 """Of NavSatStatus."""
@@ -58,21 +63,37 @@ class GpsSensorSpec(SensorSpec):
         return GpsSensor(self, vehicle.mount(self), world, random)
 
 
-class GpsSensor:
+GNSS = np.dtype([("mount", MOUNT), ("stream", STREAM), ("std", np.float64)])
+"""A receiver of satellites, for compiled code."""
+N_VALUES = 6
+"""The numbers of a sample: its place in W, and the noise east, north and up [m]."""
+
+
+class GpsSensor(CompiledSensor):
     """A receiver of satellites."""
 
     def __init__(
-        self, spec: GpsSensorSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+        self, spec: GpsSensorSpec, mount: Mount, world: SensorWorld, random: np.random.Generator
     ) -> None:
-        self._spec, self._mount, self._world = spec, mount, world
+        self._spec, self._world = spec, world
         self.state = RandomState(random)
         """What it draws."""
         self._is_original = "gps-metres" in world.compatibility
+        row = np.zeros(1, GNSS)
+        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(random), spec.std
+        self.sampler = Sampler(
+            function=function_address(sample_gps),
+            parameters=row,
+            n_values=N_VALUES,
+            prepare=lambda _: mount.prepare(),
+            is_alone=lambda: mount.is_compiled,
+            kept=(self.state, mount),
+        )
+        """What takes the numbers of a sample."""
 
-    def sample(self, time: float) -> NavSatFix | None:
-        """Measure now, at ``time`` [s]."""
-        position = self._mount.world_from_body.position
-        noise = self._spec.std * self.state.random.standard_normal(3)  # east, north, up [m]
+    def message(self, time: float, values: Array) -> NavSatFix | None:
+        """Make the message of a sample taken at ``time`` [s]; None for none."""
+        position, noise = values[:3], values[3:]
         if self._world.surface_height - float(position[2]) >= self._spec.max_depth:
             return None if self._is_original else self._lost(time)
         latitude, longitude, altitude = self._coordinates(position, noise)
@@ -105,3 +126,17 @@ class GpsSensor:
             altitude=math.nan,
             position_covariance_type=UNKNOWN,
         )
+
+
+def sample_gps(parameters: int, values: int, time: float) -> None:
+    """Take a sample of a receiver of satellites; see `uwsim.base.numerics.calls`."""
+    sensor, found, frame = (
+        carray(pointer(parameters), (1,), GNSS)[0],
+        floats(values, 6),
+        np.empty(12),
+    )
+    read_frame(sensor.mount, frame)
+    for k in range(3):
+        found[k] = frame[k]
+    for k in range(3, 6):
+        found[k] = sensor.std * normal(sensor.stream)

@@ -115,7 +115,7 @@ class InertialUnit(CompiledSensor):
             function=function_address(sample_imu),
             parameters=row,
             n_values=N_VALUES,
-            prepare=mount.prepare,
+            prepare=lambda _: mount.prepare(),
             is_alone=lambda: mount.is_compiled,
             kept=(self.state, mount),
         )

@@ -15,9 +15,6 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from ..base.geometry import Array
-from ..base.numerics.linear import product, solve
-
 ENOUGH = 3
 """Beams from which a velocity follows."""
 AZIMUTHS = np.array([45.0, 135.0, 225.0, 315.0])
@@ -40,18 +37,5 @@ class Janus:
         """Of the beams in the sensor, (4, 3)."""
         self.cosine = cosine
         """Distance along the axis of a distance of 1 along a beam [1]."""
-        self._share = 1.0 / (2.0 * math.sqrt(2.0) * sine)
-
-    def velocity(self, along: Array, is_good: Flags) -> tuple[Array, float] | None:
-        """Return the velocity, (3,), and the error velocity [m/s]; None of too few beams.
-
-        Args:
-            along: velocities along the beams, (4,) [m/s].
-            is_good: which of them are known, (4,).
-        """
-        if is_good.sum() < ENOUGH:
-            return None
-        beams = self.directions[is_good]
-        found = solve(product(beams.T, beams), product(beams.T, along[is_good]))
-        error = self._share * float((SIGNS * along).sum()) if is_good.all() else math.nan
-        return found, error
+        self.error_share = 1.0 / (2.0 * math.sqrt(2.0) * sine)
+        """Error velocity of a difference of 1 between the beams, signs as in `SIGNS` [1]."""

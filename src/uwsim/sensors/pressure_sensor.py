@@ -112,7 +112,7 @@ class PressureSensor(CompiledSensor):
             function=function_address(sample_pressure),
             parameters=row,
             n_values=1,
-            prepare=mount.prepare,
+            prepare=lambda _: mount.prepare(),
             is_alone=lambda: mount.is_compiled,
             kept=(self.state, mount, levels),
         )

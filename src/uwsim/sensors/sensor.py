@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
-from ..base.geometry import Array, Pose
+from ..base.geometry import Array
 from ..base.record import Record
 from ..base.sampling import Sampler
 from ..schema import Spec
@@ -84,9 +84,8 @@ class Carrier(Protocol):
     def name(self) -> str:
         """Its name in the scene."""
 
-    @property
-    def world_from_base(self) -> Pose:
-        """Where its base is now."""
+    def base_mount(self) -> Mount:
+        """Return the frame of its base."""
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> Mount:
         """Fix something to its link, or to the link's visual frame: a frame that moves with it.

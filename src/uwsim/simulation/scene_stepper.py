@@ -73,20 +73,21 @@ class SceneStepper:
         is_led = self._drifts_by_python
         if is_led:
             self._advect_kinematic()
-        n = self._n_alone(wanted) if wanted > 1 and not is_led else 1
-        self._step_physics(n, drifts=not is_led)
+        n, samples_last = self._plan_run(wanted) if wanted > 1 and not is_led else (1, False)
+        is_sampled = self._step_physics(n, samples_last=samples_last, drifts=not is_led)
         self.animate()
         self._contacts.update(self._step)
-        self.publish()
+        self.publish(is_sampled=is_sampled)
         for look in self._watchers:
             look()
         return n
 
-    def _n_alone(self, wanted: int) -> int:
+    def _plan_run(self, wanted: int) -> tuple[int, bool]:
         """How many steps from this one on the forces may act alone, of those wanted.
 
         In the step after them a command, a sample, a timer or a device may be due; observers,
-        forces and water that Python computes from where bodies are have to do in every step.
+        forces and water that Python computes from where bodies are have to do in every step. The
+        second value says whether the samples after the last of them need no preparation.
         """
         engine, water, now = self._engine, self._water, self._step
         delivery = self._bus.next_delivery
@@ -99,23 +100,28 @@ class SceneStepper:
             or engine.moves_by_step
             or water.is_asked_where_bodies_are(self._wet_names)
         ):
-            return 1
-        dues = [delivery, self._schedule.due if self._network.is_idle else now]
+            return 1, False
+        for_python, unprepared = self._schedule.dues(now + wanted - 1)
+        dues = [delivery, for_python if self._network.is_idle else now]
         dues += [timer.due for timer in self._image_timers]
         dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self._time - self._timestep
         rests = [math.inf, *(device.rests_until(began) for device in self._devices)]
         free = (min(rests) - began) // self._timestep - 1
-        n = min(wanted, MAX_RUN, min(dues) - now + 1, free)
-        return max(1, int(n))
+        n = int(min(wanted, MAX_RUN, min(dues) - now + 1, free))
+        return (n, now + n <= unprepared) if n > 1 else (1, False)
 
-    def publish(self) -> None:
-        """Take samples that are due, deliver messages and call algorithms."""
+    def publish(self, *, is_sampled: bool = False) -> None:
+        """Take samples that are due, deliver messages and call algorithms.
+
+        Args:
+            is_sampled: whether the samples of sensors were taken with the step.
+        """
         bus, step = self._bus, self._step
         for timer in self._image_timers:
             timer.tick(step)
         self._network.advance(nanoseconds(self._time))
-        self._schedule.tick(step)
+        self._schedule.tick(step, is_sampled=is_sampled)
         bus.deliver()
         for node in self._nodes:
             node.tick()
@@ -137,9 +143,7 @@ class SceneStepper:
             not engine.is_dynamic
             or engine.moves_by_step  # what is carried is placed beside a vehicle that has drifted
             or bool(self._forces)
-            or any(
-                vehicle.state.placed.part for vehicle in self._drifting
-            )  # its motion is recorded
+            or any(vehicle.state.placed.part is not None for vehicle in self._drifting)  # recorded
             or water.drift(self._drifting_names, self._timestep, self._time) is None
         )
 
@@ -150,12 +154,16 @@ class SceneStepper:
             here = vehicle.world_from_base
             vehicle.drift(water.carried(here, self._time, self._timestep, vehicle.name))
 
-    def _step_physics(self, n: int, *, drifts: bool) -> None:
+    def _step_physics(self, n: int, *, samples_last: bool, drifts: bool) -> bool:
         """Advance the physics by some steps, in the flow of the water at their times.
 
         Args:
             n: how many.
+            samples_last: take the samples that are due after the last of them.
             drifts: whether vehicles that are not simulated drift in them.
+
+        Returns:
+            Whether samples were due after the last, and taken.
         """
         engine, water = self._engine, self._water
         if self._forces:
@@ -163,21 +171,27 @@ class SceneStepper:
         if not engine.is_dynamic:
             engine.fall()
             self._below_ground.look(self._step)
-            return
-        first, half = self._step, 0.5 * self._timestep  # forces act in the middle of a step
-        motion = drift = None
-        if not water.is_still:
-            times = [(first + k) * self._timestep - half for k in range(n)]
-            motion = water.during(engine.submerged_positions, times, self._wet_names)
-            if drifts and self._drifting:
-                until = (first + n - 1) * self._timestep
-                drift = water.drift(self._drifting_names, self._timestep, until)
+            return False
+        first = self._step
+        steps, positions = range(first, first + n), engine.submerged_positions
+        motion = water.during(positions, steps, self._timestep, self._wet_names)
+        drift = None
+        if drifts and self._drifting and motion is not None:
+            drift = water.drift(self._drifting_names, self._timestep, steps[-1] * self._timestep)
         before = engine.n_steps
         try:
-            engine.step(n, motion, self._schedule.table, first, drift=drift)
+            is_sampled = engine.step(
+                n,
+                motion,
+                self._schedule.table,
+                first,
+                samples_last=samples_last,
+                drift=drift,
+            )
         finally:
             self._bus.state.step = first + max(0, engine.n_steps - before - 1)
         self._below_ground.look(self._step)
+        return is_sampled
 
     def animate(self) -> None:
         """Move what devices animate."""

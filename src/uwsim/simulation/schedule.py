@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, TypeVar
@@ -41,11 +41,9 @@ class _Timer:
     state: TimerState
 
     @property
-    def needs_python(self) -> bool:
-        """Whether compiled steps have to end where it is due."""
-        sampling = self.sampling
-        is_alone = sampling is None or sampling.sampler.is_alone()
-        return not is_alone or self.is_called
+    def is_alone(self) -> bool:
+        """Whether its sample, if it takes one, needs no preparation."""
+        return self.sampling is None or self.sampling.sampler.is_alone()
 
     @property
     def is_called(self) -> bool:
@@ -124,13 +122,26 @@ class Schedule:
         table["due"], table["timestep"] = address_of(self.state.due), self._timestep
         return table
 
-    @property
-    def due(self) -> int:
-        """The step at which compiled steps have to end, as something is due for Python."""
-        return min(
-            (int(each.state.counts[DUE]) for each in self._timers if each.needs_python),
-            default=NEVER,
-        )
+    def dues(self, last: int) -> tuple[int, int]:
+        """Return when Python is needed, in steps.
+
+        Args:
+            last: the step behind which nobody asks.
+
+        Returns:
+            The step at which compiled steps have to end, as something is due for Python; and that
+            of the first sample which compiled code cannot take without preparation.
+        """
+        for_python = unprepared = NEVER
+        for timer in self._timers:
+            due = int(timer.state.counts[DUE])
+            if due > last or due >= unprepared:
+                continue
+            if not timer.is_alone:
+                unprepared = due
+            elif due < for_python and timer.is_called:
+                for_python = due
+        return min(for_python, unprepared), unprepared
 
     def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
         """Return what has ``apply(message)`` called at the start of the next step."""
@@ -144,15 +155,26 @@ class Schedule:
         for number, message in commands:
             self._appliers[number](message)
 
-    def tick(self, step: int) -> None:
-        """Take the samples that are due at a step, and call what is due."""
+    def tick(self, step: int, *, is_sampled: bool = False) -> None:
+        """Take the samples that are due at a step, and call what is due.
+
+        Args:
+            step: that has been taken.
+            is_sampled: whether compiled code has taken the samples that are due at it.
+        """
+        if is_sampled:
+            self._call_fired(self._timers)
         while step >= self.state.due[0]:  # a call may have another made that is due at once
             timers = self._timers
             for timer in timers:
                 if timer.sampling is not None and step >= timer.state.counts[DUE]:
-                    timer.sampling.sampler.prepare()
+                    timer.sampling.sampler.prepare(step * self._timestep)
             take_due(self.table, step)
-            for timer, is_fired in zip(timers, self._rows["is_fired"].tolist(), strict=True):
-                is_stopped = timers is not self._timers and timer not in self._timers
-                if is_fired and timer.is_called and not is_stopped:
-                    timer.call()
+            self._call_fired(timers)
+
+    def _call_fired(self, timers: Sequence[_Timer]) -> None:
+        """Call those that were due when the table was walked last."""
+        for timer, is_fired in zip(timers, self._rows["is_fired"].tolist(), strict=True):
+            is_stopped = timers is not self._timers and timer not in self._timers
+            if is_fired and timer.is_called and not is_stopped:
+                timer.call()

@@ -223,6 +223,12 @@ class SceneVehicle:
         """Release an object that is held."""
         self._engine.grips.let_go(thing)
 
+    def base_mount(self) -> MountedBody:
+        """Return the frame of its base."""
+        root, poses = self._frames.robot.root, self._engine.poses
+        record = poses.mount(self.index, root, Pose.identity())
+        return MountedBody(f"{self.name}/{root}", poses, record)
+
     def mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
         """Fix something to its link; raises UnknownName if there is no such link."""
         name = f"{self.name}/{spec.relative_to}"

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -26,7 +27,8 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
     def bind(self, world: TopicWorld) -> JointPublisher:
         """Publish from now on; raises UnknownName if there is no such vehicle."""
         publisher = JointPublisher(self.topic, world.vehicle(self.vehicle_name), world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        needed = partial(is_needed, world.bus, self.topic)
+        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=needed)
         return publisher
 
 
@@ -35,12 +37,10 @@ class JointPublisher(Interface):
 
     def __init__(self, topic: str, vehicle: Vehicle, world: TopicWorld) -> None:
         self._vehicle, self._world = vehicle, world
-        self._topic, self._publish = topic, world.bus.publisher(topic, JointState)
+        self._publish = world.bus.publisher(topic, JointState)
 
     def publish(self) -> None:
         """Publish the state as it is now."""
-        if not is_needed(self._world.bus, self._topic):
-            return
         names, servos = list(self._vehicle.joint_names), self._vehicle.servos
         velocity, effort = np.zeros(0), np.zeros(len(names))
         if servos is not None:

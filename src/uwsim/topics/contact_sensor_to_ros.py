@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 from ..errors import UnknownName
@@ -30,7 +31,8 @@ class ContactSensorToROSSpec(InterfaceSpec):
         if not world.contacts.is_possible(self.name):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        is_read = partial(world.bus.has_readers, self.topic)
+        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 
 
@@ -38,10 +40,9 @@ class ContactPublisher(Interface):
     """Publishes whether a body is in contact."""
 
     def __init__(self, name: str, topic: str, world: TopicWorld) -> None:
-        self._name, self._topic, self._world = name, topic, world
+        self._name, self._world = name, world
         self._publish = world.bus.publisher(topic, Bool)
 
     def publish(self) -> None:
-        """Publish it as it is now, if somebody reads it; the message has no time."""
-        if self._world.bus.has_readers(self._topic):
-            self._publish(Bool(data=bool(self._world.contacts.find(self._name))))
+        """Publish it as it is now; the message has no time."""
+        self._publish(Bool(data=bool(self._world.contacts.find(self._name))))

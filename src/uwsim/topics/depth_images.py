@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar, Protocol, runtime_checkable
 
 import numpy as np
@@ -100,7 +101,8 @@ class RangeCameraToPCLSpec(InterfaceSpec):
         """Publish from now on; raises UnknownName if there is no such camera."""
         camera = _find(world, self.camera_name)
         publisher = PointCloudPublisher(camera, self.camera_name, self.topic, world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        is_read = partial(world.bus.has_readers, self.topic)
+        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 
 
@@ -112,15 +114,14 @@ class PointCloudPublisher(Interface):
 
     def __init__(self, camera: DepthCamera, frame_id: str, topic: str, world: TopicWorld) -> None:
         self._camera, self._frame_id = camera, frame_id
-        self._topic, self._world = topic, world
+        self._world = world
         self._publish = world.sensors.publisher(frame_id, topic, PointCloud2)
 
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
-        if self._world.bus.has_readers(self._topic):
-            time = self._world.time
-            places = optical_points(self._camera.depth(time), self._camera.intrinsics)
-            self._publish(point_cloud(places, time=time, frame_id=self._frame_id))
+        time = self._world.time
+        places = optical_points(self._camera.depth(time), self._camera.intrinsics)
+        self._publish(point_cloud(places, time=time, frame_id=self._frame_id))
 
 
 def optical_points(depth: Array, lens: Intrinsics) -> Array:

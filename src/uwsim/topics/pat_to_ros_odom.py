@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -37,7 +38,8 @@ class PATToROSOdomSpec(VehiclePublisherSpec):
     def bind(self, world: TopicWorld) -> OdometryPublisher:
         """Publish from now on; raises UnknownName if there is no such vehicle."""
         publisher = OdometryPublisher(self.topic, world.vehicle(self.vehicle_name), world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        needed = partial(is_needed, world.bus, self.topic)
+        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=needed)
         return publisher
 
 
@@ -48,12 +50,10 @@ class OdometryPublisher(Interface):
         self._vehicle, self._world = vehicle, world
         self._localized_from_world = world.world_from_localized.inverse()
         self._is_simulated = vehicle.autopilot is not None
-        self._topic, self._publish = topic, world.bus.publisher(topic, Odometry)
+        self._publish = world.bus.publisher(topic, Odometry)
 
     def publish(self) -> None:
         """Publish the state as it is now."""
-        if not is_needed(self._world.bus, self._topic):
-            return
         pose = self._localized_from_world @ self._vehicle.world_from_base
         w, x, y, z = quaternion_from_rotation(pose.rotation).tolist()
         px, py, pz = pose.position.tolist()

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import ClassVar
 
 from ..messages import TFMessage
@@ -45,7 +46,8 @@ class WorldToROSTFSpec(InterfaceSpec):
         """Publish from now on."""
         frames = world.frames(with_objects=self.enable_objects)
         publisher = FramePublisher(self, frames, world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        is_read = partial(world.bus.has_readers, TF)
+        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 
 
@@ -57,9 +59,7 @@ class FramePublisher(Interface):
         self._publish = world.bus.publisher(TF, TFMessage)
 
     def publish(self) -> None:
-        """Publish all frames as they are now, if anybody reads them."""
-        if not self._world.bus.has_readers(TF):
-            return
+        """Publish all frames as they are now."""
         time, root = self._world.time, self._spec.root_name
         markers = self._world.marker_frames() if self._spec.enable_objects else ()
         self._publish(

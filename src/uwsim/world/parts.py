@@ -197,6 +197,17 @@ class Rays(Protocol):
     def materials(self) -> Sequence[Material]:
         """Acoustic material of each surface, by its number."""
 
+    @property
+    def functions(self) -> npt.NDArray[np.void]:
+        """Casts rays in compiled code: a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether that finds all bodies where they are in compiled steps without `prepare`."""
+
+    def prepare(self) -> None:
+        """Bring what compiled code reads up to date."""
+
     def cast(
         self,
         world_from_sensor: Pose,

@@ -189,6 +189,12 @@ class SensorWorld(TimedWorld, Protocol):
     def density_levels(self) -> Sequence[tuple[float, float]]:
         """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
 
+    def even_water(self, vehicle: str) -> npt.NDArray[np.float64] | None:
+        """Return the velocity of water that moves the same everywhere and always; None if not.
+
+        In W, (3,) [m/s], as a vehicle feels it.
+        """
+
     def water_velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicle: str
     ) -> npt.NDArray[np.float64]:

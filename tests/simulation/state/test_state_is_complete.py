@@ -37,6 +37,7 @@ EVERYTHING = Path(__file__).parent / "everything.xml"
 CACHES = {
     "Bus._revision": "counts who comes and goes",
     "Bus._topics": "who is at the ends of topics, and what was said to them",
+    "Dvl._flow": "is written before each sample",
     "EngineContacts._looked_up": "is looked up again when the memory was set",
     "EngineMemory._arena": "has gaps that the engine does not write",
     "EngineMemory._places": "0 for none or elsewhere, as the arena",
@@ -63,7 +64,9 @@ CACHES = {
     "RayScene._engine": "is MuJoCo's memory",
     "SceneRays._carried": "is compared with the state when it is used",
     "SceneRays._laid": "is laid anew for other carried objects",
+    "SceneRays._noted": "is compared with what is laid when it is used",
     "SceneRays._placed": "is compared with the state when it is used",
+    "SceneRays._records": "are the addresses of what is laid",
     "Schedule._rows": "is written before it is read",
     "Scenery._drawn_heaps": "is compared with the heaps when it is used",
     "Scenery._drawn_version": "is set to draw anew",
@@ -76,6 +79,7 @@ CACHES = {
     "Stepper._table": "is compared with the samples when it is used",
     "WaterMotion._added": "is compared with the state when it is used",
     "WaterMotion._drift": "is compared with flow and vehicles when it is used",
+    "WaterMotion._even": "is compared with the flow when it is used",
     "WaterMotion._felt": "is compared with flow and vehicles when it is used",
     "WaterMotion._sum": "is compared with the state when it is used",
 }

@@ -33,7 +33,7 @@ from ..files import disk_cache
 from .compiled_source import source_digest
 from .compiling import one_is_compiled
 
-FORMAT = 3
+FORMAT = 4
 """The format of the files of compiled code."""
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -41,8 +41,11 @@ Elementwise = Callable[..., npt.NDArray[np.float64]]
 
 
 def njit(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile with numba: cached on disk, GIL released, no fast-math, one thread."""
-    compiled: Any = numba.njit(nogil=True)(function)
+    """Compile with numba: cached on disk, GIL released, no fast-math, one thread.
+
+    A division by zero gives an infinity or NaN, as numpy's.
+    """
+    compiled: Any = numba.njit(nogil=True, error_model="numpy")(function)
     if compiled is not function:  # as it is with NUMBA_DISABLE_JIT
         compiled._cache = CacheOnUse(function)
     return cast("Callable[P, R]", compiled)
@@ -76,7 +79,7 @@ def link_library(path: str) -> None:
 def c_function(function: Callable[..., object], signature: Any) -> Any:
     """Compile a function of the module's level as a C function, with ``address``; cached alike."""
     arguments = (signature.args, signature.return_type)
-    compiled: Any = CFunc(function, arguments, {}, {})
+    compiled: Any = CFunc(function, arguments, {}, {"error_model": "numpy"})
     compiled._cache = CacheOnUse(function)
     compiled.compile()
     return compiled

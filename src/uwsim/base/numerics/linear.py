@@ -60,6 +60,12 @@ def turned_back(rotation: Array, vector: Array) -> Array:
 
 
 @njit
+def turned_rows(rotation: Array, vectors: Array) -> Array:
+    """``vectors @ rotation.T`` for (3, 3) and (n, 3), as `product` computes it."""
+    return matrices(vectors, rotation.T.copy())
+
+
+@njit
 def cross(left: Array, right: Array) -> Array:
     """Vector product of (3,) and (3,), quickly."""
     found = np.empty(3)
@@ -102,7 +108,7 @@ def solve(matrix: Array, right: Array) -> Array:
         numpy.linalg.LinAlgError: the matrix is singular.
     """
     columns = right if right.ndim == 2 else right[:, None]
-    found, is_regular = _solved(matrix.astype(np.float64), columns.astype(np.float64))
+    found, is_regular = solved(matrix.astype(np.float64), columns.astype(np.float64))
     if not is_regular:
         raise np.linalg.LinAlgError("Singular matrix")
     return found if right.ndim == 2 else found[:, 0]
@@ -248,7 +254,7 @@ def placed(points: Array, rotation: Array, position: Array) -> Array:
 
 
 @njit
-def _solved(a: Array, b: Array) -> tuple[Array, bool]:
+def solved(a: Array, b: Array) -> tuple[Array, bool]:
     """Eliminate with partial pivoting; overwrites both, returns the solution in ``b``."""
     n, m = b.shape
     for column in range(n):
@@ -279,7 +285,7 @@ def _solved(a: Array, b: Array) -> tuple[Array, bool]:
 @njit
 def invert(matrix: Array, to: Array) -> bool:
     """Write the inverse of a matrix (n, n) to another; False if it is singular."""
-    found, is_regular = _solved(matrix.copy(), np.eye(matrix.shape[0]))
+    found, is_regular = solved(matrix.copy(), np.eye(matrix.shape[0]))
     to[:] = found
     return is_regular
 
@@ -289,7 +295,7 @@ def _inverses(matrices: Array) -> tuple[Array, bool]:
     """Of each of (n, k, k); overwrites them."""
     found, are_regular = np.empty(matrices.shape), True
     for i in range(matrices.shape[0]):
-        inverted, is_regular = _solved(matrices[i], np.eye(matrices.shape[1]))
+        inverted, is_regular = solved(matrices[i], np.eye(matrices.shape[1]))
         found[i] = inverted
         are_regular = are_regular and is_regular
     return found, are_regular

@@ -41,6 +41,8 @@ TURN = (0.85, math.sqrt(1.0 - 0.85**2))
 """Cosine and sine of the angle between a lattice and the rows."""
 SURE = 1e-6
 """Room for rounding where a whole target is passed over [rad]."""
+TINY = 1e-14
+"""Room for rounding of a cosine."""
 MAX_SLANT = 10.0
 """Tangent of the angle of incidence up to which an echo is spread over range."""
 
@@ -115,7 +117,9 @@ def lattice(discs: Discs, fan: Fan, highest: float) -> Lattice:
     spacing = np.empty(len(discs.radius))
     begins = np.flatnonzero(np.diff(discs.surface, prepend=-1))
     ends = np.append(begins[1:], len(spacing))
-    for begin, end in zip(begins.tolist(), ends.tolist(), strict=True):
+    spacing[:] = 2.0 / ACROSS * np.sqrt(discs.radius**2)
+    for k in np.flatnonzero(ends - begins > 1).tolist():
+        begin, end = begins[k], ends[k]
         mean_square = float((discs.radius[begin:end] ** 2).mean())
         spacing[begin:end] = 2.0 / ACROSS * math.sqrt(mean_square)
     n = int(_fill(discs, spacing, fan, highest, *_NO_RAYS))
@@ -128,6 +132,44 @@ def lattice(discs: Discs, fan: Fan, highest: float) -> Lattice:
 
 
 _NO_RAYS = Lattice(np.empty((0, 3)), np.empty((0, 4)), np.empty(0, dtype=np.int32))
+
+
+class Edge(NamedTuple):
+    """Bounds by which a direction is surely within a disc or beyond its edge."""
+
+    within: float
+    """Of the squared sine of half its angle to the middle, if it is within."""
+    beyond: float
+    """The same if it is beyond."""
+    most: float
+    """Of the product of the cosines of both elevations."""
+    least: float
+    """The same, from below."""
+
+
+@njit
+def _edge_of(elevation: float, radius: float) -> Edge:
+    """The bounds of a disc, by the elevation of its middle and its radius [rad]."""
+    square, middle = math.sin(0.5 * radius) ** 2, math.cos(elevation)
+    return Edge(
+        square * (1.0 - SURE) - TINY,
+        square * (1.0 + SURE) + TINY,
+        middle * math.cos(max(abs(elevation) - radius - SURE, 0.0)),
+        middle * math.cos(abs(elevation) + radius + SURE),
+    )
+
+
+@njit
+def _side(edge: Edge, above: float, away: float) -> int:
+    r"""Whether a direction is within a disc, -1, or beyond, 1; 0 if that has to be computed.
+
+    By :math:`x^2/4\,(1 - x^2/12) \le \sin^2 x/2 \le x^2/4`, with its elevation and its azimuth
+    from the middle [rad].
+    """
+    up, across = 0.25 * above * above, 0.25 * away * away
+    if up * (1.0 - up / 3.0) + edge.least * across * (1.0 - across / 3.0) > edge.beyond:
+        return 1
+    return -1 if up + edge.most * across < edge.within else 0
 
 
 @njit
@@ -152,20 +194,35 @@ def _fill(
             discs.azimuth[disc], broad, fan
         ):
             continue
+        is_whole = abs(discs.elevation[disc]) + radius < highest - SURE and _is_all_received(
+            discs.azimuth[disc], broad, fan
+        )
         shrink = math.cos(discs.elevation[begin])
         least = math.cos(radius)
         # the lattice of a surface goes through the middle of its first disc
-        right = _wrapped(discs.azimuth[disc] - discs.azimuth[begin]) * shrink
+        aside = _wrapped(discs.azimuth[disc] - discs.azimuth[begin])
+        right = aside * shrink
         up = discs.elevation[disc] - discs.elevation[begin]
         i0 = round((cosine * right + sine * up) / step)
         j0 = round((cosine * up - sine * right) / step)
         widest = broad * shrink
         reach = math.ceil(1.5 * max(radius, widest) / step) + 1
+        edge = _edge_of(discs.elevation[disc], radius)
         for i in range(i0 - reach, i0 + reach + 1):
             for j in range(j0 - reach, j0 + reach + 1):
                 azimuth = discs.azimuth[begin] + step * (cosine * i - sine * j) / shrink
                 elevation = discs.elevation[begin] + step * (sine * i + cosine * j)
-                if abs(elevation) > highest or not _is_received(azimuth, fan):
+                away = azimuth - discs.azimuth[begin] - aside
+                above = elevation - discs.elevation[disc]
+                if abs(above) > radius + SURE or abs(away) > broad + SURE:
+                    continue
+                if not is_whole and (abs(elevation) > highest or not _is_received(azimuth, fan)):
+                    continue
+                side = _side(edge, above, away)
+                if side > 0:
+                    continue
+                if side < 0 and begin == disc and count >= len(surface):
+                    count += 1
                     continue
                 level = math.cos(elevation)
                 x, y, z = level * math.cos(azimuth), level * math.sin(azimuth), math.sin(elevation)
@@ -213,6 +270,20 @@ def _may_be_received(azimuth: float, broad: float, fan: Fan) -> bool:
 
 
 @njit
+def _is_all_received(azimuth: float, broad: float, fan: Fan) -> bool:
+    """Whether some beam receives whatever is within an angle from an azimuth [rad]."""
+    if abs(fan.step) > 2.0 * MARGIN * fan.width:
+        return False
+    last = fan.first + (fan.n - 1) * fan.step
+    margin = MARGIN * fan.width - broad - SURE
+    low, high = min(fan.first, last) - margin, max(fan.first, last) + margin
+    is_within = False
+    for turn in (-1.0, 0.0, 1.0):
+        is_within |= low <= azimuth + 2.0 * math.pi * turn <= high
+    return is_within
+
+
+@njit
 def _is_received(azimuth: float, fan: Fan) -> bool:
     """Whether any beam receives anything from an azimuth [rad]."""
     margin = MARGIN * fan.width
@@ -234,12 +305,18 @@ def _beams(azimuth: float, margin: float, fan: Fan) -> tuple[int, int]:
 @njit
 def drop_hits(distance: Array, surface: Whole, directions: Array, discs: Discs) -> None:
     """Set the distance of those hits to infinity that the lattice of a small target replaces."""
+    n = len(discs.surface)
+    if n == 0:
+        return
+    begins = np.full(discs.surface.max() + 1, n)
+    for disc in range(n - 1, -1, -1):
+        begins[discs.surface[disc]] = disc
     for k in range(len(distance)):
-        if distance[k] == np.inf:
+        if distance[k] == np.inf or not 0 <= surface[k] < len(begins):
             continue
-        for disc in range(len(discs.radius)):
+        for disc in range(begins[surface[k]], n):
             if surface[k] != discs.surface[disc]:
-                continue
+                break
             x, y, z = directions[k, 0], directions[k, 1], directions[k, 2]
             if _along(discs.direction, disc, x, y, z) >= math.cos(discs.radius[disc]):
                 distance[k] = np.inf

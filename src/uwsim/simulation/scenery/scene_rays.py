@@ -11,6 +11,8 @@ from ...base.geometry import Array, Pose
 from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
 from ...rays import Balls, Hits, RayScene, Surface
+from ...rays.ray_scene import cast
+from ...rays.scene_record import SCENE, rays_record
 from .sand import Heap
 
 
@@ -37,6 +39,10 @@ class SceneRays:
         self._carried: list[int] | None = None  # the objects that followed links when it was laid
         self._laid: RayScene | None = None  # fixed bodies as the first body, then all that move
         self._placed: list[tuple[int, Callable[[], Array]]] = []  # those that follow no engine's
+        self._noted: RayScene | None = None  # whose record is the first of these
+        self._records = np.zeros(1 + len(heaps), SCENE)  # of what was laid, and of each heap
+        self.functions = rays_record(self._records)
+        """What casts rays from compiled code, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
         self.materials: tuple[Material, ...] = (
             *self._bodies.materials,
             *(MATERIALS["sand"] for _ in heaps),
@@ -53,14 +59,29 @@ class SceneRays:
         begins: Array | None = None,
     ) -> Hits:
         """Cast rays from the origin of a sensor; see `RayScene.cast`."""
-        hits = self._scene.cast(world_from_sensor, directions, reach, begins)
-        for number, heap in enumerate(self._heaps):
-            on_sand = self._sand(number, heap).cast(world_from_sensor, directions, reach, begins)
-            nearer = on_sand.distance < hits.distance
-            hits.distance[nearer] = on_sand.distance[nearer]
-            hits.normal[nearer] = on_sand.normal[nearer]
-            hits.surface[nearer] = on_sand.surface[nearer]
-        return hits
+        self.prepare()
+        return cast(self.functions, world_from_sensor, directions, reach, begins)
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether compiled code finds everything where it is in compiled steps without `prepare`.
+
+        It does where all follow bodies of the engine; sand, and what is placed or carried, do not.
+        """
+        return (
+            self._laid is not None
+            and not self._heaps
+            and not self._placed
+            and not self._engine.poses.state.carried
+        )
+
+    def prepare(self) -> None:
+        """Bring what compiled code reads up to date."""
+        laid = self._scene
+        if self._noted is not laid:
+            self._records[0], self._noted = laid.record[0], laid
+        for number, heap in enumerate(self._heaps, start=1):
+            self._records[number] = self._sand(number - 1, heap).record[0]
 
     def balls(self) -> Balls:
         """Balls that cover each surface, but for the sand of heaps; see `RayScene.balls`."""

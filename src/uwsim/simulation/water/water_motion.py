@@ -59,6 +59,7 @@ class WaterMotion:
         # a flow, the vehicles it is felt by, and its functions
         self._felt: _Found[WaterFunction] = None, (), None, None
         self._drift: _Found[DriftFunction] = None, (), None, None
+        self._even: tuple[Flow, dict[str, Array | None]] = self._sum, {}  # what it was found for
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
         for spec in specs:
@@ -90,13 +91,20 @@ class WaterMotion:
         return not (flow.is_still or flow.is_uniform or self._compiled(vehicles)[0] is not None)
 
     def during(
-        self, positions: Callable[[], Array], times: Sequence[float], vehicles: Sequence[str]
+        self,
+        positions: Callable[[], Array],
+        steps: range,
+        timestep: float,
+        vehicles: Sequence[str],
     ) -> WaterFunction | None:
-        """Return how the water moves at some bodies at some times, in W; None if it is still.
+        """Return how the water moves at some bodies in some steps, in W; None if it is still.
+
+        It is that of the middle of each step.
 
         Args:
             positions: where the bodies are now, in W, (n, 3) [m].
-            times: in the middle of each step [s]; one step alone, if `is_asked_where_bodies_are`.
+            steps: their numbers; one alone, if `is_asked_where_bodies_are`.
+            timestep: length of a step [s].
             vehicles: as `at` takes them.
         """
         flow = self._flow
@@ -104,8 +112,9 @@ class WaterMotion:
             return None
         function, compiled_flow = self._compiled(vehicles)
         if function is not None and compiled_flow is not None:
-            compiled_flow.prepare(times[-1])
+            compiled_flow.prepare(steps[-1] * timestep)
             return function
+        times = [step * timestep - 0.5 * timestep for step in steps]
         if flow.is_uniform:
             asked = times[:1] if is_steady(flow) else times
             return of_rows(self._everywhere(asked, vehicles))
@@ -207,6 +216,23 @@ class WaterMotion:
         localized = self._localized_from_world.transform(points)
         velocity = self._flow.velocity(localized, time, (vehicle,) * len(points))
         return product(velocity, self._localized_from_world.rotation)
+
+    def even(self, vehicle: str) -> Array | None:
+        """Return the velocity of water that moves the same everywhere and always, in W, (3,) [m/s].
+
+        None where it does not.
+
+        Args:
+            vehicle: the name of that which feels it.
+        """
+        flow = self._flow
+        if self._even[0] is not flow:
+            self._even = flow, {}
+        known = self._even[1]
+        if vehicle not in known:
+            is_even = flow.is_still or (flow.is_uniform and is_steady(flow))
+            known[vehicle] = self.velocity(np.zeros((1, 3)), 0.0, vehicle)[0] if is_even else None
+        return known[vehicle]
 
     def carried(self, world_from_base: Pose, time: float, timestep: float, vehicle: str) -> Pose:
         """Return where a vehicle is after a step of drifting with the water: ``p += v dt``."""

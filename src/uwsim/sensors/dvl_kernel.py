@@ -1,0 +1,203 @@
+"""The ping of a Doppler velocity log in compiled code."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..base.geometry import Array
+from ..base.numerics.draws import STREAM, normal, uniform
+from ..base.numerics.jit import njit
+from ..base.numerics.linear import matrices, solved, turned, turned_back, turned_rows
+from ..base.numerics.memory import carray, floats, pointer
+from ..rays import Hits
+from ..rays.scene_record import RAYS, cast_from
+from ..world.mounts import MOUNT, read_frame, read_motion
+from .janus import ENOUGH, SIGNS, Flags
+
+DVL = np.dtype(
+    [
+        ("mount", MOUNT),
+        ("base", MOUNT),  # of the vehicle
+        ("rays", RAYS),
+        ("stream", STREAM),
+        ("is_own", np.int64),  # the address of a byte for each surface: of this vehicle or not
+        ("directions", np.float64, (4, 3)),  # of the beams in the sensor
+        ("cosine", np.float64),  # of their angle to its z axis
+        ("error_share", np.float64),  # of the error velocity in the sum of the beams
+        ("scale", np.int64),  # the address of the scale of each beam, (4,) [1]
+        ("std", np.float64),  # of each component [m/s]
+        ("beam_std", np.float64),  # along each beam on the bottom [m/s]
+        ("water_std", np.float64),  # and in the water [m/s]
+        ("range_std", np.float64),  # [m]
+        ("dropout", np.float64),
+        ("min_altitude", np.float64),  # [m]
+        ("max_altitude", np.float64),  # [m]
+        ("water_layer", np.float64),  # [m]
+        ("surface", np.float64),  # height of the water's surface in W [m]
+        ("flow", np.int64),  # the address of the water's velocity at the beams, in W, (4, 3) [m/s]
+        ("bottom", np.int64),  # addresses of `TrackState.numbers`
+        ("water", np.int64),
+        ("before", np.int64),  # of the time and the place of the original's last sample, (4,)
+        ("is_original", np.int64),  # whether it measures as the original
+    ]
+)
+"""A Doppler velocity log."""
+INSTRUMENT, WORLD, ERROR, MADE_GOOD, TIME, LAST = 0, 3, 6, 7, 10, 11
+"""Where the numbers of a track are; see `TrackState`."""
+N_TRACK = 12
+SHIP = 12
+"""Behind the numbers of a track among the values: its velocity in the axes of the base [m/s]."""
+BOTTOM, WATER, HEIGHT, DEPTH, RANGES, ALONG = 0, 15, 30, 31, 32, 36
+"""Where the values of a sample are: tracks, mean height [m], depth [m], ranges [m] and velocities
+[m/s] of the beams."""
+N_VALUES = 40
+THROUGH = 1e-6
+"""How far behind a surface of its own vehicle a beam goes on [m]."""
+MAX_OWN = 32
+"""Surfaces of its own vehicle that a beam goes through at most."""
+
+Record = Any
+
+
+def sample_dvl(parameters: int, values: int, time: float) -> None:
+    """Take a sample of a Doppler velocity log; see `uwsim.base.numerics.calls`."""
+    dvl = carray(pointer(parameters), (1,), DVL)[0]
+    frame, noise, chances = np.empty(12), np.empty((4, 4)), np.empty(4)
+    read_frame(dvl.mount, frame)
+    for i in range(4):
+        for k in range(4):
+            noise[i, k] = normal(dvl.stream)
+    for i in range(4):
+        chances[i] = uniform(dvl.stream)
+    found = floats(values, N_VALUES)
+    if dvl.is_original != 0:
+        differ(dvl, time, frame, noise[3], found)
+    else:
+        ping(dvl, time, frame, noise, chances, found)
+
+
+@njit
+def differ(dvl: Record, time: float, frame: Array, noise: Array, found: Array) -> None:
+    """Write the mean velocity since the last sample in the sensor's axes, as the original's."""
+    before, velocity = floats(dvl.before, 4), np.zeros(3)
+    if time > before[0]:  # not before the first: NaN
+        moved = (frame[:3] - before[1:]) / (time - before[0])
+        velocity = turned_back(frame[3:].reshape((3, 3)), moved)
+    before[0], before[1:] = time, frame[:3]
+    for k in range(3):
+        found[k] = velocity[k] + dvl.std * noise[k]
+
+
+@njit
+def ping(
+    dvl: Record, time: float, frame: Array, normals: Array, chances: Array, found: Array
+) -> None:
+    """Measure with these random numbers, (4, 4) and (4,)."""
+    axes, motion, base = frame[3:].reshape((3, 3)), np.empty(12), np.empty(12)
+    directions = dvl.directions
+    beams = turned_rows(axes, directions)
+    ranges = find_ranges(dvl, frame, beams)
+    motion[:3] = frame[:3]
+    read_motion(dvl.mount, motion)
+    velocity = turned_back(axes, motion[3:6])
+    scale, flow = floats(dvl.scale, 4), floats(dvl.flow, 12)
+    reach = dvl.water_layer / dvl.cosine
+    bottom, water, along = np.empty(4), np.empty(4), found[ALONG : ALONG + 4]
+    is_good, is_wet = np.empty(4, np.bool_), np.empty(4, np.bool_)
+    height, n_good = 0.0, 0
+    for i in range(4):
+        beam, d = beams[i], directions[i]
+        over_ground = 0.0 + d[0] * velocity[0] + d[1] * velocity[1] + d[2] * velocity[2]
+        bottom[i] = scale[i] * over_ground + dvl.beam_std * normals[0, i]
+        carried = beam[0] * flow[3 * i] + beam[1] * flow[3 * i + 1] + beam[2] * flow[3 * i + 2]
+        water[i] = scale[i] * (over_ground - carried) + dvl.water_std * normals[1, i]
+        is_heard, axial = chances[i] >= dvl.dropout, ranges[i] * dvl.cosine
+        is_good[i] = is_heard and dvl.min_altitude <= axial <= dvl.max_altitude
+        is_under = frame[2] + reach * beam[2] < dvl.surface
+        is_wet[i] = is_heard and ranges[i] > reach and is_under
+        found[RANGES + i] = along[i] = math.nan
+        if is_good[i]:
+            found[RANGES + i] = ranges[i] + dvl.range_std * normals[2, i]
+            along[i] = bottom[i]
+            drop = -(0.0 + d[0] * axes[2, 0] + d[1] * axes[2, 1] + d[2] * axes[2, 2])
+            height, n_good = height + found[RANGES + i] * drop, n_good + 1
+    noise = dvl.std * normals[3, :3]
+    take_velocity(floats(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
+    take_velocity(floats(dvl.water, N_TRACK), time, axes, dvl, (water, is_wet), noise)
+    read_frame(dvl.base, base)
+    write_track(floats(dvl.bottom, N_TRACK), base[3:], found[BOTTOM:WATER])
+    write_track(floats(dvl.water, N_TRACK), base[3:], found[WATER:HEIGHT])
+    found[HEIGHT] = height / n_good if n_good else math.nan
+    found[DEPTH] = max(0.0, dvl.surface - frame[2])
+
+
+@njit
+def write_track(track: Array, base: Array, found: Array) -> None:
+    """Write the numbers of a track, and its velocity in the axes of the base, by rows, (9,)."""
+    found[:SHIP] = track
+    for i in range(3):
+        total = 0.0
+        for j in range(3):
+            total += base[3 * j + i] * track[WORLD + j]
+        found[SHIP + i] = total
+
+
+@njit
+def find_ranges(dvl: Record, frame: Array, beams: Array) -> Array:
+    """Return the distances along the beams to what is not the vehicle, (4,) [m]; inf: none."""
+    reach = dvl.max_altitude / dvl.cosine + 1.0
+    found, begins, waiting, n = np.full(4, np.inf), np.zeros(4), np.arange(4), 4
+    directions, hits = beams, Hits(np.empty(4), np.empty((4, 3)), np.empty(4, np.int32))
+    for _ in range(MAX_OWN):
+        part = Hits(hits.distance[:n], hits.normal[:n], hits.surface[:n])
+        cast_from(dvl.rays, frame[:3], directions, begins[:n], reach, part)
+        n_waiting = 0
+        for i in range(n):
+            surface = part.surface[i]
+            if surface >= 0 and carray(pointer(dvl.is_own + surface), (1,), np.uint8)[0] != 0:
+                begins[n_waiting] = part.distance[i] + THROUGH
+                waiting[n_waiting] = waiting[i]
+                n_waiting += 1
+            else:
+                found[waiting[i]] = part.distance[i]
+        if n_waiting == 0:
+            break
+        n, directions = n_waiting, beams[waiting[:n_waiting]]
+    return found
+
+
+@njit
+def take_velocity(
+    track: Array,
+    time: float,
+    axes: Array,
+    dvl: Record,
+    measured: tuple[Array, Flags],
+    noise: Array,
+) -> None:
+    """Take the velocity of a ping at ``time`` [s] from those along the beams, some of them good."""
+    along, is_good = measured
+    lasted = 0.0 if math.isnan(track[TIME]) else time - track[TIME]
+    track[TIME] = time
+    if is_good.sum() < ENOUGH:
+        track[: ERROR + 1] = math.nan
+        return
+    beams = dvl.directions[is_good]
+    across = np.ascontiguousarray(beams.T)
+    columns = matrices(across, along[is_good].reshape((-1, 1)))
+    velocity = solved(matrices(across, beams), columns)[0][:, 0]
+    for k in range(3):
+        track[INSTRUMENT + k] = velocity[k] + noise[k]
+    track[WORLD:ERROR] = turned(axes, track[INSTRUMENT:WORLD])
+    track[ERROR] = math.nan
+    if is_good.all():
+        total = SIGNS[0] * along[0]
+        for i in range(1, 4):
+            total += SIGNS[i] * along[i]
+        track[ERROR] = dvl.error_share * total
+    for k in range(3):
+        track[MADE_GOOD + k] += track[WORLD + k] * lasted
+    track[LAST] = time
