@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -12,12 +13,13 @@ import pytest
 from tests.simulation.girona500 import SCENE, TWIST, make
 from tests.support.opened import open_scene
 from uwsim.bus import Node
-from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
+from uwsim.currents import ConstantSpec, Place, PowerProfileSpec, TotalCurrent, UwsimSinusoidSpec
 from uwsim.devices.fault import FaultSpec
 from uwsim.errors import RunFailed
 from uwsim.messages import Odometry, Twist, TwistStamped, Vector3, header
 from uwsim.physics.step_kernel import rotation_of
 from uwsim.scene.reader import read_scene
+from uwsim.sensors import ImuSpec
 from uwsim.simulation import Simulation
 from uwsim.topics.pat_to_ros_odom import PATToROSOdomSpec
 
@@ -43,6 +45,12 @@ class Pilot:
 
 def swell(simulation: Simulation) -> None:
     simulation.world.water.set(SWELL.bind(Place(stream=simulation.world.stream)))
+
+
+def sheared(simulation: Simulation) -> None:
+    place = Place(stream=simulation.world.stream)
+    profile = PowerProfileSpec(velocity=(0.4, 0.1, 0.0), depth=20.0).bind(place)
+    simulation.world.water.set(TotalCurrent([profile, SWELL.bind(place)]))
 
 
 def with_pilot(simulation: Simulation) -> None:
@@ -84,30 +92,88 @@ def played(prepare: Callable[[Simulation], None], *, at_once: bool) -> tuple[byt
     return motion.tobytes(), heard
 
 
-@pytest.mark.parametrize("prepare", [still, swell, with_pilot, driving_an_arm, adrift])
+@pytest.mark.parametrize("prepare", [still, swell, sheared, with_pilot, driving_an_arm, adrift])
 def test_many_steps_at_once_are_the_same_bytes(prepare: Callable[[Simulation], None]) -> None:
     one_by_one, at_once = played(prepare, at_once=False), played(prepare, at_once=True)
     assert at_once == one_by_one
     assert len(at_once[1]) == 15
 
 
+def count_runs(simulation: Simulation, monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return a list to which each run of steps adds how many it takes."""
+    taken: list[int] = []
+    step = simulation.world.engine.step
+
+    def counted(n: int, *rest: Any, **others: Any) -> Any:
+        taken.append(n)
+        return step(n, *rest, **others)
+
+    monkeypatch.setattr(simulation.world.engine, "step", counted)
+    return taken
+
+
+@pytest.mark.parametrize("prepare", [still, swell, sheared])
 def test_the_engine_is_called_once_for_many_steps_that_nothing_comes_between(
-    monkeypatch: pytest.MonkeyPatch,
+    prepare: Callable[[Simulation], None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     simulation = make()
     simulation.advance()
-    taken: list[int] = []
-    step = simulation.world.engine.step
-    monkeypatch.setattr(
-        simulation.world.engine,
-        "step",
-        lambda n, *rest, **more: (taken.append(n), step(n, *rest, **more))[1],
-    )
+    prepare(simulation)
+    taken = count_runs(simulation, monkeypatch)
     simulation.advance(0.1)
     assert taken == [50]
     simulation.watch(lambda: None)  # who observes does so in every step
     simulation.advance(0.01)
     assert taken == [50, 1, 1, 1, 1, 1]
+
+
+def beside_a_drifter(*, is_read: bool = False) -> Simulation:
+    """A simulated vehicle and one that drifts beside it, whose motion a sensor may read."""
+    scene = read_scene(SCENE).nominal
+    first = replace(scene.vehicles[0], parts=())
+    imu = ImuSpec(name="imu", relative_to="base_link")
+    second = replace(
+        first,
+        name="drifter",
+        dynamics=None,
+        position=(3.0, 4.0, 2.0),
+        orientation=(0.1, -0.2, 0.7),
+        parts=(imu,) if is_read else (),
+    )
+    simulation = open_scene(replace(scene, vehicles=(first, second), objects=(), ros_interfaces=()))
+    simulation.advance(0.0)
+    return simulation
+
+
+@pytest.mark.parametrize(("is_read", "runs"), [(False, [50]), (True, [1] * 50)])
+def test_a_vehicle_drifts_in_many_steps_at_once_unless_its_motion_is_read(
+    monkeypatch: pytest.MonkeyPatch, *, is_read: bool, runs: list[int]
+) -> None:
+    ends = []
+    for at_once in (True, False):
+        simulation = beside_a_drifter(is_read=is_read)
+        sheared(simulation)
+        taken = count_runs(simulation, monkeypatch)
+        before = simulation.pose("drifter").position
+        for _ in range(1 if at_once else 50):
+            simulation.advance(0.1 if at_once else None)
+        assert taken == (runs if at_once else [1] * 50)
+        after = simulation.pose("drifter").position
+        assert 0.03 < np.linalg.norm(after - before) < 0.07
+        ends.append(simulation.world.engine._data.qpos.tobytes())
+    assert ends[0] == ends[1]
+
+
+def test_a_vehicle_drifts_as_python_carries_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    ends = []
+    for in_python in (True, False):
+        simulation = beside_a_drifter()
+        sheared(simulation)
+        if in_python:
+            monkeypatch.setattr(simulation.world.water, "drift", lambda *_: None)
+        simulation.advance(0.5)
+        ends.append(simulation.world.engine._data.qpos.tobytes())
+    assert ends[0] == ends[1]
 
 
 class Gyre:

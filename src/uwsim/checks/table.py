@@ -53,6 +53,7 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(looks.shared_camera_names, Need.SPEC),
     Rule(angles.angles_in_degrees, Need.SPEC, in_runs=True),
     Rule(water.unstable_water, Need.SPEC),
+    Rule(water.slow_currents, Need.SPEC),
     Rule(forces.forces_on_bodies, Need.SPEC, in_runs=True),
     Rule(models.projectors, Need.SPEC),
     Rule(models.model_files, Need.SPEC),

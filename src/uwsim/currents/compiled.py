@@ -18,22 +18,21 @@ class CompiledCurrent(Current):
 
     _flow: FlowFunction
 
-    def compiled(self, vehicles: Sequence[str]) -> FlowFunction:
-        """Return its function, which does not depend on the vehicles."""
-        return self._flow
+    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+        """Return its function; None of a subclass that answers in Python instead."""
+        kind, own = type(self), CompiledCurrent
+        is_own = kind.velocity is own.velocity and kind.acceleration is own.acceleration
+        return self._flow if is_own and kind.motion is own.motion else None
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        return self.motion(points, time)[0]
+        return self._answer(points, time)[0]
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return how fast that velocity changes at a fixed point, in L, (n, 3) [m/s2]."""
-        return self.motion(points, time)[1]
+        return self._answer(points, time)[1]
 
-    def motion(
-        self, points: Array, time: float, vehicles: Sequence[str] = ()
-    ) -> tuple[Array, Array]:
-        """Return velocity and acceleration."""
+    def _answer(self, points: Array, time: float) -> tuple[Array, Array]:
         self._flow.prepare(time)
         places = np.ascontiguousarray(points, dtype=np.float64)
         velocity, acceleration, _ = _ask(*self._flow.addresses, places, time)

@@ -8,11 +8,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..base.geometry import Triple
-from ..base.numerics.calls import function_address
 from ..base.numerics.memory import carray, floats, pointer
 from ..schema import element
 from .compiled import CompiledCurrent
@@ -32,19 +32,21 @@ class ConstantSpec(CurrentSpec):
         return Constant(self.velocity)
 
 
+@dataclass(frozen=True)
 class Constant(CompiledCurrent):
-    """A uniform, steady velocity; no boundary layer, no turbulence.
+    """A uniform, steady velocity; no boundary layer, no turbulence."""
 
-    Args:
-        velocity: of the water, in L [m/s].
-    """
+    components: Triple
+    """The velocity of the water, in L [m/s]."""
 
-    def __init__(self, velocity: Triple) -> None:
-        self._velocity = velocity
-        self._flow = FlowFunction(
-            function=function_address(flow_constant),
-            parameters=np.array(velocity, dtype=np.float64),
-        )
+    @cached_property
+    def _flow(self) -> FlowFunction:  # type: ignore[override]  # mypy takes it for read-only
+        parameters = np.array(self.components, dtype=np.float64)
+        return FlowFunction(function=flow_constant, parameters=parameters)
+
+    def __getstate__(self) -> dict[str, object]:
+        """Return its fields alone, for the bytes of a state."""
+        return {"components": self.components}
 
     @property
     def is_uniform(self) -> bool:
@@ -59,7 +61,7 @@ class Constant(CompiledCurrent):
     @property
     def is_still(self) -> bool:
         """Whether its velocity is zero."""
-        return not any(self._velocity)
+        return not any(self.components)
 
 
 def flow_constant(parameters: int, values: int, time: float) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import call, function_address
+from ..base.numerics.calls import call
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer
 from ..world import Flow
@@ -50,9 +50,7 @@ class LateCurrent(Current):
             if (own := self._own_time(until)) is not None:
                 flow.prepare(own)
 
-        return FlowFunction(
-            function=function_address(flow_late), parameters=row, prepare=prepare, kept=(flow,)
-        )
+        return FlowFunction(function=flow_late, parameters=row, prepare=prepare, kept=(flow,))
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""

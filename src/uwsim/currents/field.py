@@ -28,7 +28,7 @@ import numpy.typing as npt
 
 from ..base.files.input_files import read_bytes
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, pointer
 from ..errors import AssetError
@@ -319,7 +319,7 @@ class Field(CompiledCurrent):
     """
 
     def __init__(self, grid: Grid, *, start: float = 0.0, outside: str = "edge") -> None:
-        n_t, n_x, n_y, n_z, _ = grid.velocities.shape
+        n_x, n_y, n_z = grid.velocities.shape[1:4]
         axes = [np.ascontiguousarray(axis, dtype=np.float64) for axis in grid.axes]
         velocities = np.ascontiguousarray(grid.velocities, dtype=np.float64)
         used = [n > 1 for n in (n_x, n_y, n_z)]
@@ -335,7 +335,7 @@ class Field(CompiledCurrent):
         row["velocities"], row["n_nodes"] = address_of(velocities), n_x * n_y * n_z
         row["corners"], row["n_corners"] = address_of(corners), len(corners)
         self._flow = FlowFunction(
-            function=function_address(flow_field), parameters=row, kept=(axes, velocities, corners)
+            function=flow_field, parameters=row, kept=(axes, velocities, corners)
         )
 
 

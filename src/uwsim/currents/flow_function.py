@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of
+from ..base.numerics.calls import address_of, function_address
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import floats
 
@@ -42,8 +42,8 @@ def _nothing(until: float) -> None:
 class FlowFunction:
     """The function of a current."""
 
-    function: int
-    """Its address; see `uwsim.base.numerics.calls`."""
+    function: Callable[[int, int, float], None]
+    """A function of the module's level; see `uwsim.base.numerics.calls`."""
     parameters: npt.NDArray[Any]
     """The array that the function reads at its address."""
     prepare: Callable[[float], None] = _nothing
@@ -53,8 +53,8 @@ class FlowFunction:
 
     @property
     def addresses(self) -> tuple[int, int]:
-        """The numbers of `FLOW`."""
-        return self.function, address_of(self.parameters)
+        """The numbers of `FLOW`; the function is compiled when they are first needed."""
+        return function_address(self.function), address_of(self.parameters)
 
 
 def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:

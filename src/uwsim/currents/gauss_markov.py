@@ -17,7 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.geometry import Array, Triple
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, pointer
 from ..schema import element
@@ -90,7 +90,7 @@ class GaussMarkov(CompiledCurrent):
         row["mean"], row["deviation"], row["step"] = spec.mean, spec.deviation, spec.step
         row["states"] = address_of(states.record)
         self._flow = FlowFunction(
-            function=function_address(flow_gauss_markov),
+            function=flow_gauss_markov,
             parameters=row,
             prepare=lambda until: states.extend(math.floor(max(0.0, until) / spec.step + 1e-6) + 1),
             kept=(states,),

@@ -32,7 +32,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Triple
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, pointer
 from ..errors import BadSetting
@@ -159,7 +159,7 @@ class PowerProfile(Profile):
     def __init__(self, spec: PowerProfileSpec, place: Place) -> None:
         row = _over_ground(place, spec.velocity, spec.depth)
         row["exponent"] = spec.exponent
-        self._flow = FlowFunction(function=function_address(flow_power), parameters=row)
+        self._flow = FlowFunction(function=flow_power, parameters=row)
 
 
 class LogProfile(Profile):
@@ -177,7 +177,7 @@ class LogProfile(Profile):
         row = _over_ground(place, spec.velocity, spec.depth)
         row["roughness"] = spec.roughness
         row["log_depth"] = math.log(spec.depth / spec.roughness)
-        self._flow = FlowFunction(function=function_address(flow_log), parameters=row)
+        self._flow = FlowFunction(function=flow_log, parameters=row)
 
 
 class Layers(Profile):
@@ -191,9 +191,7 @@ class Layers(Profile):
         row = np.zeros(1, LAYERS)
         row["down"] = _down(place)
         row["layers"], row["n_layers"] = address_of(layers), len(layers)
-        self._flow = FlowFunction(
-            function=function_address(flow_layers), parameters=row, kept=(layers,)
-        )
+        self._flow = FlowFunction(function=flow_layers, parameters=row, kept=(layers,))
 
 
 def _down(place: Place) -> npt.NDArray[np.void]:
@@ -233,9 +231,12 @@ def flow_power(parameters: int, values: int, time: float) -> None:
     current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    depth, share = math.nan, 0.0
     for i in range(query.n):
-        depth = depth_of(current.down, points, i)
-        share = math.pow(within(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
+        here = depth_of(current.down, points, i)
+        if here != depth:  # neighbouring points are often as deep
+            depth = here
+            share = math.pow(within(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
         for k in range(3):
             velocities[3 * i + k] = share * current.velocity[k]
     write_no_acceleration(query)
@@ -246,10 +247,13 @@ def flow_log(parameters: int, values: int, time: float) -> None:
     current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    depth, share = math.nan, 0.0
     for i in range(query.n):
-        depth = depth_of(current.down, points, i)
-        height = within(current.depth - depth, current.roughness, current.depth)
-        share = math.log(height / current.roughness) / current.log_depth
+        here = depth_of(current.down, points, i)
+        if here != depth:
+            depth = here
+            height = within(current.depth - depth, current.roughness, current.depth)
+            share = math.log(height / current.roughness) / current.log_depth
         for k in range(3):
             velocities[3 * i + k] = share * current.velocity[k]
     write_no_acceleration(query)

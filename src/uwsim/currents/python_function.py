@@ -113,8 +113,8 @@ class PythonFunction(Current):
 
     ``point`` is in L, (3,) [m], its own copy; ``time`` is simulation time [s]; ``vehicle`` is the
     name of the vehicle whose part is there, ``""`` for a loose object. The function is called at
-    every step for every body that the water acts on, and twice more for the acceleration, so its
-    cost is the simulation's; a result is repeatable only if it depends on its arguments alone.
+    every step for every body that the water acts on: once for the velocity, twice for the
+    acceleration and six times for shear, so its cost is the simulation's; a result is repeatable only if it depends on its arguments alone.
     """
 
     def __init__(self, name: str, function: Function) -> None:
@@ -130,16 +130,15 @@ class PythonFunction(Current):
         names = vehicles if len(vehicles) else [""] * len(points)
         velocities = np.empty((len(points), 3))
         for i, (point, vehicle) in enumerate(zip(points, names, strict=True)):
-            velocities[i] = self._ask(np.array(point), time, vehicle)
+            velocities[i] = self._ask(point, time, vehicle)
         return velocities
 
     def _ask(self, point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
-        place = f"at {point.tolist()}, {time:g} s"
         try:
-            returned = self._function(point, time, vehicle)
+            returned = self._function(point.copy(), time, vehicle)
         except (Exception, SystemExit) as error:  # errors of the third-party function
             raise BadSetting(
-                f"The current {self._name!r} raised {place}: {_returned(error)}"
+                f"The current {self._name!r} raised {_place(point, time)}: {_returned(error)}"
             ) from error
         try:
             x, y, z = (float(value) for value in returned)
@@ -147,10 +146,14 @@ class PythonFunction(Current):
             x = y = z = math.nan
         if not (abs(x) <= MAX_SPEED and abs(y) <= MAX_SPEED and abs(z) <= MAX_SPEED):
             raise BadSetting(
-                f"The current {self._name!r} returned {shown(returned)} {place}; "
+                f"The current {self._name!r} returned {shown(returned)} {_place(point, time)}; "
                 f"expected three numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
             )
         return x, y, z
+
+
+def _place(point: Array, time: float) -> str:
+    return f"at {point.tolist()}, {time:g} s"
 
 
 def _returned(error: BaseException) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import call, function_address
+from ..base.numerics.calls import call
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, longs, pointer
 from ..world import Flow
@@ -45,7 +45,7 @@ class TargetCurrent(Current):
         row["flow"] = flow.addresses
         row["target"] = names.index(self._target) if self._target in names else -1
         return FlowFunction(
-            function=function_address(flow_target),
+            function=flow_target,
             parameters=row,
             prepare=flow.prepare,
             kept=(flow,),

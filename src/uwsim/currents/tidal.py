@@ -21,7 +21,7 @@ from typing import Literal
 
 import numpy as np
 
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of
 from ..base.numerics.memory import carray, pointer
 from ..schema import Spec, element
 from .compiled import CompiledCurrent
@@ -109,9 +109,7 @@ class Tidal(CompiledCurrent):
             term["cosine"], term["sine"] = math.cos(each.inclination), math.sin(each.inclination)
         row = np.zeros(1, TIDAL)
         row["start"], row["terms"], row["n_terms"] = spec.start, address_of(terms), len(terms)
-        self._flow = FlowFunction(
-            function=function_address(flow_tidal), parameters=row, kept=(terms,)
-        )
+        self._flow = FlowFunction(function=flow_tidal, parameters=row, kept=(terms,))
 
     @property
     def is_uniform(self) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of, call, function_address
+from ..base.numerics.calls import address_of, call
 from ..base.numerics.memory import carray, floats, pointer
 from ..world import Flow
 from .current import Current, CurrentSpec, Place, compiled, is_steady
@@ -54,7 +54,7 @@ class TotalCurrent(Current):
                 flow.prepare(until)
 
         return FlowFunction(
-            function=function_address(flow_total),
+            function=flow_total,
             parameters=row,
             prepare=prepare,
             kept=(parts, flows),

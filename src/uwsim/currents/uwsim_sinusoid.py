@@ -18,7 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, pointer
 from ..schema import element
@@ -111,7 +111,7 @@ class UwsimSinusoid(CompiledCurrent):
         row["random"], row["draws"] = spec.random, address_of(draws.record)
         is_random = spec.random != 0.0
         self._flow = FlowFunction(
-            function=function_address(flow_sinusoid),
+            function=flow_sinusoid,
             parameters=row,
             prepare=lambda until: draws.extend(draw_of(until)) if is_random else None,
             kept=(draws,),

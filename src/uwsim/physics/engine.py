@@ -26,6 +26,7 @@ from .engine_memory import EngineMemory
 from .engine_state import EngineState, ModelState
 from .engine_warnings import StepCheck
 from .grips import Grips
+from .hydrodynamics.water_function import DriftFunction, WaterFunction
 from .joint_wrench import JointWrench
 from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
@@ -34,7 +35,6 @@ from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
 from .uwsim_physics import UwsimPhysics
-from .water_function import DriftFunction, WaterFunction
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics

@@ -19,8 +19,8 @@ from .engine_warnings import too_fast
 from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
+from .hydrodynamics.water_function import POINT, ROTATION, VELOCITY, WATER_ROW
 from .islands import choose_islands
-from .water_function import POINT, ROTATION, VELOCITY, WATER_ROW
 
 _TINY = 1e-15  # mjMINVAL
 WENT_WELL, WARNED, TOO_FAST = range(3)

@@ -24,37 +24,23 @@ from .engine_warnings import StepCheck
 from .hydrodynamics import callback
 from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.hydrodynamics import Hydrodynamics
-from .water_function import WATER_ROW, DriftFunction, WaterFunction
+from .hydrodynamics.water_function import WATER_ROW, DriftFunction, WaterFunction
 
 AUTOPILOT_PERIOD = 0.02
 """Period of the autopilots [s]."""
 
 Ints = npt.NDArray[np.int64]
 
-(
-    _STEP,
-    _SAMPLES,
-    _AHEAD,
-    _FLOW,
-    _FLOW_PARAMETERS,
-    _NEEDS_POINTS,
-    _N_WATER,
-    _DRIFT,
-    _DRIFT_PARAMETERS,
-) = (
-    step_kernel.PLAN.fields[name][1] // 8  # type: ignore[index]  # words before the field
-    for name in (
-        "step",
-        "samples",
-        "ahead",
-        "flow",
-        "flow_parameters",
-        "needs_points",
-        "n_water",
-        "drift",
-        "drift_parameters",
-    )
-)
+
+def _word(name: str) -> int:
+    """How many words of a plan lie before a field."""
+    return int(step_kernel.PLAN.fields[name][1]) // 8  # type: ignore[index]
+
+
+_STEP, _SAMPLES, _AHEAD = map(_word, ("step", "samples", "ahead"))
+_FLOW, _FLOW_PARAMETERS = map(_word, ("flow", "flow_parameters"))
+_NEEDS_POINTS, _N_WATER = map(_word, ("needs_points", "n_water"))
+_DRIFT, _DRIFT_PARAMETERS = map(_word, ("drift", "drift_parameters"))
 
 
 @dataclass(slots=True)

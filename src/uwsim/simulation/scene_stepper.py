@@ -143,7 +143,7 @@ class SceneStepper:
             not engine.is_dynamic
             or engine.moves_by_step  # what is carried is placed beside a vehicle that has drifted
             or bool(self._forces)
-            or any(vehicle.is_recorded for vehicle in self._drifting)
+            or any(vehicle.state.placed.part is not None for vehicle in self._drifting)  # recorded
             or water.drift(self._drifting_names, self._timestep, self._time) is None
         )
 
@@ -172,14 +172,12 @@ class SceneStepper:
             engine.fall()
             self._below_ground.look(self._step)
             return False
-        first, half = self._step, 0.5 * self._timestep  # forces act in the middle of a step
-        motion = drift = None
-        if not water.is_still:
-            times = [(first + k) * self._timestep - half for k in range(n)]
-            motion = water.during(engine.submerged_positions, times, self._wet_names)
-            if drifts and self._drifting:
-                until = (first + n - 1) * self._timestep
-                drift = water.drift(self._drifting_names, self._timestep, until)
+        first = self._step
+        steps, positions = range(first, first + n), engine.submerged_positions
+        motion = water.during(positions, steps, self._timestep, self._wet_names)
+        drift = None
+        if drifts and self._drifting and motion is not None:
+            drift = water.drift(self._drifting_names, self._timestep, steps[-1] * self._timestep)
         before = engine.n_steps
         try:
             is_sampled = engine.step(

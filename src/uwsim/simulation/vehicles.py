@@ -156,11 +156,6 @@ class SceneVehicle:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
         self.lead(None, values)
 
-    @property
-    def is_recorded(self) -> bool:
-        """Whether each of its motions is recorded, as it is not simulated and somebody reads it."""
-        return self._placed is not None
-
     def drift(self, world_from_base: Pose) -> None:
         """Set its pose: the water has carried it there; what it is displaced from stays."""
         self._engine.place_vehicle(self.index, world_from_base)

@@ -48,3 +48,32 @@ def test_doubtful_water_is_warned_of(water: str, text: str, tmp_path: Path) -> N
 )
 def test_water_that_lies_still_is_not(water: str, tmp_path: Path) -> None:
     assert said(water, tmp_path) == []
+
+
+FUNCTION = (
+    "<u:current>\n<u:pythonFunction> <u:function>my_eddy:eddy</u:function> </u:pythonFunction>"
+)
+
+
+@pytest.mark.parametrize(
+    ("vehicle", "n"),
+    [("", 0), ("<vehicle> <name>rov</name> <file>bluerov2_heavy.urdf</file> </vehicle>", 1)],
+)
+def test_a_current_that_python_computes_is_said_to_slow_down_what_floats_in_it(
+    vehicle: str, n: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "my_eddy.py").write_text("raise RuntimeError\n")  # which is not run
+    monkeypatch.syspath_prepend(tmp_path)
+    constant = "<u:constant> <u:velocity> <x>1</x> <y>0</y> <z>0</z> </u:velocity> </u:constant>"
+    path = tmp_path / "scene.xml"
+    path.write_text(
+        f"<UWSimScene xmlns:u='urn:uwsim:1'>\n<oceanState>\n{FUNCTION}\n{constant}\n</u:current>"
+        f"</oceanState>{vehicle}</UWSimScene>"
+    )
+    found = [f"{each.line} {each.severity} {each.message}" for each in check_file(path)]
+    slow = [text for text in found if "my_eddy" in text]
+    assert len(slow) == n
+    assert all(
+        text.startswith("4 warning <u:function> is 'my_eddy:eddy': Python asks it in every step")
+        for text in slow
+    )

@@ -11,6 +11,7 @@ from typing import ClassVar
 import numpy as np
 import pytest
 
+from tests.simulation.water.water_rows import rows_of
 from tests.support.opened import open_scene
 from uwsim.currents import Constant, Place, TargetCurrent, TotalCurrent, UwsimSinusoidSpec
 from uwsim.currents.current import Current
@@ -113,11 +114,13 @@ def test_uniform_water_of_several_steps_is_that_of_each_step(vehicles: tuple[str
     ).bind(place)
     motion = WaterMotion(scene, place)
     motion.set(TotalCurrent([Constant((0.1, -0.2, 0.03)), TargetCurrent(swelling, "b")]))
-    times = (0.001, 0.003, 0.499)
-    found = motion.during(lambda: np.zeros((len(vehicles), 3)), times, vehicles)
+    steps, timestep = range(249, 252), 0.002
+    times = [step * timestep - 0.5 * timestep for step in steps]
+    found = motion.during(lambda: np.zeros((len(vehicles), 3)), steps, timestep, vehicles)
     assert found is not None
-    assert found.shape == (3, len(vehicles), 9)
-    for row, time in zip(found, times, strict=True):
+    rows = rows_of(found, np.zeros((len(vehicles), 3)), times)
+    assert rows.shape == (3, len(vehicles), 9)
+    for row, time in zip(rows, times, strict=True):
         velocity, acceleration, rotation = motion.at(np.ones((len(vehicles), 3)), time, vehicles)
         assert rotation is None
         assert (
@@ -143,19 +146,19 @@ class Changing(Asked):
         return False
 
 
-@pytest.mark.parametrize(("kind", "n"), [(Changing, 4), (Asked, 1)])
-def test_uniform_water_is_asked_for_once_a_vehicle(kind: type[Asked], n: int) -> None:
-    """At each time; if it is steady, once for all times."""
+@pytest.mark.parametrize(("kind", "n"), [(Changing, 4), (Asked, 2)])
+def test_uniform_water_of_python_is_asked_for_once_a_vehicle(kind: type[Asked], n: int) -> None:
+    """At each time; if it is steady, once for all times of a run."""
     Asked.asked.clear()
     motion = WaterMotion(read_scene(SCENE).nominal, Place(stream=lambda _: np.random.default_rng()))
     motion.set(kind((0.1, 0.0, 0.0)))
-    vehicles = ("a", "a", "", "a", "")
-    found = [motion.during(lambda: np.zeros((5, 3)), (t, t + 0.1), vehicles) for t in (0.1, 0.3)]
+    vehicles, points, rows = ("a", "a", "", "a", ""), np.zeros((5, 3)), []
+    for first in (1, 3):
+        found = motion.during(lambda: points, range(first, first + 2), 0.1, vehicles)
+        assert found is not None
+        rows.append(rows_of(found, points, (0.1, 0.2)))
     assert Asked.asked == [("a", "")] * n
-    assert found[0] is not None
-    assert found[0][0].tobytes() == found[0][-1].tobytes()
-    assert found[1] is not None
-    assert found[1][0].tobytes() == found[0][0].tobytes()
+    assert rows[0][0].tobytes() == rows[0][1].tobytes() == rows[1][0].tobytes()
 
 
 def test_another_current_or_other_bodies_are_not_taken_for_those_before() -> None:
@@ -163,7 +166,8 @@ def test_another_current_or_other_bodies_are_not_taken_for_those_before() -> Non
     rows = []
     for x, vehicles in ((0.1, ("a",)), (0.2, ("a",)), (0.2, ("a", "b")), (0.1, ("a", "b"))):
         motion.set(TargetCurrent(Constant((x, 0.0, 0.0)), "a"))
-        found = motion.during(lambda: np.zeros((9, 3)), (0.1,), vehicles)
+        found = motion.during(lambda: np.zeros((9, 3)), range(1, 2), 0.1, vehicles)
         assert found is not None
-        rows.append(np.linalg.norm(found[0, :, :3], axis=1).tolist())
+        asked = rows_of(found, np.zeros((len(vehicles), 3)), (0.1,))
+        rows.append(np.linalg.norm(asked[0, :, :3], axis=1).tolist())
     assert rows == [pytest.approx(speeds) for speeds in ([0.1], [0.2], [0.2, 0.0], [0.1, 0.0])]

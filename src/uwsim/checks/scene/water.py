@@ -1,4 +1,4 @@
-"""Warnings about the water of a scene: its density over depth, and what does not count."""
+"""Warnings about the water of a scene: its density, what does not count, and what is slow."""
 
 from __future__ import annotations
 
@@ -34,4 +34,19 @@ def unstable_water(scene: CheckedScene) -> Iterator[Diagnostic]:
             yield scene.warning(
                 line_of(water, f"{{{NAMESPACE}}}{name}"),
                 f"<u:{name}> counts for sound alone: <u:density> says how dense the water is",
+            )
+
+
+def slow_currents(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Warn of currents that are asked in Python at every step."""
+    if not scene.spec.vehicles:
+        return
+    for current in scene.spec.ocean_state.currents:
+        if current.code:
+            yield scene.warning(
+                current,
+                f"<u:function> is {current.code!r}: Python asks it in every step for each body in "
+                "the water, which slows steps down several times; the other currents are compiled, "
+                "and <u:field> reads what a program has computed beforehand",
+                "function",
             )

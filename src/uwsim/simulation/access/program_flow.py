@@ -8,7 +8,8 @@ from contextlib import contextmanager
 import numpy as np
 
 from ...base.geometry import Array
-from ...currents.current import Current
+from ...currents.current import Current, compiled
+from ...currents.flow_function import FlowFunction
 from ...errors import BadSetting, UwsimError, shown, type_and_text
 from ...world import Flow
 
@@ -37,6 +38,10 @@ class ProgramFlow(Current):
     def is_still(self) -> bool:
         """Whether it never moves at all."""
         return self._is_still
+
+    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+        """Return the function of a current of uwsim's own; None of any other flow."""
+        return compiled(self._flow, vehicles)
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s].

@@ -9,8 +9,8 @@ from ...base.geometry import Pose, write_quaternion
 from ...base.numerics.calls import address_of, call, function_address
 from ...base.numerics.memory import carray, floats, pointer
 from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...physics.hydrodynamics.water_function import DriftFunction
 from ...physics.step_kernel import rotation_of
-from ...physics.water_function import DriftFunction
 
 DRIFT = np.dtype(
     [
@@ -49,7 +49,7 @@ def of_drift(
 
 
 def drift(parameters: int, values: int, time: float) -> None:
-    """Move vehicles by a step; see `uwsim.physics.water_function.DriftFunction`."""
+    """Move vehicles by a step; see `DriftFunction`."""
     drifting = carray(pointer(parameters), (1,), DRIFT)[0]
     query = carray(pointer(drifting.query), (1,), QUERY)[0]
     poses = floats(values, 7 * query.n).reshape((query.n, 7))

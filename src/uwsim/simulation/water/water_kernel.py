@@ -21,7 +21,7 @@ from ...base.numerics.calls import address_of, call, function_address
 from ...base.numerics.jit import njit
 from ...base.numerics.memory import carray, floats, pointer
 from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
-from ...physics.water_function import (
+from ...physics.hydrodynamics.water_function import (
     ACCELERATION,
     POINT,
     ROTATION,
@@ -33,7 +33,7 @@ from ...physics.water_function import (
 NEARBY = 0.05
 """Half the distance over which shear is taken [m]."""
 N_AROUND = 6
-"""Points around a body: ahead of it along x, y, z of L, then behind it."""
+"""Points around a body: along x, y and z of L, ahead of it and behind it."""
 
 WATER = np.dtype(
     [
@@ -109,7 +109,7 @@ def of_rows(rows: Array) -> WaterFunction:
 
 
 def write_next_rows(parameters: int, values: int, time: float) -> None:
-    """Write rows that were computed beforehand; see `uwsim.physics.water_function`."""
+    """Write rows that were computed beforehand; see `WaterFunction`."""
     table = carray(pointer(parameters), (1,), ROWS)[0]
     if table.n_left == 0:
         return
@@ -123,7 +123,7 @@ def write_next_rows(parameters: int, values: int, time: float) -> None:
 
 
 def write_water(parameters: int, values: int, time: float) -> None:
-    """Write how the water moves; see `uwsim.physics.water_function`."""
+    """Write how the water moves; see `WaterFunction`."""
     water = carray(pointer(parameters), (1,), WATER)[0]
     query = carray(pointer(water.at_bodies), (1,), QUERY)[0]
     rows = floats(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
@@ -155,22 +155,22 @@ def shear(
 ) -> None:
     """Add to the accelerations in L what comes of shear, and write the rotations into the rows."""
     query = carray(pointer(water.around_them), (1,), QUERY)[0]
-    around = floats(query.points, 3 * N_AROUND * water.n).reshape((water.n, 2, 3, 3))
+    around = floats(query.points, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
     for i in range(water.n):
-        for side in range(2):
-            for j in range(3):
+        for j in range(3):
+            for side in range(2):
                 for k in range(3):
-                    around[i, side, j, k] = points[3 * i + k]
-                around[i, side, j, j] += NEARBY if side == 0 else -NEARBY
+                    around[i, j, side, k] = points[3 * i + k]
+                around[i, j, side, j] += NEARBY if side == 0 else -NEARBY
     query.acceleration = 0
     call(water.flow.function, water.flow.parameters, water.around_them, time)
-    found = floats(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 2, 3, 3))
+    found = floats(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
     gradient, rotation = np.empty((3, 3)), np.empty(3)  # rows of the gradient are components
     for i in range(water.n):
         for k in range(3):
             carried = 0.0
             for j in range(3):
-                gradient[k, j] = (found[i, 0, j, k] - found[i, 1, j, k]) / (2.0 * NEARBY)
+                gradient[k, j] = (found[i, j, 0, k] - found[i, j, 1, k]) / (2.0 * NEARBY)
                 carried += gradient[k, j] * velocities[3 * i + j]
             accelerations[3 * i + k] += carried
         for k in range(3):

@@ -19,7 +19,7 @@ from ...currents.current import compiled, is_steady
 from ...currents.flow_function import FlowFunction
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
-from ...physics.water_function import DriftFunction, WaterFunction
+from ...physics.hydrodynamics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
 from ...world import Flow
 from .drift_kernel import of_drift
@@ -91,13 +91,20 @@ class WaterMotion:
         return not (flow.is_still or flow.is_uniform or self._compiled(vehicles)[0] is not None)
 
     def during(
-        self, positions: Callable[[], Array], times: Sequence[float], vehicles: Sequence[str]
+        self,
+        positions: Callable[[], Array],
+        steps: range,
+        timestep: float,
+        vehicles: Sequence[str],
     ) -> WaterFunction | None:
-        """Return how the water moves at some bodies at some times, in W; None if it is still.
+        """Return how the water moves at some bodies in some steps, in W; None if it is still.
+
+        It is that of the middle of each step.
 
         Args:
             positions: where the bodies are now, in W, (n, 3) [m].
-            times: in the middle of each step [s]; one step alone, if `is_asked_where_bodies_are`.
+            steps: their numbers; one alone, if `is_asked_where_bodies_are`.
+            timestep: length of a step [s].
             vehicles: as `at` takes them.
         """
         flow = self._flow
@@ -105,8 +112,9 @@ class WaterMotion:
             return None
         function, compiled_flow = self._compiled(vehicles)
         if function is not None and compiled_flow is not None:
-            compiled_flow.prepare(times[-1])
+            compiled_flow.prepare(steps[-1] * timestep)
             return function
+        times = [step * timestep - 0.5 * timestep for step in steps]
         if flow.is_uniform:
             asked = times[:1] if is_steady(flow) else times
             return of_rows(self._everywhere(asked, vehicles))

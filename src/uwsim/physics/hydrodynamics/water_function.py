@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy.typing as npt
 
-from ..base.numerics.calls import address_of
+from ...base.numerics.calls import address_of
 
 POINT, VELOCITY, ACCELERATION, ROTATION, WATER_ROW = 0, 3, 6, 9, 12
 """Columns of a row of water at a body, in W: where it is felt [m], its velocity [m/s], acceleration
