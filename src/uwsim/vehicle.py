@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .base.geometry import Array, Pose
-from .base.sampling import Sampler
+from .world import CompiledVehicle
 
 Numbers = npt.NDArray[np.int64]
 """Of joints in the joint vector, each at most once, (n,)."""
@@ -94,19 +94,9 @@ class Vehicle(Protocol):
     def joints(self) -> Array:
         """A copy of its joint vector, (n,) [rad or m]."""
 
-    def base_sampler(self) -> Sampler:
-        """Return what takes samples of its base, 18 numbers.
-
-        Where it is in W [m], its axes in W by rows, its velocity over ground in W [m/s], and its
-        angular velocity in its own axes [rad/s].
-        """
-
-    def joint_sampler(self) -> Sampler:
-        """Return what takes samples of the n joints of the joint vector, 4 n numbers.
-
-        Positions [rad or m], velocities [rad/s or m/s], and two parts of the efforts [N m or N]; of
-        a vehicle that is not simulated the positions alone.
-        """
+    @property
+    def compiled(self) -> CompiledVehicle:
+        """The vehicle as compiled code reads it."""
 
     def place(self, world_from_base: Pose) -> None:
         """Set its pose, at rest; it is displaced from there from now on."""

@@ -10,7 +10,6 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..base.gathering import Addresses, addresses_in
 from ..base.geometry import Array, Pose, quaternion_from_rotation
 from ..base.numerics.linear import cross, turned, turned_back
 from ..model.body_names import loose_joint, vehicle_joint
@@ -276,32 +275,6 @@ class Engine:
         model, prefix = self._model, vehicle_joint(index, "")
         joints = [i for i in range(model.njnt) if model.joint(i).name.startswith(prefix)]
         return PlacedMotion(model, self._data, joints, index, self.link_motion)
-
-    def base_addresses(self, index: int) -> Addresses:
-        """Return the addresses of the place, axes and twist of a vehicle's base, (18,).
-
-        Position [m] and axes in W by rows, as `Poses.refresh` leaves them; velocity in W [m/s], and
-        angular velocity in its own axes [rad/s].
-        """
-        poses, body, first = self.poses, self.poses.base(index), self._free_dofs[index]
-        return np.concatenate(
-            [
-                addresses_in(poses.origins, np.arange(3 * body, 3 * body + 3)),
-                addresses_in(poses.axes, np.arange(9 * body, 9 * body + 9)),
-                addresses_in(self._data.qvel, np.arange(first, first + 6)),
-            ]
-        )
-
-    def joint_addresses(self, index: int) -> Addresses:
-        """Return the addresses of a vehicle's joint vector, and of a simulated one's motion.
-
-        Positions [rad or m]; of a simulated vehicle then velocities [rad/s or m/s] and the two
-        parts of `Servos.efforts` [N m or N], (n,) or (4 n,).
-        """
-        positions = addresses_in(self._data.qpos, self._joint_places[index])
-        if index not in self.actuation:
-            return positions
-        return np.concatenate([positions, *self.actuation[index].servos.addresses_of_motion])
 
     def joints(self, index: int) -> Array:
         """Return a copy of the joint vector of a vehicle, (n,) [rad or m]."""

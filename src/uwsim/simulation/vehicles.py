@@ -8,11 +8,9 @@ from functools import partial
 
 import numpy as np
 
-from ..base.gathering import addresses_in, gathering
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import turned_back
 from ..base.record import Lazy, Record
-from ..base.sampling import Sampler
 from ..bus import Bus
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
@@ -25,7 +23,7 @@ from ..scene.mounts import MountFrames
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
 from ..world import Actuators
-from .moving_bodies import MountedBody, MovingBody, MovingLink
+from .moving_bodies import CompiledVehicle, MountedBody, MovingBody, MovingLink
 
 
 @dataclass(slots=True)
@@ -162,15 +160,17 @@ class SceneVehicle:
         if self._placed is not None:
             self._placed.record_drift(self._step())
 
-    def put(self, world_from_base: Pose) -> None:
-        """Set its pose, at rest; it is displaced from there from now on."""
-        self.state.centre = self._centre_of(world_from_base)
-        self._rest_at(world_from_base)
+    def put(self, world_from_base: Pose | None) -> None:
+        """Set its pose, at rest; it is displaced from there from now on.
 
-    def put_back(self) -> None:
-        """Put it where the scene puts it now, at rest."""
-        self.state.centre = None
-        self._rest_at(self._displaced_pose())
+        None puts it where the scene puts it now.
+        """
+        if world_from_base is None:
+            self.state.centre = None
+            world_from_base = self._displaced_pose()
+        else:
+            self.state.centre = self._centre_of(world_from_base)
+        self._rest_at(world_from_base)
 
     def _rest_at(self, world_from_base: Pose) -> None:
         self._engine.place_vehicle(self.index, world_from_base)
@@ -225,39 +225,18 @@ class SceneVehicle:
         """Release an object that is held."""
         self._engine.grips.let_go(thing)
 
-    def base_sampler(self) -> Sampler:
-        """Return what takes samples of its base, 18 numbers; see `uwsim.vehicle.Vehicle`."""
-        addresses, led = self._engine.base_addresses(self.index), np.zeros(6)
-        own, other = addresses[12:].copy(), addresses_in(led)
-
-        def prepare(time: float) -> None:
-            self._engine.poses.refresh()
-            addresses[12:] = own if self._placed is None else other
-            if self._placed is not None:
-                led[:] = self._placed.twist(self._step())
-
-        def is_alone() -> bool:
-            is_free = self._placed is None
-            if is_free:
-                addresses[12:] = own
-            return is_free
-
-        return gathering(addresses, prepare=prepare, is_alone=is_alone, kept=(led, self._engine))
-
-    def joint_sampler(self) -> Sampler:
-        """Return what takes samples of its joints; see `uwsim.vehicle.Vehicle`."""
-        return gathering(
-            self._engine.joint_addresses(self.index),
-            prepare=lambda _: None,
-            is_alone=lambda: True,
-            kept=(self._engine,),
+    @property
+    def compiled(self) -> CompiledVehicle:
+        """The vehicle as compiled code reads it."""
+        root = self._frames.robot.root
+        return CompiledVehicle(
+            f"{self.name}/{root}",
+            root,
+            self.joint_names,
+            self.index,
+            self._engine,
+            lambda: None if self._placed is None else self._placed.twist(self._step()),
         )
-
-    def base_mount(self) -> MountedBody:
-        """Return the frame of its base."""
-        root, poses = self._frames.robot.root, self._engine.poses
-        record = poses.mount(self.index, root, Pose.identity())
-        return MountedBody(f"{self.name}/{root}", poses, record)
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
         """Fix something to its link; raises UnknownName if there is no such link."""

@@ -29,7 +29,7 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
         vehicle = world.vehicle(self.vehicle_name)
         make = partial(joint_state, tuple(vehicle.joint_names))
         publish = world.bus.publisher(self.topic, JointState)
-        sampled = SampledTopic(self.topic, vehicle.joint_sampler(), make, publish)
+        sampled = SampledTopic(self.topic, vehicle.compiled.joint_sampler(), make, publish)
         sampled.begin(self.rate, world)
         return sampled
 
@@ -40,7 +40,7 @@ def joint_state(names: Sequence[str], time: float, values: Array) -> JointState:
     Args:
         names: of the joints.
         time: of the sample [s].
-        values: of `Vehicle.joint_sampler`.
+        values: of `CompiledVehicle.joint_sampler`.
     """
     n = len(names)
     position, velocity, effort = values[:n].copy(), values[n : 2 * n].copy(), np.zeros(n)

@@ -42,7 +42,7 @@ class PATToROSOdomSpec(VehiclePublisherSpec):
         localized_from_world = world.world_from_localized.inverse()
         make = partial(odometry, localized_from_world, vehicle.autopilot is not None)
         publish = world.bus.publisher(self.topic, Odometry)
-        sampled = SampledTopic(self.topic, vehicle.base_sampler(), make, publish)
+        sampled = SampledTopic(self.topic, vehicle.compiled.base_sampler(), make, publish)
         sampled.begin(self.rate, world)
         return sampled
 
@@ -56,7 +56,7 @@ def odometry(
         localized_from_world: L from W.
         is_simulated: whether the vehicle is.
         time: of the sample [s].
-        values: of `Vehicle.base_sampler`, (18,).
+        values: of `CompiledVehicle.base_sampler`, (18,).
     """
     world_from_base = PoseOfBody(values[:3].copy(), values[3:12].reshape(3, 3).copy())
     pose = localized_from_world @ world_from_base

@@ -37,6 +37,7 @@ EVERYTHING = Path(__file__).parent / "everything.xml"
 CACHES = {
     "Bus._revision": "counts who comes and goes",
     "Bus._topics": "who is at the ends of topics, and what was said to them",
+    "CompiledVehicle._led": "is written before each sample",
     "Dvl._flow": "is written before each sample",
     "EngineContacts._looked_up": "is looked up again when the memory was set",
     "EngineMemory._arena": "has gaps that the engine does not write",

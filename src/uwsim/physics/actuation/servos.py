@@ -17,7 +17,6 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ...base.gathering import Addresses, addresses_in
 from ...base.geometry import Array
 from ...base.record import Record
 from ...model.body_names import vehicle_joint
@@ -89,13 +88,6 @@ class Servos:
         """Forces and torques at the joints, (n,) [N m or N]."""
         acting: Array = self._data.qfrc_actuator[self._dofs] + self._data.qfrc_applied[self._dofs]
         return acting
-
-    @property
-    def addresses_of_motion(self) -> tuple[Addresses, ...]:
-        """Of `velocities`, and of the two terms of `efforts`, (n,) each."""
-        data = self._data
-        arrays = data.qvel, data.qfrc_actuator, data.qfrc_applied
-        return tuple(addresses_in(array, self._dofs) for array in arrays)
 
     def put(self, values: Array) -> None:
         """Set the joints, at rest, and hold them there."""
