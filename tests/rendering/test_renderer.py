@@ -55,6 +55,15 @@ def test_range_is_the_distance_along_the_ray_to_a_slanted_plane(
     assert image.depth == pytest.approx(depth, rel=1e-4)
 
 
+def test_the_lengths_of_rays_are_computed_once_for_a_pinhole_and_cannot_be_changed() -> None:
+    lengths = ODD.ray_lengths
+    assert lengths == pytest.approx(np.linalg.norm(ODD.rays(), axis=2), rel=1e-15)
+    assert ODD.ray_lengths is lengths
+    with pytest.raises(ValueError, match="read-only"):
+        lengths[0, 0] = 0.0
+    assert replace(ODD, width=ODD.width + 1).ray_lengths.shape == (ODD.height, ODD.width + 1)
+
+
 def test_range_is_right_far_from_the_worlds_origin(renderer: Renderer) -> None:
     far_away = Pose.from_rpy((3000.0, -4000.0, -20.0), (0.0, 0.0, 0.7))
     renderer.place(renderer.add(plate(60.0, 60.0), 1), far_away.matrix @ placed(z=-3.0))

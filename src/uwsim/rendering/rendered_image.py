@@ -52,8 +52,8 @@ class RenderedImage:
         """
         if self.range is None:
             raise ValueError("the image was drawn without its range")
-        stretch = np.linalg.norm(self.intrinsics.rays(), axis=2)  # (h, w)
-        planar: npt.NDArray[np.float32] = (self.range / stretch).astype(np.float32)
+        lengths = self.intrinsics.ray_lengths
+        planar: npt.NDArray[np.float32] = (self.range / lengths).astype(np.float32)
         return planar
 
     @property

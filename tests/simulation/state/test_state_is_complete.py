@@ -51,6 +51,7 @@ CACHES = {
     "Inbox._n_bytes": "what a program has not taken yet",
     "Inbox._new": "what a program has not taken yet",
     "Inbox._sizes": "what a program has not taken yet",
+    "Intrinsics.ray_lengths": "is a function of the pinhole",
     "KinematicContacts._laid": "is compared with the poses when it is used",
     "JointCommand._named": "is compared with the message when it is used",
     "JointCommand._places": "is compared with the message when it is used",
