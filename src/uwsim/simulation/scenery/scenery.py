@@ -29,6 +29,7 @@ from ...rendering.rendered_image import RenderedImage
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ..unique_names import unique
+from .part_poses import PartPoses
 from .renderer_pool import RendererPool
 from .sand import HeapState, heaps_of
 
@@ -73,6 +74,7 @@ class Scenery:
         self._vehicle_labels = unique(self._vehicle_names)
         self.parts = model.parts
         """The models of the scene and whose they are."""
+        self._poses = PartPoses(self.parts, engine.poses)
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
         self.mounted_lamps: tuple[MountedLamp | Led, ...] = ()
         """The lamps and signal lamps of the scene."""
@@ -121,12 +123,7 @@ class Scenery:
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """The present pose of a part, with its scale, (4, 4) [m]."""
-        if part.vehicle is None:
-            assert part.object is not None
-            frame = self._engine.poses.object(part.object).matrix
-        else:
-            frame = self._engine.poses.link_frame(part.vehicle, part.link)
-        return product(frame, part.frame_from_mesh)
+        return self._poses.world_from_mesh(part)
 
     def corners(self, part: Part) -> Array:
         """Return the corners of a part's box where it is now, in W, (8, 3) [m]."""
@@ -237,8 +234,7 @@ class Scenery:
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
         if self._drawn_version != self._engine.poses.version:
-            for part, handle in zip(self.parts, self._handles, strict=True):
-                renderer.place(handle, self.world_from_mesh(part))
+            renderer.place_all(self._handles, self._poses.of_all())
             if self.mounted_projector is not None:
                 self._projector = _projecting(*self.mounted_projector)
             self._drawn_version = self._engine.poses.version
