@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -42,6 +42,21 @@ class RenderedImage:
     one name the second has ``#2`` behind it, a vehicle behind its own name."""
     world_from_camera: Pose | None = None
     """The pose of the camera in W, with OpenGL axes (x right, y up, looking along -z)."""
+
+    @property
+    def n_bytes(self) -> int:
+        """Size of its arrays [bytes]."""
+        arrays = self.colour, self.range, self.ids
+        return sum(array.nbytes for array in arrays if array is not None)
+
+    def copy(self) -> RenderedImage:
+        """Return the same image with arrays of its own."""
+        return replace(
+            self,
+            colour=None if self.colour is None else self.colour.copy(),
+            range=None if self.range is None else self.range.copy(),
+            ids=None if self.ids is None else self.ids.copy(),
+        )
 
     @property
     def depth(self) -> npt.NDArray[np.float32]:

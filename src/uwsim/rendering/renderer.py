@@ -44,6 +44,11 @@ SAMPLERS = {
 }
 """Texture unit of every sampler in the shaders."""
 
+N_VIEWS = 4
+"""So many of the last views are remembered."""
+MAX_KEPT = 2**23
+"""The largest image that is kept for a view that stays as it is [bytes]."""
+
 Switches = tuple[tuple[str, int], ...]
 """Preprocessor switches of a shader and their values."""
 
@@ -101,8 +106,7 @@ class Renderer:
         self._shadow = SunShadow(self._context)
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
-        self._last: View | None = None  # what was drawn last
-        self._begun: View | None = None  # what is being drawn ahead of its time
+        self._seen: dict[View, RenderedImage | None] = {}  # the last views, the newest last
 
     def add(self, model: Model, id: int) -> int:
         """Put a model at the origin of W; returns the handle for `place` and `remove`.
@@ -136,6 +140,7 @@ class Renderer:
 
     def clear(self) -> None:
         """Remove every instance; uploaded models stay on the GPU for the next scenes."""
+        self._seen.clear()
         self._instances.clear()
         with self._context:
             self._models.end_scene()
@@ -183,23 +188,29 @@ class Renderer:
             lamps=tuple(lamps),
             projector=projector,
         )
-        with self._context:
-            if view != self._begun:
-                self._begin(view, world_from_camera)
-            image = self._target(view).image(intrinsics)
-            self._begun = None
-            if view == self._last and not lamps and projector is None:
-                # Requested twice in a row, it will be requested again: the rasteriser's threads
-                # draw the next one while this one is processed.
-                self._begin(view, world_from_camera)
-                self._shadow.take_over()
-                self._begun = view
-        self._last = view
-        return image
+        if lamps or projector is not None:
+            return self._drawn(view, world_from_camera)
+        kept = self._seen.get(view)
+        return kept.copy() if kept is not None else self._drawn_once(view, world_from_camera)
 
     def close(self) -> None:
         """Release the graphics context; the renderer cannot be used afterwards."""
         self._context.release()
+
+    def _drawn_once(self, view: View, world_from_camera: Pose) -> RenderedImage:
+        """Draw an image; that of a view which was drawn lately will be asked for again: keep it."""
+        image = self._drawn(view, world_from_camera)
+        was_seen = view in self._seen
+        self._seen[view] = image.copy() if was_seen and image.n_bytes <= MAX_KEPT else None
+        if len(self._seen) > N_VIEWS:
+            del self._seen[next(iter(self._seen))]
+        return image
+
+    def _drawn(self, view: View, world_from_camera: Pose) -> RenderedImage:
+        """Draw an image and read it back."""
+        with self._context:
+            self._begin(view, world_from_camera)
+            return self._target(view).image(view.intrinsics)
 
     def _begin(self, view: View, world_from_camera: Pose) -> None:
         """Issue the draw calls without waiting for them."""

@@ -68,10 +68,6 @@ class CasterMap:
         self._framebuffer.use()
         self._draw(instances, casters[~self._still.members])
 
-    def use(self) -> None:
-        """Bind the map as the render target, which flushes earlier draw calls."""
-        self._framebuffer.use()
-
     def _draw(self, instances: Instances, casters: Numbers) -> None:
         """Draw batches into the framebuffer in use."""
         context = self._context

@@ -81,10 +81,6 @@ class SunShadow:
         self.texture_from_world = product(_TO_TEXTURE, clip_from_world)
         self.lift = 1.5 * edge / size
 
-    def take_over(self) -> None:
-        """Bind the shadow map as the render target and flush earlier draw calls."""
-        self._map.use()
-
 
 def reached(
     instances: Instances,
