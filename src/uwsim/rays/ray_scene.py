@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -85,8 +86,12 @@ class RayScene:
         """Write down where its arrays are."""
         self.record = scene_record(self._trees, self._bodies, self._engine)
         """Its arrays for compiled code, a record of `scene_record.SCENE`, (1,)."""
-        self.functions = rays_record(self.record)
+        self.__dict__.pop("functions", None)
+
+    @cached_property
+    def functions(self) -> npt.NDArray[np.void]:
         """What casts rays in it from compiled code, a record of `scene_record.RAYS`, (1,)."""
+        return rays_record(self.record)
 
     @property
     def is_compiled(self) -> bool:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 
 from ...acoustics import MATERIALS, Material
 from ...base.geometry import Array, Pose
@@ -41,8 +43,6 @@ class SceneRays:
         self._placed: list[tuple[int, Callable[[], Array]]] = []  # those that follow no engine's
         self._noted: RayScene | None = None  # whose record is the first of these
         self._records = np.zeros(1 + len(heaps), SCENE)  # of what was laid, and of each heap
-        self.functions = rays_record(self._records)
-        """What casts rays from compiled code, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
         self.materials: tuple[Material, ...] = (
             *self._bodies.materials,
             *(MATERIALS["sand"] for _ in heaps),
@@ -50,6 +50,11 @@ class SceneRays:
         """Of each surface, by its number."""
         self.vehicles: tuple[str, ...] = (*self._bodies.vehicles, *("" for _ in heaps))
         """Name of the vehicle that each surface belongs to, by its number; or empty."""
+
+    @cached_property
+    def functions(self) -> npt.NDArray[np.void]:
+        """What casts rays from compiled code, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
+        return rays_record(self._records)
 
     def cast(
         self,
