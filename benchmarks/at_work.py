@@ -48,7 +48,8 @@ CURRENTS = {
     "uwsimSinusoid": "<u:uwsimSinusoid> <u:speed>0.15</u:speed> "
     "<u:speedVariation>0.02</u:speedVariation> <u:speedPeriod>4</u:speedPeriod> "
     "<u:random>0.01</u:random> </u:uwsimSinusoid>",
-    "pythonFunction": "<u:pythonFunction> <u:function>at_work:eddy</u:function> </u:pythonFunction>",
+    "pythonFunction": "<u:pythonFunction> <u:function>at_work:eddy</u:function> "
+    "</u:pythonFunction>",
 }
 """Currents by what they are called in a scene."""
 BELOW = "<position> <x>0.4</x> <y>0</y> <z>-0.7</z> </position>"
