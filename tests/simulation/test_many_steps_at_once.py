@@ -48,7 +48,10 @@ def swell(simulation: Simulation) -> None:
 
 
 def sheared(simulation: Simulation) -> None:
-    place = Place(stream=simulation.world.stream)
+    place = Place(
+        stream=simulation.world.stream,
+        world_from_localized=simulation.world.model.scene.world_from_localized,
+    )
     profile = PowerProfileSpec(velocity=(0.4, 0.1, 0.0), depth=20.0).bind(place)
     simulation.world.water.set(TotalCurrent([profile, SWELL.bind(place)]))
 
@@ -123,6 +126,20 @@ def test_the_engine_is_called_once_for_many_steps_that_nothing_comes_between(
     simulation.advance(0.1)
     assert taken == [50]
     simulation.watch(lambda: None)  # who observes does so in every step
+    simulation.advance(0.01)
+    assert taken == [50, 1, 1, 1, 1, 1]
+
+
+def test_a_current_of_uwsim_that_a_program_sets_ends_no_run(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    simulation = make()
+    profile = PowerProfileSpec(velocity=(0.4, 0.0, 0.0), depth=20.0)
+    simulation.set_current(profile.bind(Place(stream=simulation.world.stream)))
+    taken = count_runs(simulation, monkeypatch)
+    simulation.advance(0.1)
+    assert taken == [50]
+    simulation.set_current(Gyre())
     simulation.advance(0.01)
     assert taken == [50, 1, 1, 1, 1, 1]
 
