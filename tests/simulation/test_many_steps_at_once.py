@@ -144,10 +144,11 @@ def test_a_current_of_uwsim_that_a_program_sets_ends_no_run(
     assert taken == [50, 1, 1, 1, 1, 1]
 
 
-def beside_a_drifter(*, is_read: bool = False) -> Simulation:
-    """A simulated vehicle and one that drifts beside it, whose motion a sensor may read."""
+def beside_a_drifter(*, is_read: bool = False, is_simulated: bool = True) -> Simulation:
+    """A vehicle, simulated or not, and one that drifts, whose motion a sensor may read."""
     scene = read_scene(SCENE).nominal
     first = replace(scene.vehicles[0], parts=())
+    first = first if is_simulated else replace(first, dynamics=None)
     imu = ImuSpec(name="imu", relative_to="base_link")
     second = replace(
         first,
@@ -181,16 +182,23 @@ def test_a_vehicle_drifts_in_many_steps_at_once_unless_its_motion_is_read(
     assert ends[0] == ends[1]
 
 
-def test_a_vehicle_drifts_as_python_carries_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    ends = []
+@pytest.mark.parametrize("is_read", [False, True])
+@pytest.mark.parametrize("is_simulated", [False, True])
+def test_a_vehicle_drifts_as_python_carries_it(
+    monkeypatch: pytest.MonkeyPatch, *, is_read: bool, is_simulated: bool
+) -> None:
+    ends, twists = [], []
     for in_python in (True, False):
-        simulation = beside_a_drifter()
+        simulation = beside_a_drifter(is_read=is_read, is_simulated=is_simulated)
         sheared(simulation)
         if in_python:
             monkeypatch.setattr(simulation.world.water, "drift", lambda *_: None)
         simulation.advance(0.5)
         ends.append(simulation.world.engine._data.qpos.tobytes())
+        twists.append(simulation.world.vehicles.find("drifter").velocity.tolist())
     assert ends[0] == ends[1]
+    assert twists[0] == twists[1]
+    assert any(twists[0]) is is_read
 
 
 class Gyre:

@@ -25,7 +25,7 @@ from .engine_memory import EngineMemory
 from .engine_state import EngineState, ModelState
 from .engine_warnings import StepCheck
 from .grips import Grips
-from .hydrodynamics.water_function import DriftFunction, WaterFunction
+from .hydrodynamics.water_function import DriftFunction, WaterFunction, move_placed
 from .joint_wrench import JointWrench
 from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
@@ -73,9 +73,12 @@ class Engine:
         self.contacts = EngineContacts(scene_model, model, data)
         """Contacts between what it simulates."""
         self._check = StepCheck(model, data, names)
+        self._placed = [i for i in robots if i not in dynamics]
         free = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
         self._free_places = {i: int(model.jnt_qposadr[joint]) for i, joint in free.items()}
         self._free_dofs = {i: int(model.jnt_dofadr[joint]) for i, joint in free.items()}
+        places = [range(self._free_places[i], self._free_places[i] + 7) for i in self._placed]
+        self._placed_places = np.array(places, np.intp).reshape(-1, 7)  # of poses in ``qpos``
         self._joint_places = {i: joint_places(model, robots[i], i) for i in robots}
         self._scaled = {
             i: ScaledLinks(model, robots[i], i, vehicle.scale_factor)
@@ -90,7 +93,7 @@ class Engine:
         self._set_first_joints(scene)
         self._wet, self._felt_at = self._wet_points()
         self._bounces = _bounces_of(scene, model, data)
-        self._stepper = self._make_stepper([free[i] for i in robots if i not in dynamics])
+        self._stepper = self._make_stepper([free[i] for i in self._placed])
         self.lift = Lift(model, data)
         """Bodies that begin in the ground, on their way out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
@@ -268,6 +271,13 @@ class Engine:
             self._data.qvel[dof : dof + 6] = 0.0
             self.actuation[index].hold(world_from_base)
             self.contacts.look_again(hold=False)
+        self.poses.moved()
+
+    def drift(self, drift: DriftFunction, time: float) -> None:
+        """Move the vehicles that are not simulated by a step that ends at ``time`` [s]."""
+        poses: Array = self._data.qpos[self._placed_places]
+        move_placed(drift.function, drift.address, poses, time)
+        self._data.qpos[self._placed_places] = poses
         self.poses.moved()
 
     def placed_motion(self, index: int) -> PlacedMotion:
