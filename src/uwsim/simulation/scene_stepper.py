@@ -51,7 +51,7 @@ class SceneStepper:
         self._drifting = [world.vehicles[i] for i in placed]
         self._drifting_names = tuple(vehicle.name for vehicle in self._drifting)
         self._wet_names = tuple(
-            "" if i is None else vehicles[i].name for i in engine.submerged_vehicles()
+            "" if i is None else vehicles[i].name for i in engine.submerged.vehicles
         )
 
     @property
@@ -179,7 +179,7 @@ class SceneStepper:
             self._below_ground.look(self._step)
             return False
         first = self._step
-        steps, positions = range(first, first + n), engine.submerged_positions
+        steps, positions = range(first, first + n), engine.submerged.positions
         motion = water.during(positions, steps, self._timestep, self._wet_names)
         drift = None
         if drifts and self._drifting and motion is not None:
