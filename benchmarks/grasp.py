@@ -16,10 +16,10 @@ from measure import main
 
 from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan_request import PlanRequest
+from uwsim.runs.planning.trial_cache import TrialCache
 from uwsim.runs.trial.level_row import LevelRow
 from uwsim.runs.trial.onlooker import Onlooker
 from uwsim.runs.trial.trial import execute
-from uwsim.simulation import RendererPool
 
 TIMES_REAL_TIME = 8.0
 REPEATS = 3
@@ -56,11 +56,11 @@ def measure() -> dict[str, object]:
     level = [("fog", 0.0), ("current", 0.0)]
     plan = make_plan(PlanRequest(benchmark="grasp", seed=SEED, levels=level))
     [trial] = plan.trials()
-    pool = RendererPool()
+    cache = TrialCache()
     episodes, whole, rows = [], [], []
     for _ in range(REPEATS + 1):
         clock, began = Clock(), time.process_time()
-        found = [*execute(plan, trial, pool=pool, onlooker=clock)]
+        found = [*execute(plan, trial, cache=cache, onlooker=clock)]
         whole.append(time.process_time() - began)
         episodes.append(clock.ended - clock.began)
         rows += [row for row in found if isinstance(row, LevelRow)]

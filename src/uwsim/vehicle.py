@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .base.geometry import Array, Pose
+from .world import CompiledVehicle
 
 Numbers = npt.NDArray[np.int64]
 """Of joints in the joint vector, each at most once, (n,)."""
@@ -92,6 +93,10 @@ class Vehicle(Protocol):
     @property
     def joints(self) -> Array:
         """A copy of its joint vector, (n,) [rad or m]."""
+
+    @property
+    def compiled(self) -> CompiledVehicle:
+        """The vehicle as compiled code reads it."""
 
     def place(self, world_from_base: Pose) -> None:
         """Set its pose, at rest; it is displaced from there from now on."""

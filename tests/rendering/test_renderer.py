@@ -55,6 +55,15 @@ def test_range_is_the_distance_along_the_ray_to_a_slanted_plane(
     assert image.depth == pytest.approx(depth, rel=1e-4)
 
 
+def test_the_lengths_of_rays_are_computed_once_for_a_pinhole_and_cannot_be_changed() -> None:
+    lengths = ODD.ray_lengths
+    assert lengths == pytest.approx(np.linalg.norm(ODD.rays(), axis=2), rel=1e-15)
+    assert ODD.ray_lengths is lengths
+    with pytest.raises(ValueError, match="read-only"):
+        lengths[0, 0] = 0.0
+    assert replace(ODD, width=ODD.width + 1).ray_lengths.shape == (ODD.height, ODD.width + 1)
+
+
 def test_range_is_right_far_from_the_worlds_origin(renderer: Renderer) -> None:
     far_away = Pose.from_rpy((3000.0, -4000.0, -20.0), (0.0, 0.0, 0.7))
     renderer.place(renderer.add(plate(60.0, 60.0), 1), far_away.matrix @ placed(z=-3.0))
@@ -316,13 +325,13 @@ def drawn_once(world_from_camera: Pose, water: Water, x: float) -> bytes:
         renderer.close()
 
 
-def test_a_view_drawn_ahead_is_the_view_and_never_another(renderer: Renderer) -> None:
-    """From the second equal view on the next is begun early: nothing may be seen of that."""
+def test_a_view_that_is_kept_is_the_view_and_never_another(renderer: Renderer) -> None:
+    """From the second equal view on the image is kept: nothing may be seen of that."""
     thing = renderer.add(ball(0.5), 3)
     aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
     fog = replace(DRY, fog=0.3)
     looks = [
-        *[(HERE, DRY, 0.0)] * 4,  # begun ahead ...
+        *[(HERE, DRY, 0.0)] * 4,  # kept ...
         (HERE, DRY, 0.4),  # ... and the thing has moved
         *[(HERE, DRY, 0.4)] * 2,
         (HERE, fog, 0.4),  # ... and the fog has come
@@ -339,7 +348,7 @@ def test_a_view_drawn_ahead_is_the_view_and_never_another(renderer: Renderer) ->
     assert len(set(expected.values())) == len(expected)
 
 
-def test_another_image_between_does_not_disturb_one_drawn_ahead(renderer: Renderer) -> None:
+def test_another_image_between_does_not_disturb_one_that_is_kept(renderer: Renderer) -> None:
     renderer.place(renderer.add(ball(0.5), 3), placed(z=-4.0))
     aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
     colour = {"targets": {"colour"}}
@@ -350,3 +359,33 @@ def test_another_image_between_does_not_disturb_one_drawn_ahead(renderer: Render
     assert first is not None
     assert again is not None
     assert np.array_equal(first, again)
+
+
+def test_an_image_of_what_stands_still_is_drawn_twice(
+    renderer: Renderer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    thing = renderer.add(ball(0.5), 3)
+    renderer.place(thing, placed(z=-4.0))
+    aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
+    drawn: list[object] = []
+    draw = renderer._begin
+    monkeypatch.setattr(renderer, "_begin", lambda *view: (drawn.append(view), draw(*view)))
+    images = [renderer.draw(eye, CAMERA, DRY, Light()) for eye in (HERE, aside) * 4]
+    assert len(drawn) == 4
+    assert {image.n_bytes for image in images} == {160 * 120 * (3 + 4 + 2)}
+    assert np.array_equal(images[0].colour, images[6].colour)  # type: ignore[arg-type]
+    assert np.array_equal(images[1].range, images[7].range)  # type: ignore[arg-type]
+    renderer.place(thing, placed(z=-4.1))
+    renderer.draw(HERE, CAMERA, DRY, Light())
+    assert len(drawn) == 5
+
+
+def test_a_kept_image_is_the_callers_own(renderer: Renderer) -> None:
+    renderer.place(renderer.add(ball(0.5), 3), placed(z=-4.0))
+    colours = []
+    for _ in range(4):
+        colour = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"}).colour
+        assert colour is not None
+        colours.append(colour.copy())
+        colour[...] = 7
+    assert all(np.array_equal(colour, colours[0]) for colour in colours)

@@ -62,7 +62,8 @@ class FakeCarrier:
     name = "vehicle"
 
     def __init__(self, pose: Pose | None = None) -> None:
-        self.pose = self.world_from_base = pose or Pose.identity()
+        self.pose = pose or Pose.identity()
+        self.compiled = self
 
     def base_mount(self) -> FakeBody:
         return FakeBody(tuple(self.pose.position), rotation=self.pose.rotation)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -286,3 +287,14 @@ class Intrinsics:
         y = (self.cy - v) / self.fy
         x = (u[None, :] - self.cx - self.skew * y[:, None]) / self.fx
         return np.stack([x, np.broadcast_to(y[:, None], x.shape), np.full(x.shape, -1.0)], axis=2)
+
+    @cached_property
+    def ray_lengths(self) -> Array:
+        """Lengths of `rays`: distance along a ray over planar depth, (h, w) [1]; read-only.
+
+        Computed once: to find them takes longer than to draw a small image.
+        """
+        rays = self.rays()
+        lengths: Array = np.sqrt((rays * rays).sum(axis=2))
+        lengths.flags.writeable = False
+        return lengths

@@ -51,6 +51,7 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(names.loose_scenery, Need.SPEC),
     Rule(looks.directions, Need.SPEC),
     Rule(looks.shared_camera_names, Need.SPEC),
+    Rule(looks.polished_cameras, Need.SPEC),
     Rule(angles.angles_in_degrees, Need.SPEC, in_runs=True),
     Rule(water.unstable_water, Need.SPEC),
     Rule(water.slow_currents, Need.SPEC),

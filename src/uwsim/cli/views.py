@@ -127,7 +127,7 @@ class Wanted:
             f"camera {name!r}",
             camera.capture(),
             lambda: simulation.world.scenery.render_clean(
-                camera.world_from_camera, camera.intrinsics
+                camera.world_from_camera, camera.intrinsics, is_polished=camera.is_polished
             ),
         )
 

@@ -37,6 +37,68 @@ def stretches(matrices: Array, found: Array) -> None:
 
 
 @njit
+def put(
+    places: Array,
+    rows: Numbers,
+    version: int,
+    world_from_model: Array,
+    moved: npt.NDArray[np.int64],
+) -> bool:
+    """Set the poses of some instances; returns whether one was elsewhere before.
+
+    Args:
+        places: the poses, (k, 4, 4).
+        rows: of the instances, (k,).
+        version: noted for those that were elsewhere.
+        world_from_model: of all instances, (n, 4, 4), which is written.
+        moved: the version at which each last moved, (n,), which is written.
+    """
+    has_moved = False
+    for k in range(len(rows)):
+        row, is_elsewhere = rows[k], False
+        for i in range(4):
+            for j in range(4):
+                is_elsewhere = is_elsewhere or places[k, i, j] != world_from_model[row, i, j]
+        if is_elsewhere:
+            world_from_model[row] = places[k]
+            moved[row] = version
+            has_moved = True
+    return has_moved
+
+
+@njit
+def see(
+    camera_from_world: Array,
+    world_from_model: Array,
+    world_normals: Array,
+    camera_from_model: npt.NDArray[np.float32],
+    camera_normals: npt.NDArray[np.float32],
+) -> None:
+    """Write the poses and normals of models in a camera's frame, as OpenGL counts: columns first.
+
+    Args:
+        camera_from_world: (4, 4); it may project, too.
+        world_from_model: of each instance, (n, 4, 4).
+        world_normals: world normals from model normals, (n, 3, 3).
+        camera_from_model: which is written, (n, 4, 4).
+        camera_normals: which is written, (n, 4, 4), but for its last row and column.
+    """
+    for n in range(len(world_from_model)):
+        for i in range(4):
+            for k in range(4):
+                total = 0.0
+                for j in range(4):
+                    total += camera_from_world[i, j] * world_from_model[n, j, k]
+                camera_from_model[n, k, i] = total
+        for i in range(3):
+            for k in range(3):
+                total = 0.0
+                for j in range(3):
+                    total += camera_from_world[i, j] * world_normals[n, j, k]
+                camera_normals[n, k, i] = total
+
+
+@njit
 def carry(
     world_from_model: Array, stretch: Array, owners: Numbers, own: Array, spheres: Array
 ) -> None:

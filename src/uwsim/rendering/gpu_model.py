@@ -23,19 +23,19 @@ class Buffers:
             context.buffer(each.triangles.tobytes()),
         )
         self._bare: tuple[moderngl.Buffer, moderngl.Buffer] | None = None
-        self._arrays: dict[int, moderngl.VertexArray] = {}
+        self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
 
     def array(self, program: moderngl.Program) -> moderngl.VertexArray:
-        """The vertex array for a program, by its number; made when first drawn."""
-        if program.glo not in self._arrays:
+        """The vertex array for a program; made when first drawn."""
+        array = self._arrays.get(program)
+        if array is None:
             present = [n for n in ("vertex", "vertex_normal", "uv", "tint") if n in program]
             (vertices, indices), layout = self._whole, _layout(present)
             if present == ["vertex"]:
                 (vertices, indices), layout = self._places(), "3f"
-            self._arrays[program.glo] = self._context.vertex_array(
-                program, [(vertices, layout, *present)], indices
-            )
-        return self._arrays[program.glo]
+            array = self._context.vertex_array(program, [(vertices, layout, *present)], indices)
+            self._arrays[program] = array
+        return array
 
     def release(self) -> None:
         """Free the memory."""
@@ -89,11 +89,7 @@ class Batch:
     """Texels along a metre, where most are [1/m]; 0 without a texture."""
 
     def draw(self, program: moderngl.Program) -> None:
-        """Draw all triangles, from one side or both; else with the state as it is."""
-        if self.two_sided:
-            program.ctx.disable(moderngl.CULL_FACE)
-        else:
-            program.ctx.enable(moderngl.CULL_FACE)
+        """Draw all triangles with the state as it is (`brush`)."""
         array = self.buffers.array(program)
         array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first)
 
@@ -125,6 +121,7 @@ class GpuModels:
         }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
         self._with_copies: set[int] = set()  # numbers of the textures that have smaller ones
+        self._bound: tuple[Texture, bool] | None = None  # of this pass; whether without mipmaps
         self._n_scenes = 0  # that have ended
         self._models_used: dict[int, int] = {}  # number of the scene that used one last
         self._textures_used: dict[tuple[str, int], int] = {}
@@ -181,13 +178,17 @@ class GpuModels:
         ]
 
     def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
-        """Bind a texture; that of a close surface is sampled without mipmaps."""
+        """Bind a texture until `release`; that of a close surface is sampled without mipmaps."""
+        if self._bound is not None and self._bound[0] is texture and self._bound[1] == is_close:
+            return
         made = self._upload_texture(texture)
         made.use(unit)
         if is_close:
             self._close[texture.repeats].use(unit)
+            self._bound = texture, True
             return
         self.release(unit)
+        self._bound = texture, False
         if made.glo not in self._with_copies:  # to make them takes longer than an image
             made.build_mipmaps()
             made.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
@@ -196,6 +197,7 @@ class GpuModels:
     def release(self, unit: int) -> None:
         """Unbind the sampler, so that the next texture is sampled by its own filter."""
         self._close[True].clear(unit)
+        self._bound = None
 
     def _upload_texture(self, texture: Texture) -> moderngl.Texture:
         """The texture on the GPU; uploaded once."""

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Intrinsics, Pose
-from ..base.numerics.linear import determinants, inverse, product
+from ..base.numerics.linear import determinants, inverse
 from ..errors import UnknownName
 from . import bounds
 from .gpu_model import Batch
@@ -21,6 +21,7 @@ INSTANCE = Block(
 )
 STRIDE = 256
 """Bytes from slot to slot in the buffer of instances; every driver's alignment divides it."""
+Numbers = npt.NDArray[np.intp]
 
 
 class Instances:
@@ -32,14 +33,15 @@ class Instances:
     def __init__(self) -> None:
         self.version = 0
         """Grows with every change of anything that may cast a shadow."""
+        self.arrangement = 0
+        """The version at which an instance last came or went: numbers of batches hold for one."""
         self._next_handle = 1
         self._followed = -1  # the version that normals and bounds are of
         self.clear()
 
     def clear(self) -> None:
         """Remove all instances."""
-        self.version += 1
-        self._is_known = False  # whether it is known which batches there are
+        self._rearrange()
         self._rows: dict[int, int] = {}
         self.ids: list[int] = []
         """Their numbers in the id image, 1..65535."""
@@ -47,38 +49,43 @@ class Instances:
         """The batches of each instance."""
         self.world_from_model: Array = np.zeros((0, 4, 4))
         """(n, 4, 4); may carry scale, uneven or mirroring."""
+        self.moved: npt.NDArray[np.int64] = np.zeros(0, dtype=np.int64)
+        """The version at which each instance last moved, (n,)."""
 
     def add(self, batches: tuple[Batch, ...], id: int) -> int:
         """Put a model at the origin of W; returns its handle."""
         handle = self._next_handle
         self._next_handle += 1
-        self.version += 1
+        self._rearrange()
         self._rows[handle] = len(self.ids)
         self.ids.append(id)
         self.batches.append(batches)
         self.world_from_model = np.concatenate([self.world_from_model, np.eye(4)[None]])
-        self._is_known = False
+        self.moved = np.append(self.moved, self.version)
         return handle
 
-    def place(self, handle: int, world_from_model: Array) -> None:
-        """Set the pose of an instance; UnknownName if it is not there."""
-        row = self._row(handle)
-        if (self.world_from_model[row] != world_from_model).any():
-            self.world_from_model[row] = world_from_model
+    def place(self, handles: Sequence[int], world_from_model: Array) -> None:
+        """Set the poses of instances, (k, 4, 4); UnknownName if one is not there."""
+        rows = np.array([self._row(handle) for handle in handles], dtype=np.intp)
+        if bounds.put(world_from_model, rows, self.version + 1, self.world_from_model, self.moved):
             self.version += 1
 
     def remove(self, handle: int) -> None:
         """Remove an instance; UnknownName if it is not there."""
         row = self._row(handle)
-        self.version += 1
+        self._rearrange()
         del self._rows[handle], self.ids[row], self.batches[row]
         self._rows = {h: r - (r > row) for h, r in self._rows.items()}
         self.world_from_model = np.delete(self.world_from_model, row, axis=0)
-        self._is_known = False
+        self.moved = np.delete(self.moved, row)
 
-    def without(self, hidden: frozenset[int]) -> list[int]:
-        """Rows of the instances whose ids are not hidden."""
-        return [row for row, id in enumerate(self.ids) if id not in hidden]
+    def without(self, hidden: frozenset[int]) -> Numbers:
+        """Numbers of the batches of instances whose ids are not hidden, (m,)."""
+        self._follow()
+        if hidden not in self._shown:
+            is_shown = np.array([id not in hidden for id in self.ids], dtype=bool)
+            self._shown[hidden] = np.flatnonzero(is_shown[self._owners])
+        return self._shown[hidden]
 
     @property
     def normals(self) -> Array:
@@ -93,24 +100,23 @@ class Instances:
         return self._is_mirrored
 
     @property
-    def radii(self) -> Array:
-        """Half the longest side of the bounding box of each instance, (n,) [m]."""
+    def owners(self) -> Numbers:
+        """Row of the instance that each batch belongs to, (m,)."""
         self._follow()
-        return self._radii
+        return self._owners
 
-    def owned(self, rows: Sequence[int]) -> npt.NDArray[np.intp]:
-        """Numbers of the batches that the rows have, in the order of `batches`, (m,)."""
+    def casting(self, numbers: Numbers, max_radius: float) -> Numbers:
+        """Return those of some batches that cast the sun's shadow.
+
+        Transparent ones cast none, nor do those of instances with a larger bounding box.
+
+        Args:
+            numbers: of the batches.
+            max_radius: half the longest side of the box, at most [m].
+        """
         self._follow()
-        if len(rows) == len(self.ids):
-            return np.arange(len(self._owners))
-        has = np.zeros(len(self.ids), dtype=bool)
-        has[list(rows)] = True
-        return np.flatnonzero(has[self._owners])
-
-    def casting(self, rows: Sequence[int]) -> npt.NDArray[np.intp]:
-        """Numbers of the batches of rows that cast shadows; transparent ones cast none."""
-        numbers = self.owned(rows)
-        casting: npt.NDArray[np.intp] = numbers[self._is_opaque[numbers]]
+        is_small = self._radii[self._owners[numbers]] <= max_radius
+        casting: Numbers = numbers[self._is_opaque[numbers] & is_small]
         return casting
 
     @property
@@ -126,31 +132,39 @@ class Instances:
         return self._corners
 
     def needs_no_copies(
-        self, numbers: Sequence[int], world_from_camera: Pose, intrinsics: Intrinsics
+        self, numbers: Numbers, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> list[bool]:
         """Whether batches need no mipmaps of their textures (`minification`)."""
         self._follow()
-        chosen = np.array(numbers, dtype=np.intp)
-        found = needs_no_copies(
-            self._densities[chosen],
-            self._flat_normals[chosen],
-            self._corners[chosen],
+        found: list[bool] = needs_no_copies(
+            self._densities[numbers],
+            self._flat_normals[numbers],
+            self._corners[numbers],
             world_from_camera,
             intrinsics,
-        )
-        return [bool(one) for one in found]
+        ).tolist()
+        return found
 
-    def batch(self, number: int) -> tuple[int, Batch]:
-        """Row of the instance that a batch belongs to, and the batch, by its number."""
-        return self._drawn[number]
+    @property
+    def numbered(self) -> list[tuple[int, Batch]]:
+        """All batches by their numbers: the row of the instance that it belongs to, and itself."""
+        self._follow()
+        return self._drawn
 
     def _row(self, handle: int) -> int:
         if handle not in self._rows:
             raise UnknownName("instance", str(handle), map(str, self._rows))
         return self._rows[handle]
 
+    def _rearrange(self) -> None:
+        """Note that an instance comes or goes."""
+        self.version += 1
+        self.arrangement = self.version
+        self._is_known = False  # whether it is known which batches there are
+
     def _stand(self) -> None:
         """Take note of which batches there are."""
+        self._shown: dict[frozenset[int], Numbers] = {}
         self._drawn = [
             (row, batch) for row, several in enumerate(self.batches) for batch in several
         ]
@@ -214,13 +228,16 @@ class Slots:
         if len(self._values) < n:
             self._values = np.zeros(2 * n, dtype=self._DTYPE)
             self._buffer.orphan(self._values.nbytes)
-        models = product(camera_from_world, instances.world_from_model)
-        normals = product(camera_from_world[:3, :3], instances.normals)
         values = self._values[:n]
-        values["camera_from_model"] = models.transpose(0, 2, 1)  # OpenGL counts columns first
-        values["camera_normals"][:, :3, :3] = normals.transpose(0, 2, 1)
+        bounds.see(
+            np.ascontiguousarray(camera_from_world),
+            instances.world_from_model,
+            instances.normals,
+            values["camera_from_model"],
+            values["camera_normals"],
+        )
         values["identity"][:, 0] = instances.ids
-        self._buffer.write(values.tobytes())
+        self._buffer.write(values)
 
     def bind(self, slot: int) -> None:
         """Bind the block of a slot for the next draw call."""
@@ -230,8 +247,8 @@ class Slots:
 
 
 def in_view(
-    instances: Instances, rows: Sequence[int], world_from_camera: Pose, planes: Array
-) -> list[int]:
+    instances: Instances, numbers: Numbers, world_from_camera: Pose, planes: Array
+) -> Numbers:
     """Numbers of the batches whose bounds reach into the frustum, near ones first.
 
     Bounds are the sphere and the box: of a wall, the sphere reaches far round it.
@@ -241,13 +258,10 @@ def in_view(
 
     Args:
         instances: All there are.
-        rows: Of those that are looked at.
+        numbers: Of the batches that are looked at.
         world_from_camera: Where the camera is.
         planes: Of the frustum, camera frame, (6, 4).
     """
-    numbers = instances.owned(rows)
-    if not len(numbers):
-        return []
     nearness = np.empty(len(numbers))
     bounds.look(
         numbers,
@@ -259,5 +273,5 @@ def in_view(
         nearness,
     )
     order = np.argsort(nearness, kind="stable")[: np.count_nonzero(nearness < np.inf)]
-    seen: list[int] = numbers[order].tolist()
+    seen: Numbers = numbers[order]
     return seen

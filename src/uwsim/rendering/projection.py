@@ -2,9 +2,32 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import lru_cache
+
 import numpy as np
 
 from ..base.geometry import Array, Intrinsics
+from ..base.numerics.linear import solve
+
+
+@dataclass(frozen=True, eq=False)
+class Projection:
+    """What the renderer needs of a pinhole; the arrays are shared and not to be written."""
+
+    clip_from_camera: Array
+    """The projection matrix, (4, 4)."""
+    planes: Array
+    """The planes of the visible volume, camera frame, (6, 4); see `frustum`."""
+    corner_rays: Array
+    """Towards the corners of the image, 1 m deep, camera frame, (4, 3) [m]."""
+
+
+@lru_cache(maxsize=64)
+def projection(intrinsics: Intrinsics) -> Projection:
+    """Return the matrices of a pinhole; those of the last few are kept."""
+    clip = clip_from_camera(intrinsics)
+    return Projection(clip, frustum(clip), _corner_rays(clip))
 
 
 def clip_from_camera(intrinsics: Intrinsics) -> Array:
@@ -32,3 +55,12 @@ def frustum(clip_from_camera: Array) -> Array:
     planes = np.concatenate([rows[3] + rows[:3], rows[3] - rows[:3]])
     unit: Array = planes / np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
     return unit
+
+
+def _corner_rays(clip_from_camera: Array) -> Array:
+    """Towards the corners of the image, 1 m deep, camera frame, (4, 3)."""
+    corners = np.array([[x, y, 1.0] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
+    # With z = -1: x_clip = P00 x + P01 y - P02, y_clip = P11 y - P12, w = 1.
+    matrix = clip_from_camera[:2, :3]
+    xy = solve(matrix[:, :2], (corners[:, :2] + matrix[:, 2]).T).T
+    return np.column_stack([xy, -corners[:, 2]])

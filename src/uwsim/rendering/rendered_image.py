@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +44,21 @@ class RenderedImage:
     """The pose of the camera in W, with OpenGL axes (x right, y up, looking along -z)."""
 
     @property
+    def n_bytes(self) -> int:
+        """Size of its arrays [bytes]."""
+        arrays = self.colour, self.range, self.ids
+        return sum(array.nbytes for array in arrays if array is not None)
+
+    def copy(self) -> RenderedImage:
+        """Return the same image with arrays of its own."""
+        return replace(
+            self,
+            colour=None if self.colour is None else self.colour.copy(),
+            range=None if self.range is None else self.range.copy(),
+            ids=None if self.ids is None else self.ids.copy(),
+        )
+
+    @property
     def depth(self) -> npt.NDArray[np.float32]:
         """Distance along the optical axis (h, w) [m]; inf = nothing there.
 
@@ -52,8 +67,8 @@ class RenderedImage:
         """
         if self.range is None:
             raise ValueError("the image was drawn without its range")
-        stretch = np.linalg.norm(self.intrinsics.rays(), axis=2)  # (h, w)
-        planar: npt.NDArray[np.float32] = (self.range / stretch).astype(np.float32)
+        lengths = self.intrinsics.ray_lengths
+        planar: npt.NDArray[np.float32] = (self.range / lengths).astype(np.float32)
         return planar
 
     @property

@@ -7,7 +7,8 @@ modelled: the water's surface, caustics, reflections, refraction.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import functools
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import moderngl
@@ -16,17 +17,18 @@ import numpy as np
 from ..assets.mesh import Model
 from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
+from .brush import Brush
 from .context import create_context
 from .frame import FRAME, Frame
 from .gpu_model import GpuModels
-from .instance import INSTANCE, Instances, Slots, in_view
+from .instance import INSTANCE, Instances, Numbers, Slots, in_view
 from .lights.lamp import Lamp
 from .lights.lamps import LAMPS, Lamps
 from .lights.projector import Projector
 from .lights.projector_light import PROJECTOR, ProjectorLight
 from .lights.sun_shadow import MAX_CASTER_RADIUS, SunShadow, reached
 from .program import build
-from .projection import clip_from_camera, frustum
+from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .targets import STORES, TARGETS, Targets
 from .water import Light, Water, sun_direction
@@ -41,6 +43,11 @@ SAMPLERS = {
     "projector_pattern": 4,
 }
 """Texture unit of every sampler in the shaders."""
+
+N_VIEWS = 4
+"""So many of the last views are remembered."""
+MAX_KEPT = 2**23
+"""The largest image that is kept for a view that stays as it is [bytes]."""
 
 Switches = tuple[tuple[str, int], ...]
 """Preprocessor switches of a shader and their values."""
@@ -99,8 +106,7 @@ class Renderer:
         self._shadow = SunShadow(self._context)
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
-        self._last: View | None = None  # what was drawn last
-        self._begun: View | None = None  # what is being drawn ahead of its time
+        self._seen: dict[View, RenderedImage | None] = {}  # the last views, the newest last
 
     def add(self, model: Model, id: int) -> int:
         """Put a model at the origin of W; returns the handle for `place` and `remove`.
@@ -117,7 +123,11 @@ class Renderer:
 
     def place(self, handle: int, world_from_model: Array) -> None:
         """Move an instance; the matrix (4, 4) may carry scale."""
-        self._instances.place(handle, world_from_model)
+        self.place_all((handle,), np.asarray(world_from_model, dtype=np.float64)[None])
+
+    def place_all(self, handles: Sequence[int], world_from_model: Array) -> None:
+        """Move several instances; the matrices (n, 4, 4) may carry scale."""
+        self._instances.place(handles, world_from_model)
 
     def remove(self, handle: int) -> None:
         """Take an instance out of the scene."""
@@ -130,6 +140,7 @@ class Renderer:
 
     def clear(self) -> None:
         """Remove every instance; uploaded models stay on the GPU for the next scenes."""
+        self._seen.clear()
         self._instances.clear()
         with self._context:
             self._models.end_scene()
@@ -177,82 +188,94 @@ class Renderer:
             lamps=tuple(lamps),
             projector=projector,
         )
-        with self._context:
-            if view != self._begun:
-                self._begin(view, world_from_camera)
-            image = self._target(view).image(intrinsics)
-            self._begun = None
-            if view == self._last and not lamps and projector is None:
-                # Requested twice in a row, it will be requested again: the rasteriser's threads
-                # draw the next one while this one is processed.
-                self._begin(view, world_from_camera)
-                self._shadow.take_over()
-                self._begun = view
-        self._last = view
-        return image
+        if lamps or projector is not None:
+            return self._drawn(view, world_from_camera)
+        kept = self._seen.get(view)
+        return kept.copy() if kept is not None else self._drawn_once(view, world_from_camera)
 
     def close(self) -> None:
         """Release the graphics context; the renderer cannot be used afterwards."""
         self._context.release()
 
+    def _drawn_once(self, view: View, world_from_camera: Pose) -> RenderedImage:
+        """Draw an image; that of a view which was drawn lately will be asked for again: keep it."""
+        image = self._drawn(view, world_from_camera)
+        was_seen = view in self._seen
+        self._seen[view] = image.copy() if was_seen and image.n_bytes <= MAX_KEPT else None
+        if len(self._seen) > N_VIEWS:
+            del self._seen[next(iter(self._seen))]
+        return image
+
+    def _drawn(self, view: View, world_from_camera: Pose) -> RenderedImage:
+        """Draw an image and read it back."""
+        with self._context:
+            self._begin(view, world_from_camera)
+            return self._target(view).image(view.intrinsics)
+
     def _begin(self, view: View, world_from_camera: Pose) -> None:
         """Issue the draw calls without waiting for them."""
         water, light, hidden, lamps = view.water, view.light, view.hidden, view.lamps
-        rows = self._instances.without(hidden)
-        clip = clip_from_camera(view.intrinsics)
-        seen = in_view(self._instances, rows, world_from_camera, frustum(clip))
+        shown = self._instances.without(hidden)
+        pinhole = projection(view.intrinsics)
+        seen = in_view(self._instances, shown, world_from_camera, pinhole.planes)
         switches: Switches = water.switches + light.switches
         in_shadow = [False] * len(seen)
         if "colour" in view.wanted and light.shadows:
-            in_shadow = self._cast(rows, seen, view, world_from_camera, clip)
+            in_shadow = self._cast(shown, seen, view, world_from_camera, pinhole)
         if lamps and "colour" in view.wanted:
             switches += (("LAMPS", len(lamps)),)
-            self._shine(lamps, rows, world_from_camera, hidden)
+            self._shine(lamps, shown, world_from_camera, hidden)
         if view.projector is not None and "colour" in view.wanted:
             switches += (("PROJECTOR", 1),)
-            self._project(view.projector, rows, world_from_camera, hidden)
-        self._frame.fill(world_from_camera, view.intrinsics, clip, water, light, self._shadow)
+            self._project(view.projector, shown, world_from_camera, hidden)
+        self._frame.fill(
+            world_from_camera,
+            view.intrinsics,
+            pinhole.clip_from_camera,
+            water,
+            light,
+            self._shadow,
+        )
         self._slots.fill(self._instances, world_from_camera.inverse().matrix)
         is_close = self._instances.needs_no_copies(seen, world_from_camera, view.intrinsics)
-        drawn = list(zip(seen, in_shadow, is_close, strict=True))
+        drawn = list(zip(seen.tolist(), in_shadow, is_close, strict=True))
         self._draw_into(self._target(view), drawn, switches)
 
     def _cast(
         self,
-        rows: Sequence[int],
-        seen: Sequence[int],
+        shown: Numbers,
+        seen: Numbers,
         view: View,
         world_from_camera: Pose,
-        clip: Array,
+        pinhole: Projection,
     ) -> list[bool]:
-        """Update the shadow map; returns which visible instances may be in shadow."""
+        """Update the shadow map; returns which visible batches may be in shadow."""
         instances, sun = self._instances, sun_direction(view.light.sun)
-        radii = instances.radii
-        casters = instances.casting([row for row in rows if radii[row] <= MAX_CASTER_RADIUS])
-        may = reached(instances, casters.tolist(), seen, sun, world_from_camera, clip)
-        if may.any():
-            needed = casters[np.any(may, axis=0)].tolist()
-            self._shadow.update(instances, needed, sun, (instances.version, view.hidden))
+        casters = instances.casting(shown, MAX_CASTER_RADIUS)
+        may = reached(instances, casters, seen, sun, world_from_camera, pinhole.corner_rays)
+        is_needed = may.any(axis=0)
+        if is_needed.any():
+            self._shadow.update(instances, casters[is_needed], sun)
         return [bool(one) for one in np.any(may, axis=1)]
 
     def _shine(
         self,
         lamps: Sequence[Lamp],
-        seen: Sequence[int],
+        shown: Numbers,
         world_from_camera: Pose,
         hidden: frozenset[int],
     ) -> None:
         """Update the lamps and their shadow maps."""
         if self._lamps is None:
             self._lamps = Lamps(self._context)
-        self._lamps.update(lamps, self._instances, seen, (self._instances.version, hidden))
+        self._lamps.update(lamps, self._instances, shown, (self._instances.version, hidden))
         self._lamps.fill(lamps, world_from_camera)
         self._lamps.texture.use(SAMPLERS["lamp_maps"])
 
     def _project(
         self,
         projector: Projector,
-        seen: Sequence[int],
+        shown: Numbers,
         world_from_camera: Pose,
         hidden: frozenset[int],
     ) -> None:
@@ -260,7 +283,7 @@ class Renderer:
         if self._projector is None:
             self._projector = ProjectorLight(self._context)
         version = self._instances.version, hidden
-        self._projector.update(projector, self._instances, seen, version)
+        self._projector.update(projector, self._instances, shown, version)
         self._projector.fill(projector, world_from_camera)
         self._projector.use(
             shadow_map=SAMPLERS["projector_map"], pattern=SAMPLERS["projector_pattern"]
@@ -278,7 +301,9 @@ class Renderer:
             switches: Of all of them.
         """
         context = self._context
-        opacities = [self._instances.batch(number)[1].opacity for number, _, _ in drawn]
+        batches = self._instances.numbered
+        opacities = [batches[number][1].opacity for number, _, _ in drawn]
+        draw = self._surface_pass(target, switches)
         target.framebuffer.use()
         target.framebuffer.clear(depth=1.0)  # of no account: every pixel is drawn
         context.enable_only(moderngl.DEPTH_TEST)
@@ -286,7 +311,7 @@ class Renderer:
         self._shadow.texture.use(SAMPLERS["shadow_map"])
         for one, opacity in zip(drawn, opacities, strict=True):
             if opacity >= 1.0:
-                self._draw_batch(target, one, switches)
+                draw(*one)
         self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)
         program = self._program("background", target, ())
@@ -299,18 +324,27 @@ class Renderer:
         if clear:
             self._draw_glass(target, clear[::-1], switches)
 
-    def _draw_batch(self, target: Targets, one: tuple[int, bool, bool], switches: Switches) -> None:
-        """Draw one batch with the state as it is; ``one`` as in `_draw_into`."""
-        number, in_shadow, is_close = one
-        row, batch = self._instances.batch(number)
-        # The image is upside down for OpenGL, so outside is clockwise unless mirrored.
-        self._context.front_face = "ccw" if self._instances.is_mirrored[row] else "cw"
-        own: Switches = (("SHADOWS", 1),) if in_shadow else ()
-        if batch.texture is not None:
-            self._models.use(batch.texture, SAMPLERS["base_map"], is_close=is_close)
-            own += (("TEXTURED", 1),)
-        self._slots.bind(row)
-        batch.draw(self._program("surface", target, switches + own))
+    def _surface_pass(
+        self, target: Targets, switches: Switches
+    ) -> Callable[[int, bool, bool], None]:
+        """Return what draws a batch, told as in `_draw_into`."""
+        batches = self._instances.numbered
+        # The image is upside down for OpenGL, so outside is clockwise.
+        brush = Brush(self._context, self._instances, self._slots, outside="cw")
+
+        @functools.cache
+        def program(in_shadow: bool, is_textured: bool) -> moderngl.Program:
+            own = {"SHADOWS": in_shadow, "TEXTURED": is_textured}
+            present = tuple((name, 1) for name, value in own.items() if value)
+            return self._program("surface", target, switches + present)
+
+        def draw(number: int, in_shadow: bool, is_close: bool) -> None:
+            texture = batches[number][1].texture
+            if texture is not None:
+                self._models.use(texture, SAMPLERS["base_map"], is_close=is_close)
+            brush.draw(number, program(in_shadow, texture is not None))
+
+        return draw
 
     def _draw_glass(
         self,
@@ -334,13 +368,14 @@ class Renderer:
             context.enable(moderngl.BLEND)
             context.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
             for one, opacity in shown:
-                self._draw_batch(target, one, (*switches, ("OPACITY", opacity)))
+                self._surface_pass(target, (*switches, ("OPACITY", opacity)))(*one)
             context.disable(moderngl.BLEND)
             buffer.depth_mask = True
         if set(places) != {"colour"}:
             write(colour=False, rest=True)
+            draw = self._surface_pass(target, switches)
             for one, _ in shown:
-                self._draw_batch(target, one, switches)
+                draw(*one)
         _set_colour_masks(buffer, [(True, True, True, True)] * len(places))
         self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)

@@ -39,6 +39,10 @@ SUN_DIRECTIONS: dict[Sun, Colour] = {
 }
 """Towards the sun, in W, not normalised."""
 
+_UNIT_DIRECTIONS: dict[Sun, npt.NDArray[np.float64]] = {
+    sun: np.array(direction) / length(direction) for sun, direction in SUN_DIRECTIONS.items()
+}
+
 SUN_COLOURS: dict[Sun, Colour] = {
     "clear": (191 / 255, 191 / 255, 191 / 255),
     "dusk": (251 / 255, 251 / 255, 161 / 255),
@@ -134,9 +138,7 @@ class Light:
 
 def sun_direction(sun: Sun) -> npt.NDArray[np.float64]:
     """Unit vector towards the sun in W, (3,)."""
-    direction = np.array(SUN_DIRECTIONS[sun])
-    unit: npt.NDArray[np.float64] = direction / length(direction)
-    return unit
+    return _UNIT_DIRECTIONS[sun].copy()
 
 
 def clip_distance(

@@ -69,7 +69,7 @@ def _cast(
 ) -> tuple[Array, npt.NDArray[np.int32]]:
     """Depths [m] and surfaces of what each pixel sees, (h, w) each."""
     through = lens.rays().reshape(-1, 3)
-    stretch = np.sqrt((through * through).sum(axis=1))
+    stretch = lens.ray_lengths.reshape(-1)
     reach = lens.far * float(stretch.max(initial=1.0))
     hits = rays.cast(world_from_camera, through / stretch[:, None], reach, lens.near * stretch)
     depth = hits.distance / stretch

@@ -11,7 +11,7 @@ from ..base.geometry import Array
 from ..base.record import Record
 from ..base.sampling import Sampler
 from ..schema import Spec
-from ..world import Mount, MovingBody, SensorWorld
+from ..world import CompiledVehicle, Mount, MovingBody, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
 """Of the vehicle, at its pose in the file."""
@@ -84,8 +84,9 @@ class Carrier(Protocol):
     def name(self) -> str:
         """Its name in the scene."""
 
-    def base_mount(self) -> Mount:
-        """Return the frame of its base."""
+    @property
+    def compiled(self) -> CompiledVehicle:
+        """The vehicle as compiled code reads it."""
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> Mount:
         """Fix something to its link, or to the link's visual frame: a frame that moves with it.

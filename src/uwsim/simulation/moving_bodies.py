@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -12,6 +12,8 @@ import numpy.typing as npt
 from ..base.geometry import Array, Pose
 from ..base.numerics.calls import address_of, function_address
 from ..base.numerics.linear import turned_back
+from ..base.sampling import Sampler, addresses_in, gathering
+from ..physics.engine import Engine
 from ..physics.kinematics import link_kernel
 from ..physics.kinematics.link_motion import LinkMotion
 from ..physics.kinematics.placed_motion import PlacedMotion
@@ -142,3 +144,66 @@ class MovingBody(MountedBody):
         here = self.world_from_body
         parts = wrench(here.position).reshape(2, 3)
         return np.concatenate([turned_back(here.rotation, each) for each in parts])
+
+
+class CompiledVehicle:
+    """A vehicle as compiled code reads it (`uwsim.world.CompiledVehicle`).
+
+    Args:
+        name: of its base.
+        root: the link that is its base.
+        joints: names of the joints of its joint vector.
+        index: its number in the scene.
+        engine: where it is.
+        led_twist: returns the velocity of its base in W [m/s], and its turning in its own axes
+            [rad/s], where it does not move as the engine moves it, (6,); None where it does.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        root: str,
+        joints: Sequence[str],
+        index: int,
+        engine: Engine,
+        led_twist: Callable[[], Array | None],
+    ) -> None:
+        self._name, self._root, self._index, self._engine = name, root, index, engine
+        self._joints, self._led_twist = joints, led_twist
+        self._led = np.zeros(6)  # what `led_twist` returns, for samples
+        self._addresses = self._twist = np.zeros(0, np.int64)  # of what they read; of the engine's
+
+    def base_mount(self) -> MountedBody:
+        """Return the frame of its base."""
+        poses = self._engine.poses
+        record = poses.mount(self._index, self._root, Pose.identity())
+        return MountedBody(self._name, poses, record)
+
+    def base_sampler(self) -> Sampler:
+        """Return what takes samples of its base, 18 numbers; see `uwsim.world.CompiledVehicle`."""
+        place, twist = self._engine.link_motion.base_addresses(self._index)
+        self._twist = twist
+        self._addresses = np.concatenate([place, twist])
+        return gathering(self._addresses, prepare=self._prepare, is_alone=self._is_alone)
+
+    def _prepare(self, time: float) -> None:
+        """Look up where the base is, and its twist if the engine does not move it."""
+        self._engine.poses.refresh()
+        if not self._is_alone():
+            twist = self._led_twist()
+            assert twist is not None
+            self._led[:] = twist
+
+    def _is_alone(self) -> bool:
+        """Whether the engine moves it; samples read its twist, else that which is led."""
+        is_free = self._led_twist() is None
+        self._addresses[-len(self._led) :] = self._twist if is_free else addresses_in(self._led)
+        return is_free
+
+    def joint_sampler(self) -> Sampler:
+        """Return what takes samples of its joints; see `uwsim.world.CompiledVehicle`."""
+        engine = self._engine
+        addresses = engine.link_motion.joint_addresses(
+            self._index, self._joints, with_motion=engine.is_simulated(self._index)
+        )
+        return gathering(addresses, prepare=lambda _: None, is_alone=lambda: True)

@@ -260,7 +260,9 @@ class Simulation:
             NoGraphics: there is no OpenGL.
         """
         view, scenery = self.world.sensors.camera(camera), self.world.scenery
-        image = scenery.render_clean(view.world_from_camera, view.intrinsics)
+        image = scenery.render_clean(
+            view.world_from_camera, view.intrinsics, is_polished=view.is_polished
+        )
         return replace(image, world_from_camera=view.world_from_camera, names=scenery.part_names)
 
     def boxes(self, of: str = "L") -> dict[str, OrientedBox]:

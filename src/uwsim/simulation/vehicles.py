@@ -23,7 +23,7 @@ from ..scene.mounts import MountFrames
 from ..sensors.sensor import Mounted
 from ..vehicle import Autopilot, Servos
 from ..world import Actuators
-from .moving_bodies import MountedBody, MovingBody, MovingLink
+from .moving_bodies import CompiledVehicle, MountedBody, MovingBody, MovingLink
 
 
 @dataclass(slots=True)
@@ -154,15 +154,17 @@ class SceneVehicle:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
         self.lead(None, values)
 
-    def put(self, world_from_base: Pose) -> None:
-        """Set its pose, at rest; it is displaced from there from now on."""
-        self.state.centre = self._centre_of(world_from_base)
-        self._rest_at(world_from_base)
+    def put(self, world_from_base: Pose | None) -> None:
+        """Set its pose, at rest; it is displaced from there from now on.
 
-    def put_back(self) -> None:
-        """Put it where the scene puts it now, at rest."""
-        self.state.centre = None
-        self._rest_at(self._displaced_pose())
+        None puts it where the scene puts it now.
+        """
+        if world_from_base is None:
+            self.state.centre = None
+            world_from_base = self._displaced_pose()
+        else:
+            self.state.centre = self._centre_of(world_from_base)
+        self._rest_at(world_from_base)
 
     def _rest_at(self, world_from_base: Pose) -> None:
         self._engine.place_vehicle(self.index, world_from_base)
@@ -217,11 +219,18 @@ class SceneVehicle:
         """Release an object that is held."""
         self._engine.grips.let_go(thing)
 
-    def base_mount(self) -> MountedBody:
-        """Return the frame of its base."""
-        root, poses = self._frames.robot.root, self._engine.poses
-        record = poses.mount(self.index, root, Pose.identity())
-        return MountedBody(f"{self.name}/{root}", poses, record)
+    @property
+    def compiled(self) -> CompiledVehicle:
+        """The vehicle as compiled code reads it."""
+        root = self._frames.robot.root
+        return CompiledVehicle(
+            f"{self.name}/{root}",
+            root,
+            self.joint_names,
+            self.index,
+            self._engine,
+            lambda: None if self._placed is None else self._placed.twist(self._step()),
+        )
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
         """Fix something to its link; raises UnknownName if there is no such link."""

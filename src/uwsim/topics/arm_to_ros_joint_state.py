@@ -6,16 +6,16 @@ are zero.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import ClassVar
 
 import numpy as np
 
+from ..base.geometry import Array
 from ..messages import JointState, header
-from ..vehicle import Vehicle
-from .interface import Interface, TopicWorld, VehiclePublisherSpec, is_needed, sample_rate
+from .interface import SampledTopic, TopicWorld, VehiclePublisherSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,33 +24,28 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
 
     messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
 
-    def bind(self, world: TopicWorld) -> JointPublisher:
+    def bind(self, world: TopicWorld) -> SampledTopic:
         """Publish from now on; raises UnknownName if there is no such vehicle."""
-        publisher = JointPublisher(self.topic, world.vehicle(self.vehicle_name), world)
-        needed = partial(is_needed, world.bus, self.topic)
-        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=needed)
-        return publisher
+        vehicle = world.vehicle(self.vehicle_name)
+        make = partial(joint_state, tuple(vehicle.joint_names))
+        publish = world.bus.publisher(self.topic, JointState)
+        sampled = SampledTopic(self.topic, vehicle.compiled.joint_sampler(), make, publish)
+        sampled.begin(self.rate, world)
+        return sampled
 
 
-class JointPublisher(Interface):
-    """Publishes the joint vector and, of a simulated vehicle, its velocities and efforts."""
+def joint_state(names: Sequence[str], time: float, values: Array) -> JointState:
+    """Return the joint vector and, of a simulated vehicle, its velocities and efforts.
 
-    def __init__(self, topic: str, vehicle: Vehicle, world: TopicWorld) -> None:
-        self._vehicle, self._world = vehicle, world
-        self._publish = world.bus.publisher(topic, JointState)
-
-    def publish(self) -> None:
-        """Publish the state as it is now."""
-        names, servos = list(self._vehicle.joint_names), self._vehicle.servos
-        velocity, effort = np.zeros(0), np.zeros(len(names))
-        if servos is not None:
-            velocity, effort = servos.velocities, servos.efforts
-        self._publish(
-            JointState(
-                header=header(self._world.time),
-                name=names,
-                position=self._vehicle.joints,
-                velocity=velocity,
-                effort=effort,
-            )
-        )
+    Args:
+        names: of the joints.
+        time: of the sample [s].
+        values: of `CompiledVehicle.joint_sampler`.
+    """
+    n = len(names)
+    position, velocity, effort = values[:n].copy(), values[n : 2 * n].copy(), np.zeros(n)
+    if len(values) > n:
+        effort = values[2 * n : 3 * n] + values[3 * n :]
+    return JointState(
+        header=header(time), name=list(names), position=position, velocity=velocity, effort=effort
+    )

@@ -13,7 +13,9 @@ from typing import ClassVar
 
 import numpy as np
 
-from ..base.geometry import quaternion_from_rotation
+from ..base.geometry import Array, quaternion_from_rotation
+from ..base.geometry import Pose as PoseOfBody
+from ..base.numerics.linear import turned_back
 from ..messages import (
     Odometry,
     Point,
@@ -25,8 +27,7 @@ from ..messages import (
     Vector3,
     header,
 )
-from ..vehicle import Vehicle
-from .interface import Interface, TopicWorld, VehiclePublisherSpec, is_needed, sample_rate
+from .interface import SampledTopic, TopicWorld, VehiclePublisherSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,46 +36,47 @@ class PATToROSOdomSpec(VehiclePublisherSpec):
 
     messages: ClassVar[Mapping[str, type]] = {"topic": Odometry}
 
-    def bind(self, world: TopicWorld) -> OdometryPublisher:
+    def bind(self, world: TopicWorld) -> SampledTopic:
         """Publish from now on; raises UnknownName if there is no such vehicle."""
-        publisher = OdometryPublisher(self.topic, world.vehicle(self.vehicle_name), world)
-        needed = partial(is_needed, world.bus, self.topic)
-        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=needed)
-        return publisher
+        vehicle = world.vehicle(self.vehicle_name)
+        localized_from_world = world.world_from_localized.inverse()
+        make = partial(odometry, localized_from_world, vehicle.autopilot is not None)
+        publish = world.bus.publisher(self.topic, Odometry)
+        sampled = SampledTopic(self.topic, vehicle.compiled.base_sampler(), make, publish)
+        sampled.begin(self.rate, world)
+        return sampled
 
 
-class OdometryPublisher(Interface):
-    """Publishes the base in L and, of a simulated vehicle, its twist over ground, base axes."""
+def odometry(
+    localized_from_world: PoseOfBody, is_simulated: bool, time: float, values: Array
+) -> Odometry:
+    """Return the base in L and, of a simulated vehicle, its twist over ground, base axes.
 
-    def __init__(self, topic: str, vehicle: Vehicle, world: TopicWorld) -> None:
-        self._vehicle, self._world = vehicle, world
-        self._localized_from_world = world.world_from_localized.inverse()
-        self._is_simulated = vehicle.autopilot is not None
-        self._publish = world.bus.publisher(topic, Odometry)
-
-    def publish(self) -> None:
-        """Publish the state as it is now."""
-        pose = self._localized_from_world @ self._vehicle.world_from_base
-        w, x, y, z = quaternion_from_rotation(pose.rotation).tolist()
-        px, py, pz = pose.position.tolist()
-        twist = self._vehicle.velocity if self._is_simulated else np.zeros(6)
-        vx, vy, vz, wx, wy, wz = twist.tolist()
-        self._publish(
-            Odometry(
-                header=header(self._world.time),
-                child_frame_id="",
-                pose=PoseWithCovariance(
-                    pose=Pose(
-                        position=Point(x=px, y=py, z=pz),
-                        orientation=Quaternion(x=x, y=y, z=z, w=w),
-                    ),
-                    covariance=np.zeros(36),
-                ),
-                twist=TwistWithCovariance(
-                    twist=Twist(
-                        linear=Vector3(x=vx, y=vy, z=vz), angular=Vector3(x=wx, y=wy, z=wz)
-                    ),
-                    covariance=np.zeros(36),
-                ),
-            )
-        )
+    Args:
+        localized_from_world: L from W.
+        is_simulated: whether the vehicle is.
+        time: of the sample [s].
+        values: of `CompiledVehicle.base_sampler`, (18,).
+    """
+    world_from_base = PoseOfBody(values[:3].copy(), values[3:12].reshape(3, 3).copy())
+    pose = localized_from_world @ world_from_base
+    w, x, y, z = quaternion_from_rotation(pose.rotation).tolist()
+    px, py, pz = pose.position.tolist()
+    linear, angular = np.zeros(3), np.zeros(3)
+    if is_simulated:
+        linear, angular = turned_back(world_from_base.rotation, values[12:15]), values[15:]
+    return Odometry(
+        header=header(time),
+        child_frame_id="",
+        pose=PoseWithCovariance(
+            pose=Pose(
+                position=Point(x=px, y=py, z=pz),
+                orientation=Quaternion(x=x, y=y, z=z, w=w),
+            ),
+            covariance=np.zeros(36),
+        ),
+        twist=TwistWithCovariance(
+            twist=Twist(linear=Vector3(*linear.tolist()), angular=Vector3(*angular.tolist())),
+            covariance=np.zeros(36),
+        ),
+    )

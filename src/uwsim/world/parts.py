@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from ..acoustics import Material
 from ..base.geometry import Intrinsics, Pose
+from ..base.sampling import Sampler
 from ..rays import Balls, Hits
 
 TIMESTEP = 0.002
@@ -100,6 +101,27 @@ class MovingBody(Mount, Protocol):
 
         Force [N] and torque about its origin [N m], in its axes, in the last step, with the water
         on these links; 0 for a vehicle that is not simulated.
+        """
+
+
+class CompiledVehicle(Protocol):
+    """A vehicle as compiled code reads it."""
+
+    def base_mount(self) -> Mount:
+        """Return the frame of its base."""
+
+    def base_sampler(self) -> Sampler:
+        """Return what takes samples of its base, 18 numbers.
+
+        Where it is in W [m], its axes in W by rows, its velocity over ground in W [m/s], and its
+        angular velocity in its own axes [rad/s].
+        """
+
+    def joint_sampler(self) -> Sampler:
+        """Return what takes samples of the n joints of the joint vector, 4 n numbers.
+
+        Positions [rad or m], velocities [rad/s or m/s], and two parts of the efforts [N m or N]; of
+        a vehicle that is not simulated the positions alone.
         """
 
 

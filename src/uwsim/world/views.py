@@ -218,6 +218,7 @@ class SensorWorld(TimedWorld, Protocol):
         std: float,
         random: np.random.Generator,
         grey: bool,
+        is_polished: bool = False,
     ) -> npt.NDArray[np.uint8]:
         """Render the image of a camera, with noise; row 0 is the top.
 
@@ -227,6 +228,7 @@ class SensorWorld(TimedWorld, Protocol):
             std: noise of each channel, 0..1.
             random: the camera's random stream.
             grey: give (h, w), each term of the sum cut to a whole number; else (h, w, 3).
+            is_polished: draw soft shadows, highlights and smooth edges.
         """
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:

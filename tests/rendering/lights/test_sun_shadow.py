@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -166,3 +167,61 @@ def test_a_vehicle_whose_shadow_is_elsewhere_is_left_out(renderer: Renderer) -> 
         before = shadow.texture_from_world
         brightness(renderer, down, Light())
         assert (shadow.texture_from_world is not before) == is_needed
+
+
+def draw_around(renderer: Renderer, places: Mapping[int, tuple[float, float, float]]) -> np.ndarray:
+    """The view of four balls at the corners of a floor, with more of them between."""
+    for handle, place in places.items():
+        renderer.place(handle, placed(*place))
+    return brightness(renderer, look_from(np.array([0.1, -1.0, 9.0]), np.zeros(3)), Light())
+
+
+@pytest.fixture
+def crowd(renderer: Renderer) -> dict[int, tuple[float, float, float]]:
+    """A floor, four balls at its corners, and four between; the handles of these and places."""
+    renderer.place(renderer.add(plate(30.0, 30.0, (0.8, 0.8, 0.8)), 1), placed())
+    for x, y in ((-2.5, -2.5), (2.5, -2.5), (-2.5, 2.5), (2.5, 2.5)):
+        renderer.place(renderer.add(ball(0.3), 2), placed(x, y, 1.0))
+    places = [(-0.9, 0.4, 0.5), (0.2, -0.7, 0.6), (0.9, 0.9, 0.4), (0.0, 0.3, 0.7)]
+    return {renderer.add(ball(0.2), 3 + i): place for i, place in enumerate(places)}
+
+
+def test_only_casters_that_moved_are_drawn_again(
+    renderer: Renderer, crowd: dict[int, tuple[float, float, float]]
+) -> None:
+    shadow, mover = renderer._shadow, min(crowd)
+    n_drawn, images = [], []
+    for x in (-0.9, -0.8, -0.7, -0.6, -0.6):
+        before = shadow.n_drawn
+        images.append(draw_around(renderer, crowd | {mover: (x, 0.4, 0.5)}))
+        n_drawn.append(shadow.n_drawn - before)
+    assert n_drawn == [8, 8, 1, 1, 0]
+    assert not np.array_equal(images[2], images[3])
+
+
+def test_casters_that_come_to_rest_are_drawn_no_more(
+    renderer: Renderer, crowd: dict[int, tuple[float, float, float]]
+) -> None:
+    shadow, mover = renderer._shadow, min(crowd)
+    n_drawn = []
+    for step in range(6):
+        falling = {h: (x, y, z - 0.01 * min(step, 2)) for h, (x, y, z) in crowd.items()}
+        x, y, z = crowd[mover]
+        before = shadow.n_drawn
+        draw_around(renderer, falling | {mover: (x + 0.05 * step, y, z)})
+        n_drawn.append(shadow.n_drawn - before)
+    assert n_drawn == [8, 8, 4, 8, 1, 1]
+
+
+def test_a_map_of_which_a_part_is_kept_is_the_map_drawn_as_a_whole(
+    renderer: Renderer, crowd: dict[int, tuple[float, float, float]]
+) -> None:
+    random = np.random.default_rng(2)
+    for step in range(8):
+        for handle in crowd:
+            if random.random() < 0.4:
+                x, y, z = crowd[handle]
+                crowd[handle] = x + 0.02 * random.normal(), y + 0.02 * random.normal(), z
+        kept = draw_around(renderer, crowd)
+        renderer.remove(renderer.add(ball(0.1), 9))  # all is drawn anew
+        assert np.array_equal(draw_around(renderer, crowd), kept), step

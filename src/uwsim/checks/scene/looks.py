@@ -1,4 +1,4 @@
-"""Directions of sensors and lamps in words; sensors mounted as before July 2014."""
+"""Directions of sensors and lamps in words; how cameras are called and drawn; old mounts."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...devices.structured_light_projector import StructuredLightProjectorSpec
 from ...errors import Diagnostic
 from ...scene.mounts import MountFrames
 from ...scene.pointing import describe_direction, looking
-from ...schema import uses_extensions
+from ...schema import NAMESPACE, uses_extensions
 from ...sensors.dvl_sensor import DvlSensorSpec
 from ...sensors.sensor import Looking, Mounted
 from ...sensors.virtual_camera import VirtualCameraSpec
@@ -18,6 +18,9 @@ from ..subjects import CheckedScene
 
 STEEP = 0.5
 """What looks higher looks up: sine of the angle above the horizon."""
+COST_OF_POLISH = "three to four times the time of"
+"""Measured with a software rasteriser: 16.7 ms in place of 5.4 ms at 320x240, 46 in place of 13 ms
+at 640x480."""
 
 
 def directions(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -51,6 +54,15 @@ def shared_camera_names(scene: CheckedScene) -> Iterator[Diagnostic]:
                 f"{count} cameras are called {name!r}; interfaces and benchmarks find this one"
             )
             yield scene.warning(last[name], message)
+
+
+def polished_cameras(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """State what polished images cost."""
+    for vehicle in scene.spec.vehicles:
+        for camera in vehicle.parts_of(VirtualCameraSpec):
+            if camera.quality == "polished":
+                message = f"{_called(camera)}: a polished image takes {COST_OF_POLISH} a plain one"
+                yield scene.warning(camera, message, f"{{{NAMESPACE}}}quality")
 
 
 def _called(spec: Mounted) -> str:

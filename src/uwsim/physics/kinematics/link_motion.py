@@ -7,12 +7,16 @@ engine solved in that step, in which forces act at its middle: accelerations are
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
 from ...base.numerics.calls import address_of
+from ...base.sampling import Addresses, addresses_in
+from ...model.body_names import vehicle_joint
 from ...world import BodyMotion
 from ..poses import Poses
 from . import link_kernel
@@ -37,6 +41,35 @@ class LinkMotion:
         self._led: dict[int, tuple[Array, Array]] = {}
         self._chains: dict[tuple[int, int | None], Chain] = {}
         self._kept: list[npt.NDArray[np.int64]] = []  # what chains have the addresses of
+
+    def base_addresses(self, index: int) -> tuple[Addresses, Addresses]:
+        """Return the addresses of the place and of the twist of a vehicle's base, (12,) and (6,).
+
+        Position [m] and axes in W by rows, as `Poses.refresh` leaves them; velocity in W [m/s] and
+        angular velocity in its own axes [rad/s].
+        """
+        poses, body = self._poses, self._poses.base(index)
+        dof = int(self._model.body_dofadr[body])
+        place = (
+            addresses_in(poses.origins, np.arange(3 * body, 3 * body + 3)),
+            addresses_in(poses.axes, np.arange(9 * body, 9 * body + 9)),
+        )
+        return np.concatenate(place), addresses_in(self._data.qvel, np.arange(dof, dof + 6))
+
+    def joint_addresses(self, index: int, names: Sequence[str], *, with_motion: bool) -> Addresses:
+        """Return the addresses of the positions of some joints of a vehicle [rad or m], (n,).
+
+        With motion, (4 n,), those of velocities [rad/s or m/s] and of the two parts of the efforts
+        [N m or N] follow: what drives the joints, and what is applied to them.
+        """
+        model, data = self._model, self._data
+        joints = [model.joint(vehicle_joint(index, name)).id for name in names]
+        places, dofs = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
+        found = [addresses_in(data.qpos, places)]
+        if with_motion:
+            moving = data.qvel, data.qfrc_actuator, data.qfrc_applied
+            found += [addresses_in(array, dofs) for array in moving]
+        return np.concatenate(found)
 
     def led(self, index: int) -> tuple[Array, Array]:
         """Return where the motion of a vehicle's joints is written that is not the engine's.

@@ -15,9 +15,10 @@ import numpy as np
 from ...base.geometry import Array, Intrinsics, Pose, image_centre
 from ...base.numerics.linear import product
 from ...devices.lamp import MAX_LAMPS
-from ..instance import INSTANCE, Instances, Slots, in_view
+from ..brush import Brush
+from ..instance import INSTANCE, Instances, Numbers, Slots, in_view
 from ..program import Block, build
-from ..projection import clip_from_camera, frustum
+from ..projection import projection
 from .lamp import MAX_HALF_ANGLE, Lamp
 
 TILE = 512
@@ -64,7 +65,7 @@ class Lamps:
         self,
         lamps: Sequence[Lamp],
         instances: Instances,
-        casters: Sequence[int],
+        casters: Numbers,
         version: object,
     ) -> None:
         """Draw the shadow maps that are out of date.
@@ -72,7 +73,7 @@ class Lamps:
         Args:
             lamps: What shines, in the order of the tiles.
             instances: All there are.
-            casters: Rows of possible casters; terrain, too.
+            casters: Numbers of the batches of possible casters; terrain, too.
             version: Changes whenever a caster moved, came or went.
         """
         for tile, lamp in enumerate(lamps):
@@ -85,14 +86,15 @@ class Lamps:
             )
             if key != self._drawn[tile]:
                 self._drawn[tile] = key
-                self._draw(tile, lamp, instances, casters if lamp.casts_shadow else ())
+                self._draw(tile, lamp, instances, casters if lamp.casts_shadow else casters[:0])
 
     def fill(self, lamps: Sequence[Lamp], world_from_camera: Pose) -> None:
         """Fill the uniform block and bind it."""
         values, camera_from_world = self._values, world_from_camera.inverse()
         for tile, lamp in enumerate(lamps):
             lamp_from_world = lamp.world_from_lamp.inverse()
-            map_from_lamp = product(_tile_from_clip(tile), clip_from_camera(_map_camera(lamp)))
+            lens = projection(_map_camera(lamp))
+            map_from_lamp = product(_tile_from_clip(tile), lens.clip_from_camera)
             map_from_camera = product(
                 product(map_from_lamp, lamp_from_world.matrix), world_from_camera.matrix
             )
@@ -107,7 +109,7 @@ class Lamps:
         self._buffer.write(values.tobytes())
         self._buffer.bind_to_uniform_block(LAMPS.binding)
 
-    def _draw(self, tile: int, lamp: Lamp, instances: Instances, casters: Sequence[int]) -> None:
+    def _draw(self, tile: int, lamp: Lamp, instances: Instances, casters: Numbers) -> None:
         view = _map_camera(lamp)
         place = TILE * (tile % 2), TILE * (tile // 2), TILE, TILE
         self.n_drawn += 1
@@ -123,7 +125,7 @@ def draw_casters(
     program: moderngl.Program,
     slots: Slots,
     instances: Instances,
-    casters: Sequence[int],
+    casters: Numbers,
     world_from_lamp: Pose,
     view: Intrinsics,
 ) -> None:
@@ -134,23 +136,21 @@ def draw_casters(
         program: That of shadows.
         slots: Where the places of the instances go.
         instances: All there are.
-        casters: Rows of possible casters.
+        casters: Numbers of the batches of possible casters.
         world_from_lamp: Where the lamp is.
         view: Its pinhole.
     """
-    clip_from_lamp = clip_from_camera(view)
+    lens = projection(view)
     context.enable_only(moderngl.DEPTH_TEST)
     context.depth_func = "<="
     context.polygon_offset = 1.5, 2.0
-    slots.fill(instances, product(clip_from_lamp, world_from_lamp.inverse().matrix))
-    for number in in_view(instances, casters, world_from_lamp, frustum(clip_from_lamp)):
-        row, batch = instances.batch(number)
-        if batch.opacity < 1.0:  # glass casts no shadow
-            continue
-        # As in the renderer's images: upside down for OpenGL, so outside is clockwise.
-        context.front_face = "ccw" if instances.is_mirrored[row] else "cw"
-        slots.bind(row)
-        batch.draw(program)
+    slots.fill(instances, product(lens.clip_from_camera, world_from_lamp.inverse().matrix))
+    brush = Brush(context, instances, slots, outside="cw")
+    seen = in_view(instances, casters, world_from_lamp, lens.planes)
+    batches = instances.numbered
+    for number in seen.tolist():
+        if batches[number][1].opacity >= 1.0:  # glass casts no shadow
+            brush.draw(number, program)
     context.polygon_offset = 0.0, 0.0
 
 

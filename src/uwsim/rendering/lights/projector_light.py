@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import moderngl
 import numpy as np
 
 from ...base.geometry import Pose
 from ...base.numerics.linear import product
-from ..instance import INSTANCE, Instances, Slots
+from ..instance import INSTANCE, Instances, Numbers, Slots
 from ..program import Block, build
-from ..projection import clip_from_camera
+from ..projection import projection
 from .lamps import draw_casters
 from .projector import Projector
 
@@ -45,7 +43,7 @@ class ProjectorLight:
         self,
         projector: Projector,
         instances: Instances,
-        casters: Sequence[int],
+        casters: Numbers,
         version: object,
     ) -> None:
         """Draw the shadow map, if it is out of date.
@@ -53,7 +51,7 @@ class ProjectorLight:
         Args:
             projector: What shines.
             instances: All there are.
-            casters: Rows of possible casters; terrain, too.
+            casters: Numbers of the batches of possible casters; terrain, too.
             version: Changes whenever a caster moved, came or went.
         """
         if self._pattern is not projector.pattern:
@@ -72,7 +70,7 @@ class ProjectorLight:
         """Fill the uniform block and bind it."""
         values, lens = self._values, projector.pinhole
         projector_from_camera = projector.world_from_projector.inverse() @ world_from_camera
-        map_from_projector = product(TEXTURE_FROM_CLIP, clip_from_camera(lens))
+        map_from_projector = product(TEXTURE_FROM_CLIP, projection(lens).clip_from_camera)
         values["projector_from_camera"] = product(
             map_from_projector, projector_from_camera.matrix
         ).T  # OpenGL counts columns first

@@ -1,8 +1,8 @@
-"""The sun's shadow map: one depth image of the casters, redrawn only when they moved."""
+"""The sun's shadow map: one depth image of the casters."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
 
 import moderngl
 import numpy as np
@@ -10,9 +10,10 @@ import numpy.typing as npt
 
 from ...base.geometry import Array, Pose
 from ...base.numerics.jit import njit
-from ...base.numerics.linear import cross, length, product, solve
-from ..instance import INSTANCE, Instances, Slots
+from ...base.numerics.linear import cross, matrices, product
+from ..instance import INSTANCE, Instances, Numbers
 from ..program import build
+from .caster_map import CasterMap
 
 SMALL, LARGE = 512, 1024
 """Edges of the map [texels]; the small one costs a third of the large one to draw."""
@@ -42,70 +43,52 @@ class SunShadow:
     """
 
     def __init__(self, context: moderngl.Context) -> None:
-        self._context = context
-        self._maps = {size: _depth_map(context, size) for size in (SMALL, LARGE)}
-        self.texture = self._maps[SMALL]
-        """The map now in use."""
-        self._framebuffers = {
-            size: context.framebuffer(depth_attachment=texture)
-            for size, texture in self._maps.items()
-        }
-        self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
-        self._slots = Slots(context)
+        program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
+        self._maps = {size: CasterMap(context, program, size) for size in (SMALL, LARGE)}
+        self._map = self._maps[SMALL]
         self._drawn: object = None
         self.texture_from_world = np.eye(4)
         """W to texture coordinates and depth of the map, 0..1."""
         self.lift = 0.0
         """How far a receiver is pushed off along its normal [m]."""
 
-    def update(
-        self, instances: Instances, casters: Sequence[int], sun: Array, version: object
-    ) -> None:
-        """Draw the map, unless all is as at the last drawing.
+    @property
+    def texture(self) -> moderngl.Texture:
+        """The map now in use."""
+        return self._map.texture
+
+    @property
+    def n_drawn(self) -> int:
+        """Number of batches drawn into maps so far."""
+        return sum(each.n_drawn for each in self._maps.values())
+
+    def update(self, instances: Instances, casters: Numbers, sun: Array) -> None:
+        """Bring the map up to date.
 
         Args:
             instances: All there are.
-            casters: Numbers of the batches that cast shadows.
+            casters: Numbers of the batches that cast shadows, (k,).
             sun: Unit vector towards the sun in W, (3,).
-            version: Changes whenever a caster moved, came or went.
         """
-        key = (version, tuple(casters), tuple(sun))
+        key = instances.version, casters.tobytes(), sun.tobytes()
         if key == self._drawn:
             return
         self._drawn = key
-        spheres = instances.spheres[list(casters)]
-        clip_from_world, edge = _fit(spheres, sun)
+        clip_from_world, edge = _fit(instances.spheres[casters], sun)
         size = SMALL if edge / SMALL <= FINE_TEXEL else LARGE
-        self.texture = self._maps[size]
+        self._map = self._maps[size]
+        self._map.update(instances, casters, clip_from_world)
         self.texture_from_world = product(_TO_TEXTURE, clip_from_world)
         self.lift = 1.5 * edge / size
-        context = self._context
-        self._framebuffers[size].use()
-        self._framebuffers[size].clear(depth=1.0)
-        context.enable_only(moderngl.DEPTH_TEST)
-        context.depth_func = "<="
-        context.polygon_offset = 1.5, 2.0
-        self._slots.fill(instances, clip_from_world)
-        is_mirrored = instances.is_mirrored
-        for number in casters:
-            row, batch = instances.batch(number)
-            self._slots.bind(row)
-            context.front_face = "cw" if is_mirrored[row] else "ccw"
-            batch.draw(self._program)
-        context.polygon_offset = 0.0, 0.0
-
-    def take_over(self) -> None:
-        """Bind the shadow map as the render target and flush earlier draw calls."""
-        self._framebuffers[SMALL].use()
 
 
 def reached(
     instances: Instances,
-    casters: Sequence[int],
-    seen: Sequence[int],
+    casters: Numbers,
+    seen: Numbers,
     sun: Array,
     world_from_camera: Pose,
-    clip_from_camera: Array,
+    corner_rays: Array,
 ) -> npt.NDArray[np.bool_]:
     """Return on which visible instances each caster may cast a shadow, (seen, casters).
 
@@ -118,14 +101,14 @@ def reached(
         seen: Numbers of the batches in view, n.
         sun: Unit vector towards the sun in W, (3,).
         world_from_camera: Where the camera is.
-        clip_from_camera: Its projection, (4, 4).
+        corner_rays: Of its image, 1 m deep, camera frame, (4, 3) [m].
     """
-    rays = product(_corner_rays(clip_from_camera), world_from_camera.rotation.T)  # (4, 3), 1 m deep
+    rays = product(corner_rays, world_from_camera.rotation.T)  # (4, 3) [m]
     may = np.empty((len(seen), len(casters)), dtype=bool)
     _reach(
         instances.corners,
-        np.array(casters, dtype=np.intp),
-        np.array(seen, dtype=np.intp),
+        casters,
+        seen,
         _along(sun),
         rays,
         world_from_camera.position,
@@ -138,8 +121,8 @@ def reached(
 @njit
 def _reach(
     corners: Array,
-    casters: npt.NDArray[np.intp],
-    seen: npt.NDArray[np.intp],
+    casters: Numbers,
+    seen: Numbers,
     frame: Array,
     rays: Array,
     place: Array,
@@ -204,26 +187,26 @@ def _along(sun: Array) -> Array:
     is low; and how far towards the sun.
     """
     if sun[2] < LOW_SUN:
-        return np.stack([*_axes(sun), sun])
+        return np.stack([*_axes(sun)[:2], sun])
     return np.array([[1.0, 0.0, -sun[0] / sun[2]], [0.0, 1.0, -sun[1] / sun[2]], sun])
 
 
-def _corner_rays(clip_from_camera: Array) -> Array:
-    """Towards the corners of the image, 1 m deep, camera frame, (4, 3)."""
-    corners = np.array([[x, y, 1.0] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
-    # With z = -1: x_clip = P00 x + P01 y - P02, y_clip = P11 y - P12, w = 1.
-    matrix = clip_from_camera[:2, :3]
-    xy = solve(matrix[:, :2], (corners[:, :2] + matrix[:, 2]).T).T
-    return np.column_stack([xy, -corners[:, 2]])
+@njit
+def _axes(sun: Array) -> Array:
+    """Right, up and forward vectors of a camera that looks from the sun, (3, 3)."""
+    axes, pole = np.empty((3, 3)), np.zeros(3)
+    pole[2 if abs(sun[2]) < 0.9 else 0] = 1.0
+    axes[2] = -sun
+    aside = cross(axes[2], pole)
+    squares = 0.0
+    for k in range(3):
+        squares += aside[k] * aside[k]
+    axes[0] = aside / math.sqrt(squares)
+    axes[1] = cross(axes[0], axes[2])
+    return axes
 
 
-def _axes(sun: Array) -> tuple[Array, Array]:
-    """Right and up vectors of a camera that looks from the sun, (3,) each."""
-    aside = cross(-sun, np.eye(3)[2 if abs(sun[2]) < 0.9 else 0])
-    aside /= length(aside)
-    return aside, cross(aside, -sun)
-
-
+@njit
 def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
     """The sun's orthographic camera round all casters, (4, 4), and the edge of its view [m].
 
@@ -231,22 +214,20 @@ def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
         spheres: round the casters in W: centre and radius, (n, 4) [m].
         sun: Unit vector towards the sun in W, (3,).
     """
-    axes = np.stack([*_axes(sun), -sun])  # (3, 3)
-    centres, radii = product(spheres[:, :3], axes.T), spheres[:, 3:]  # (n, 3), (n, 1) [m]
-    low, high = (centres - radii).min(axis=0), (centres + radii).max(axis=0)
+    axes = _axes(sun)
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    centres = matrices(np.ascontiguousarray(spheres[:, :3]), np.ascontiguousarray(axes.T))
+    for n in range(len(spheres)):
+        for k in range(3):
+            low[k] = min(low[k], centres[n, k] - spheres[n, 3])
+            high[k] = max(high[k], centres[n, k] + spheres[n, 3])
     half = max(high[0] - low[0], high[1] - low[1]) / 2.0
     reach = 20.0  # [m] below the casters where shadows still fall
     middle = (low + high) / 2.0
+    middle[2] = (high[2] + reach + low[2]) / 2.0
     scale = np.array([1.0 / half, 1.0 / half, 2.0 / (high[2] + reach - low[2])])
     matrix = np.eye(4)
-    matrix[:3, :3] = axes * scale[:, None]
-    matrix[:3, 3] = -scale * [middle[0], middle[1], (high[2] + reach + low[2]) / 2.0]
+    for k in range(3):
+        matrix[k, :3] = axes[k] * scale[k]
+        matrix[k, 3] = -scale[k] * middle[k]
     return matrix, 2.0 * half
-
-
-def _depth_map(context: moderngl.Context, size: int) -> moderngl.Texture:
-    texture = context.depth_texture((size, size))
-    texture.compare_func = "<="
-    texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
-    texture.repeat_x = texture.repeat_y = False
-    return texture

@@ -61,7 +61,10 @@ def visibility_facts(
             continue
         camera = simulation.world.sensors.camera(truth.camera)
         image = simulation.world.scenery.render_clean(
-            camera.world_from_camera, camera.intrinsics, fog=0.0
+            camera.world_from_camera,
+            camera.intrinsics,
+            fog=0.0,
+            is_polished=camera.is_polished,
         )
         assert image.range is not None
         assert image.colour is not None

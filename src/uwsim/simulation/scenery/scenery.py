@@ -26,9 +26,11 @@ from ...rendering.lights.lamp import Lamp
 from ...rendering.lights.projector import Projector
 from ...rendering.noise import add_noise
 from ...rendering.rendered_image import RenderedImage
+from ...rendering.smoothing import mean_of_squares
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ..unique_names import unique
+from .part_poses import PartPoses
 from .renderer_pool import RendererPool
 from .sand import HeapState, heaps_of
 
@@ -37,6 +39,8 @@ if TYPE_CHECKING:
 
 MAX_SMOOTH = 8192
 """Larger images are not drawn larger still to be smoothed [px]."""
+SAMPLES = 2
+"""Of a pixel of a polished camera, in width and in height."""
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
 
@@ -73,6 +77,7 @@ class Scenery:
         self._vehicle_labels = unique(self._vehicle_names)
         self.parts = model.parts
         """The models of the scene and whose they are."""
+        self._poses = PartPoses(self.parts, engine.poses)
         self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
         self.mounted_lamps: tuple[MountedLamp | Led, ...] = ()
         """The lamps and signal lamps of the scene."""
@@ -121,12 +126,7 @@ class Scenery:
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
         """The present pose of a part, with its scale, (4, 4) [m]."""
-        if part.vehicle is None:
-            assert part.object is not None
-            frame = self._engine.poses.object(part.object).matrix
-        else:
-            frame = self._engine.poses.link_frame(part.vehicle, part.link)
-        return product(frame, part.frame_from_mesh)
+        return self._poses.world_from_mesh(part)
 
     def corners(self, part: Part) -> Array:
         """Return the corners of a part's box where it is now, in W, (8, 3) [m]."""
@@ -141,14 +141,19 @@ class Scenery:
         std: float,
         random: np.random.Generator,
         grey: bool,
+        is_polished: bool = False,
     ) -> npt.NDArray[np.uint8]:
-        """Render a camera's image, with noise, (h, w, 3) or (h, w) when ``grey``."""
-        rendered = self._draw(
+        """Render a camera's image, with noise, (h, w, 3) or (h, w) when ``grey``.
+
+        Polished: as `render_clean` has it.
+        """
+        rendered = self._draw_smooth(
             world_from_camera,
             intrinsics,
             self.state.water,
-            targets=frozenset({"colour"}),
+            light=self._light(is_polished=is_polished),
             colour="linear16" if std > 0.0 else "uint8",
+            samples=SAMPLES if is_polished else 1,
         )
         assert rendered.colour is not None
         if rendered.colour.dtype == np.uint16:
@@ -179,10 +184,21 @@ class Scenery:
         *,
         fog: float | None = None,
         targets: Collection[str] = ALL_TARGETS,
+        is_polished: bool = False,
     ) -> RenderedImage:
-        """Render a noise-free image with range and ids, optionally at another fog density."""
-        water = self.state.water if fog is None else replace(self.state.water, fog=fog)
-        return self._draw(world_from_camera, intrinsics, water, targets=frozenset(targets))
+        """Render a noise-free image with range and ids, optionally at another fog density.
+
+        Polished: in the light of `Light.is_polished`; if colour alone is wanted, edges are smooth.
+        A pixel has one range and one id, so that with these its colour is that of its centre.
+        """
+        return self._draw_smooth(
+            world_from_camera,
+            intrinsics,
+            self.state.water if fog is None else replace(self.state.water, fog=fog),
+            light=self._light(is_polished=is_polished),
+            targets=frozenset(targets),
+            samples=SAMPLES if is_polished and set(targets) == {"colour"} else 1,
+        )
 
     def render_view(
         self,
@@ -206,17 +222,57 @@ class Scenery:
                 edges are smooth; range and ids are not drawn then.
         """
         density = self.state.water.fog if fog is None else fog
-        many = samples > 1 and max(intrinsics.width, intrinsics.height) * samples <= MAX_SMOOTH
-        size = intrinsics.width * samples, intrinsics.height * samples
-        rendered = self._draw(
+        return self._draw_smooth(
             world_from_camera,
-            intrinsics.resized(*size) if many else intrinsics,
+            intrinsics,
             replace(self.state.water, fog=density, has_air=True, fog_distance="ray"),
-            light=replace(self.state.light, is_polished=True),
-            targets=frozenset({"colour"} if many else targets),
+            light=self._light(is_polished=True),
+            targets=frozenset(targets),
             hidden=hidden,
+            samples=samples,
         )
-        return rendered if not many else _reduced(rendered, intrinsics)
+
+    def _light(self, *, is_polished: bool) -> Light:
+        """The scene's light, for an image that is polished or not."""
+        return replace(self.state.light, is_polished=True) if is_polished else self.state.light
+
+    def _draw_smooth(
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        water: Water,
+        *,
+        light: Light,
+        samples: int,
+        targets: frozenset[str] = frozenset({"colour"}),
+        colour: str = "uint8",
+        hidden: frozenset[int] | None = None,
+    ) -> RenderedImage:
+        """Render an image of which each pixel is the mean of ``samples`` in width and in height.
+
+        With several only the colour is drawn. Images that would be too large have one.
+        """
+        if samples == 1 or max(intrinsics.width, intrinsics.height) * samples > MAX_SMOOTH:
+            return self._draw(
+                world_from_camera,
+                intrinsics,
+                water,
+                light=light,
+                targets=targets,
+                colour=colour,
+                hidden=hidden,
+            )
+        drawn = self._draw(
+            world_from_camera,
+            intrinsics.resized(intrinsics.width * samples, intrinsics.height * samples),
+            water,
+            light=light,
+            targets=frozenset({"colour"}),
+            colour=colour,
+            hidden=hidden,
+        ).colour
+        assert drawn is not None
+        return RenderedImage(intrinsics=intrinsics, colour=mean_of_squares(drawn, samples))
 
     def _draw(
         self,
@@ -237,8 +293,7 @@ class Scenery:
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
         if self._drawn_version != self._engine.poses.version:
-            for part, handle in zip(self.parts, self._handles, strict=True):
-                renderer.place(handle, self.world_from_mesh(part))
+            renderer.place_all(self._handles, self._poses.of_all())
             if self.mounted_projector is not None:
                 self._projector = _projecting(*self.mounted_projector)
             self._drawn_version = self._engine.poses.version
@@ -319,18 +374,6 @@ class Scenery:
             self._drawn_heaps = {}
             self._drawn_version = -1
         self._own_pool.close()
-
-
-def _reduced(image: RenderedImage, intrinsics: Intrinsics) -> RenderedImage:
-    """Return an image of fewer pixels, each the mean of those in it."""
-    import cv2
-
-    assert image.colour is not None
-    size = intrinsics.width, intrinsics.height
-    colour = cv2.resize(image.colour.view(np.uint8), size, interpolation=cv2.INTER_AREA)
-    return RenderedImage(
-        intrinsics=intrinsics, colour=np.asarray(colour, dtype=np.uint8), range=None, ids=None
-    )
 
 
 def _shining(lamp: MountedLamp | Led) -> Lamp:

@@ -60,4 +60,4 @@ class StageView(SceneView):
 
     def put_back(self, vehicle: str) -> None:
         """Put a vehicle where the scene put it, at rest; UnknownName if there is none."""
-        self._vehicles.find(vehicle).put_back()
+        self._vehicles.find(vehicle).put(None)

@@ -167,7 +167,9 @@ class Film:
         world = self._puppets.simulation.world
         camera = world.sensors.camera(name)
         lens = fitted(camera.intrinsics, size)
-        rendered = world.scenery.render_clean(camera.world_from_camera, lens, targets={"colour"})
+        rendered = world.scenery.render_clean(
+            camera.world_from_camera, lens, targets={"colour"}, is_polished=camera.is_polished
+        )
         assert rendered.colour is not None
         image = rendered.colour.view(np.uint8)
         if camera.is_grey:

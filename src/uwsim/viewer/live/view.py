@@ -235,7 +235,9 @@ class LiveView:
                 return seen
         if is_smaller:  # what nobody will see is not drawn
             lens = lens.resized(*size)
-        colour = world.scenery.render_clean(view.world_from_camera, lens, targets={"colour"}).colour
+        colour = world.scenery.render_clean(
+            view.world_from_camera, lens, targets={"colour"}, is_polished=view.is_polished
+        ).colour
         assert colour is not None
         pixels = colour.view(np.uint8)
         return grey_truncated(pixels) if view.is_grey else pixels

@@ -1,0 +1,35 @@
+"""Smooth edges: an image is drawn larger, and each pixel is the mean of those drawn in it."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from ..base.numerics.jit import njit
+
+Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
+
+
+@njit
+def mean_of_squares(pixels: Pixels, edge: int) -> Pixels:
+    """Return the means of squares of pixels, rounded to nearest, halves up.
+
+    Args:
+        pixels: (h, w, channels) of 8 or 16 bits.
+        edge: of a square, which divides h and w [px].
+
+    Returns:
+        (h / edge, w / edge, channels), as many bits.
+    """
+    height, width, channels = pixels.shape[0] // edge, pixels.shape[1] // edge, pixels.shape[2]
+    found = np.empty((height, width, channels), pixels.dtype)
+    number = np.uint32(edge * edge)
+    for row in range(height):
+        for column in range(width):
+            for channel in range(channels):
+                total = number // np.uint32(2)
+                for i in range(edge):
+                    for j in range(edge):
+                        total += np.uint32(pixels[row * edge + i, column * edge + j, channel])
+                found[row, column, channel] = total // number
+    return found
