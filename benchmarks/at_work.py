@@ -48,6 +48,8 @@ CURRENTS = {
     "uwsimSinusoid": "<u:uwsimSinusoid> <u:speed>0.15</u:speed> "
     "<u:speedVariation>0.02</u:speedVariation> <u:speedPeriod>4</u:speedPeriod> "
     "<u:random>0.01</u:random> </u:uwsimSinusoid>",
+    "pythonFunction": "<u:pythonFunction> <u:function>at_work:eddy</u:function> "
+    "</u:pythonFunction>",
 }
 """Currents by what they are called in a scene."""
 BELOW = "<position> <x>0.4</x> <y>0</y> <z>-0.7</z> </position>"
@@ -79,6 +81,12 @@ USUAL = {"imu": 100, "pressure": 10, "dvl": 10, "range": 10, "odometry": 10}
 SAMPLED = {"imu": 500, "pressure": 500, "range": 200, "dvl": 100, "multibeam": 50,
            "imaging sonar": 5}  # fmt: skip
 """Samples of a batch."""
+
+
+def eddy(point: np.ndarray, time: float, vehicle: str) -> tuple[float, float, float]:
+    """Turn the water about the origin."""
+    x, y, _ = point
+    return -0.01 * y, 0.01 * x, 0.0
 
 
 def floor(n_loose: int) -> Callable[[Path], str]:

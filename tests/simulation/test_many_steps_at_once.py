@@ -48,7 +48,10 @@ def swell(simulation: Simulation) -> None:
 
 
 def sheared(simulation: Simulation) -> None:
-    place = Place(stream=simulation.world.stream)
+    place = Place(
+        stream=simulation.world.stream,
+        world_from_localized=simulation.world.model.scene.world_from_localized,
+    )
     profile = PowerProfileSpec(velocity=(0.4, 0.1, 0.0), depth=20.0).bind(place)
     simulation.world.water.set(TotalCurrent([profile, SWELL.bind(place)]))
 
@@ -127,10 +130,25 @@ def test_the_engine_is_called_once_for_many_steps_that_nothing_comes_between(
     assert taken == [50, 1, 1, 1, 1, 1]
 
 
-def beside_a_drifter(*, is_read: bool = False) -> Simulation:
-    """A simulated vehicle and one that drifts beside it, whose motion a sensor may read."""
+def test_a_current_of_uwsim_that_a_program_sets_ends_no_run(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    simulation = make()
+    profile = PowerProfileSpec(velocity=(0.4, 0.0, 0.0), depth=20.0)
+    simulation.set_current(profile.bind(Place(stream=simulation.world.stream)))
+    taken = count_runs(simulation, monkeypatch)
+    simulation.advance(0.1)
+    assert taken == [50]
+    simulation.set_current(Gyre())
+    simulation.advance(0.01)
+    assert taken == [50, 1, 1, 1, 1, 1]
+
+
+def beside_a_drifter(*, is_read: bool = False, is_simulated: bool = True) -> Simulation:
+    """A vehicle, simulated or not, and one that drifts, whose motion a sensor may read."""
     scene = read_scene(SCENE).nominal
     first = replace(scene.vehicles[0], parts=())
+    first = first if is_simulated else replace(first, dynamics=None)
     imu = ImuSpec(name="imu", relative_to="base_link")
     second = replace(
         first,
@@ -164,16 +182,23 @@ def test_a_vehicle_drifts_in_many_steps_at_once_unless_its_motion_is_read(
     assert ends[0] == ends[1]
 
 
-def test_a_vehicle_drifts_as_python_carries_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    ends = []
+@pytest.mark.parametrize("is_read", [False, True])
+@pytest.mark.parametrize("is_simulated", [False, True])
+def test_a_vehicle_drifts_as_python_carries_it(
+    monkeypatch: pytest.MonkeyPatch, *, is_read: bool, is_simulated: bool
+) -> None:
+    ends, twists = [], []
     for in_python in (True, False):
-        simulation = beside_a_drifter()
+        simulation = beside_a_drifter(is_read=is_read, is_simulated=is_simulated)
         sheared(simulation)
         if in_python:
             monkeypatch.setattr(simulation.world.water, "drift", lambda *_: None)
         simulation.advance(0.5)
         ends.append(simulation.world.engine._data.qpos.tobytes())
+        twists.append(simulation.world.vehicles.find("drifter").velocity.tolist())
     assert ends[0] == ends[1]
+    assert twists[0] == twists[1]
+    assert any(twists[0]) is is_read
 
 
 class Gyre:

@@ -114,7 +114,7 @@ class PythonFunction(Current):
     ``point`` is in L, (3,) [m], its own copy; ``time`` is simulation time [s]; ``vehicle`` is the
     name of the vehicle whose part is there, ``""`` for a loose object. The function is called at
     every step for every body that the water acts on: once for the velocity, twice for the
-    acceleration and six times for shear, so its cost is the simulation's; a result is repeatable
+    acceleration and six times for shear, so its cost is the simulation's. A result is repeatable
     only if it depends on its arguments alone.
     """
 

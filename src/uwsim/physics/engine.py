@@ -25,7 +25,8 @@ from .engine_memory import EngineMemory
 from .engine_state import EngineState, ModelState
 from .engine_warnings import StepCheck
 from .grips import Grips
-from .hydrodynamics.water_function import DriftFunction, WaterFunction
+from .hydrodynamics.submerged import SubmergedBodies
+from .hydrodynamics.water_function import DriftFunction, WaterFunction, move_placed
 from .joint_wrench import JointWrench
 from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
@@ -73,9 +74,12 @@ class Engine:
         self.contacts = EngineContacts(scene_model, model, data)
         """Contacts between what it simulates."""
         self._check = StepCheck(model, data, names)
+        self._placed = [i for i in robots if i not in dynamics]
         free = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
         self._free_places = {i: int(model.jnt_qposadr[joint]) for i, joint in free.items()}
         self._free_dofs = {i: int(model.jnt_dofadr[joint]) for i, joint in free.items()}
+        places = [range(self._free_places[i], self._free_places[i] + 7) for i in self._placed]
+        self._placed_places = np.array(places, np.intp).reshape(-1, 7)  # of poses in ``qpos``
         self._joint_places = {i: joint_places(model, robots[i], i) for i in robots}
         self._scaled = {
             i: ScaledLinks(model, robots[i], i, vehicle.scale_factor)
@@ -88,9 +92,10 @@ class Engine:
         self.actuation = actuation_of(scene_model, data, self._water, self.poses)
         """What moves each simulated vehicle, by its number."""
         self._set_first_joints(scene)
-        self._wet, self._felt_at = self._wet_points()
+        self.submerged = SubmergedBodies(model, self.poses, self._water, dynamics)
+        """The bodies that the water acts on."""
         self._bounces = _bounces_of(scene, model, data)
-        self._stepper = self._make_stepper([free[i] for i in robots if i not in dynamics])
+        self._stepper = self._make_stepper([free[i] for i in self._placed])
         self.lift = Lift(model, data)
         """Bodies that begin in the ground, on their way out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
@@ -127,18 +132,6 @@ class Engine:
     def n_steps(self) -> int:
         """Steps taken; one that failed counts."""
         return self.state.n_steps
-
-    def submerged_positions(self) -> Array:
-        """Return where the water acts on bodies, in W, (n, 3) [m].
-
-        At the centre of buoyancy; for a body that displaces nothing, where its matrices are about.
-        """
-        return self.poses.points(self._wet, self._felt_at)
-
-    def submerged_vehicles(self) -> tuple[int | None, ...]:
-        """Return the number of the vehicle that each of them belongs to."""
-        parts = [self._model.body(i).name.split("/") for i in self._wet.tolist()]
-        return tuple(int(part[1]) if part[0] == "vehicle" else None for part in parts)
 
     def step(
         self,
@@ -270,6 +263,13 @@ class Engine:
             self.contacts.look_again(hold=False)
         self.poses.moved()
 
+    def drift(self, drift: DriftFunction, time: float) -> None:
+        """Move the vehicles that are not simulated by a step that ends at ``time`` [s]."""
+        poses: Array = self._data.qpos[self._placed_places]
+        move_placed(drift.function, drift.address, poses, time)
+        self._data.qpos[self._placed_places] = poses
+        self.poses.moved()
+
     def placed_motion(self, index: int) -> PlacedMotion:
         """Return how a vehicle that is not simulated moves; it records from now on."""
         model, prefix = self._model, vehicle_joint(index, "")
@@ -305,15 +305,6 @@ class Engine:
             values[: len(given)] = given
             self.set_joints(index, values)
 
-    def _wet_points(self) -> tuple[npt.NDArray[np.int64], Array]:
-        """Bodies that sample the flow, (n,), and the points of sampling, in their axes (n, 3)."""
-        water = self._water
-        if water is None:
-            return np.zeros(0, np.int64), np.zeros((0, 3))
-        bases = {self.poses.base(i) for i in self._dynamics}  # autopilots feel the water there
-        wet = np.array(sorted({*water.bodies, *bases}), np.int64)
-        return wet, np.array([water.felt_at(body) for body in wet]).reshape(-1, 3)
-
     def _make_stepper(self, placed: Sequence[int]) -> Stepper | None:
         """Make the stepper of a scene with simulated vehicles; ``placed`` joints are fixed."""
         if self._water is None:
@@ -326,8 +317,8 @@ class Engine:
             [each.autopilot for each in self.actuation.values()],
             [each.servos for each in self.actuation.values()],
             placed,
-            self._wet.tolist(),
-            self._felt_at,
+            self.submerged.bodies.tolist(),
+            self.submerged.felt_at,
             self._check,
             self._bounces,
         )

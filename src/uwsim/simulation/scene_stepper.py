@@ -51,7 +51,7 @@ class SceneStepper:
         self._drifting = [world.vehicles[i] for i in placed]
         self._drifting_names = tuple(vehicle.name for vehicle in self._drifting)
         self._wet_names = tuple(
-            "" if i is None else vehicles[i].name for i in engine.submerged_vehicles()
+            "" if i is None else vehicles[i].name for i in engine.submerged.vehicles
         )
 
     @property
@@ -70,11 +70,11 @@ class SceneStepper:
         self._bus.state.step += 1
         self._schedule.apply_commands()
         self._step_devices()
-        is_led = self._drifts_by_python
-        if is_led:
+        drifts_alone = self._drifts_alone
+        if drifts_alone:
             self._advect_kinematic()
-        n, samples_last = self._plan_run(wanted) if wanted > 1 and not is_led else (1, False)
-        is_sampled = self._step_physics(n, samples_last=samples_last, drifts=not is_led)
+        n, samples_last = self._plan_run(wanted) if wanted > 1 and not drifts_alone else (1, False)
+        is_sampled = self._step_physics(n, samples_last=samples_last, drifts=not drifts_alone)
         self.animate()
         self._contacts.update(self._step)
         self.publish(is_sampled=is_sampled)
@@ -134,8 +134,8 @@ class SceneStepper:
             device.step(time)
 
     @property
-    def _drifts_by_python(self) -> bool:
-        """Whether vehicles drift that compiled steps cannot move."""
+    def _drifts_alone(self) -> bool:
+        """Whether vehicles drift that have to be moved before each step, not in compiled ones."""
         engine, water = self._engine, self._water
         if not self._drifting or water.is_still:
             return False
@@ -149,10 +149,16 @@ class SceneStepper:
 
     def _advect_kinematic(self) -> None:
         """Advect kinematic vehicles with the water, as the original does."""
-        water = self._water
+        engine, water, timestep, now = self._engine, self._water, self._timestep, self._time
+        drift = water.drift(self._drifting_names, timestep, now)
+        if drift is not None:
+            engine.drift(drift, now)
         for vehicle in self._drifting:
-            here = vehicle.world_from_base
-            vehicle.drift(water.carried(here, self._time, self._timestep, vehicle.name))
+            if drift is None:
+                here = water.carried(vehicle.world_from_base, now, timestep, vehicle.name)
+                engine.place_vehicle(vehicle.index, here)
+            if (motion := vehicle.state.placed.part) is not None:
+                motion.record_drift(self._step)
 
     def _step_physics(self, n: int, *, samples_last: bool, drifts: bool) -> bool:
         """Advance the physics by some steps, in the flow of the water at their times.
@@ -173,7 +179,7 @@ class SceneStepper:
             self._below_ground.look(self._step)
             return False
         first = self._step
-        steps, positions = range(first, first + n), engine.submerged_positions
+        steps, positions = range(first, first + n), engine.submerged.positions
         motion = water.during(positions, steps, self._timestep, self._wet_names)
         drift = None
         if drifts and self._drifting and motion is not None:

@@ -154,12 +154,6 @@ class SceneVehicle:
         """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
         self.lead(None, values)
 
-    def drift(self, world_from_base: Pose) -> None:
-        """Set its pose: the water has carried it there; what it is displaced from stays."""
-        self._engine.place_vehicle(self.index, world_from_base)
-        if self._placed is not None:
-            self._placed.record_drift(self._step())
-
     def put(self, world_from_base: Pose | None) -> None:
         """Set its pose, at rest; it is displaced from there from now on.
 

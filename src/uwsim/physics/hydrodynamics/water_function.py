@@ -8,7 +8,9 @@ from typing import Any
 
 import numpy.typing as npt
 
-from ...base.numerics.calls import address_of
+from ...base.geometry import Array
+from ...base.numerics.calls import address_of, call
+from ...base.numerics.jit import njit
 
 POINT, VELOCITY, ACCELERATION, ROTATION, WATER_ROW = 0, 3, 6, 9, 12
 """Columns of a row of water at a body, in W: where it is felt [m], its velocity [m/s], acceleration
@@ -59,3 +61,9 @@ class DriftFunction:
     def address(self) -> int:
         """The address of the parameters."""
         return address_of(self.parameters)
+
+
+@njit
+def move_placed(function: int, parameters: int, poses: Array, time: float) -> None:
+    """Move poses (n, 7) as a `DriftFunction` says, whose addresses are given."""
+    call(function, parameters, poses.ctypes.data, time)
