@@ -43,7 +43,7 @@ class AcousticWorld:
         self.earth_origin: Geodetic | None = None
         self.current = np.zeros(3)
 
-    def even_water(self, vehicle: str) -> None:
+    def compiled_water(self, vehicle: str, n: int) -> None:
         return None
 
     def water_velocity(self, points: np.ndarray, time: float, vehicle: str) -> np.ndarray:

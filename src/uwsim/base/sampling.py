@@ -116,7 +116,7 @@ class SampleTimer:
             self._call()
 
 
-def _always() -> bool:
+def _always(until: float) -> bool:
     return True
 
 
@@ -137,8 +137,9 @@ class Sampler:
     prepare: Callable[[float], None] = _nothing
     """Brings up to date, in Python, what the function reads; called with the time [s] of samples in
     Python, before these."""
-    is_alone: Callable[[], bool] = _always
-    """Says whether the function needs no preparation in steps that compiled code takes."""
+    is_alone: Callable[[float], bool] = _always
+    """Says whether the function needs no preparation in steps that compiled code takes until a time
+    [s]."""
     kept: tuple[object, ...] = field(default=())
     """What the parameters have the addresses of."""
 
@@ -191,7 +192,7 @@ def gathering(
     addresses: Addresses,
     *,
     prepare: Callable[[float], None],
-    is_alone: Callable[[], bool],
+    is_alone: Callable[[float], bool],
     kept: tuple[object, ...] = (),
 ) -> Sampler:
     """Return what takes the numbers at some addresses, in their order, as a sample.

@@ -14,7 +14,7 @@ from ..base.numerics.linear import matrices, solved, turned, turned_back, turned
 from ..base.numerics.memory import carray, floats, pointer
 from ..rays import Hits
 from ..rays.scene_record import RAYS, cast_from
-from ..world.mounts import MOUNT, read_frame, read_motion
+from ..world.mounts import MOUNT, WATER, read_frame, read_motion, read_water
 from .janus import ENOUGH, SIGNS, Flags
 
 DVL = np.dtype(
@@ -37,9 +37,10 @@ DVL = np.dtype(
         ("max_altitude", np.float64),  # [m]
         ("water_layer", np.float64),  # [m]
         ("surface", np.float64),  # height of the water's surface in W [m]
-        ("flow", np.int64),  # the address of the water's velocity at the beams, in W, (4, 3) [m/s]
+        ("water", WATER),  # what says how the water moves; if there is no function, it is here:
+        ("flow", np.int64),  # the address of its velocity at the beams, in W, (4, 3) [m/s]
         ("bottom", np.int64),  # addresses of `TrackState.numbers`
-        ("water", np.int64),
+        ("through", np.int64),
         ("before", np.int64),  # of the time and the place of the original's last sample, (4,)
         ("is_original", np.int64),  # whether it measures as the original
     ]
@@ -50,7 +51,7 @@ INSTRUMENT, WORLD, ERROR, MADE_GOOD, TIME, LAST = 0, 3, 6, 7, 10, 11
 N_TRACK = 12
 SHIP = 12
 """Behind the numbers of a track among the values: its velocity in the axes of the base [m/s]."""
-BOTTOM, WATER, HEIGHT, DEPTH, RANGES, ALONG = 0, 15, 30, 31, 32, 36
+BOTTOM, IN_WATER, HEIGHT, DEPTH, RANGES, ALONG = 0, 15, 30, 31, 32, 36
 """Where the values of a sample are: tracks, mean height [m], depth [m], ranges [m] and velocities
 [m/s] of the beams."""
 N_VALUES = 40
@@ -103,8 +104,8 @@ def ping(
     motion[:3] = frame[:3]
     read_motion(dvl.mount, motion)
     velocity = turned_back(axes, motion[3:6])
-    scale, flow = floats(dvl.scale, 4), floats(dvl.flow, 12)
-    reach = dvl.water_layer / dvl.cosine
+    scale, reach = floats(dvl.scale, 4), dvl.water_layer / dvl.cosine
+    flow = flow_at(dvl, frame, reach, beams, time)
     bottom, water, along = np.empty(4), np.empty(4), found[ALONG : ALONG + 4]
     is_good, is_wet = np.empty(4, np.bool_), np.empty(4, np.bool_)
     height, n_good = 0.0, 0
@@ -112,7 +113,7 @@ def ping(
         beam, d = beams[i], directions[i]
         over_ground = 0.0 + d[0] * velocity[0] + d[1] * velocity[1] + d[2] * velocity[2]
         bottom[i] = scale[i] * over_ground + dvl.beam_std * normals[0, i]
-        carried = beam[0] * flow[3 * i] + beam[1] * flow[3 * i + 1] + beam[2] * flow[3 * i + 2]
+        carried = beam[0] * flow[i, 0] + beam[1] * flow[i, 1] + beam[2] * flow[i, 2]
         water[i] = scale[i] * (over_ground - carried) + dvl.water_std * normals[1, i]
         is_heard, axial = chances[i] >= dvl.dropout, ranges[i] * dvl.cosine
         is_good[i] = is_heard and dvl.min_altitude <= axial <= dvl.max_altitude
@@ -126,10 +127,10 @@ def ping(
             height, n_good = height + found[RANGES + i] * drop, n_good + 1
     noise = dvl.std * normals[3, :3]
     take_velocity(floats(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
-    take_velocity(floats(dvl.water, N_TRACK), time, axes, dvl, (water, is_wet), noise)
+    take_velocity(floats(dvl.through, N_TRACK), time, axes, dvl, (water, is_wet), noise)
     read_frame(dvl.base, base)
-    write_track(floats(dvl.bottom, N_TRACK), base[3:], found[BOTTOM:WATER])
-    write_track(floats(dvl.water, N_TRACK), base[3:], found[WATER:HEIGHT])
+    write_track(floats(dvl.bottom, N_TRACK), base[3:], found[BOTTOM:IN_WATER])
+    write_track(floats(dvl.through, N_TRACK), base[3:], found[IN_WATER:HEIGHT])
     found[HEIGHT] = height / n_good if n_good else math.nan
     found[DEPTH] = max(0.0, dvl.surface - frame[2])
 
@@ -143,6 +144,20 @@ def write_track(track: Array, base: Array, found: Array) -> None:
         for j in range(3):
             total += base[3 * j + i] * track[WORLD + j]
         found[SHIP + i] = total
+
+
+@njit
+def flow_at(dvl: Record, frame: Array, reach: float, beams: Array, time: float) -> Array:
+    """Return the velocity of the water on the beams, in W, (4, 3) [m/s]."""
+    if dvl.water.function == 0:
+        return floats(dvl.flow, 12).reshape((4, 3))
+    found = np.empty((2, 4, 3))
+    for i in range(4):
+        for k in range(3):
+            found[0, i, k] = frame[k] + reach * beams[i, k]
+    read_water(dvl.water, found, time)
+    there: Array = found[1]
+    return there
 
 
 @njit

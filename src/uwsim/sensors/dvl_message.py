@@ -44,8 +44,8 @@ def dvl_message(header: Header, values: Array, *, water: SeaWater, water_layer: 
         depth=depth,
         sound_speed=water.sound_speed(depth),
         raw_data=" ".join(map(repr, numbers[k.RANGES :])),
-        **_track("b", numbers[k.BOTTOM : k.WATER], numbers[k.HEIGHT]),
-        **_track("w", numbers[k.WATER : k.HEIGHT], water_layer),
+        **_track("b", numbers[k.BOTTOM : k.IN_WATER], numbers[k.HEIGHT]),
+        **_track("w", numbers[k.IN_WATER : k.HEIGHT], water_layer),
     )
 
 

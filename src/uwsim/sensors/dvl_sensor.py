@@ -29,7 +29,7 @@ from ..base.record import Record
 from ..base.sampling import Sampler
 from ..messages import DVL, header
 from ..schema import MAX_DISTANCE, element
-from ..world import MovingBody, SensorWorld
+from ..world import CompiledWater, MovingBody, SensorWorld
 from . import dvl_kernel as kernel
 from .dvl_message import dvl_message
 from .janus import Flags, Janus
@@ -131,11 +131,13 @@ class Dvl(CompiledSensor):
         self.state = DvlState(random, scale, bottom, water, np.full(4, math.nan))
         """What changes of it."""
         self._is_original = "dvl-differences" in world.compatibility
-        self._flow = np.zeros((4, 3))  # of the water at the beams, in W [m/s]
+        self._flow = np.zeros((4, 3))  # of the water at the beams, in W, if Python is asked [m/s]
         self._is_own = np.array([each == vehicle.name for each in world.rays.vehicles], np.uint8)
+        self._row = self._parameters()
+        self._water: CompiledWater | None = None  # what the row has the addresses of
         self.sampler = Sampler(
             function=function_address(kernel.sample_dvl),
-            parameters=self._parameters(),
+            parameters=self._row,
             n_values=kernel.N_VALUES,
             prepare=self._prepare,
             is_alone=self._is_alone,
@@ -157,19 +159,24 @@ class Dvl(CompiledSensor):
         row["is_own"], row["flow"] = address_of(self._is_own), address_of(self._flow)
         row["scale"], row["before"] = address_of(state.scale), address_of(state.before)
         row["bottom"] = address_of(state.bottom.numbers)
-        row["water"] = address_of(state.water.numbers)
+        row["through"] = address_of(state.water.numbers)
         return row
 
-    def _is_alone(self) -> bool:
-        """Whether samples need no preparation: neither the water's nor anything's."""
+    def _is_alone(self, until: float) -> bool:
+        """Whether samples until a time [s] need no preparation."""
         if not (self._mount.is_compiled and self._base.is_compiled):
             return False
-        if self._is_original:
-            return True
-        flow = self._world.even_water(self._vehicle.name)
-        if flow is not None:
-            self._flow[:] = flow
-        return flow is not None and self._world.rays.is_compiled
+        return self._is_original or (self._world.rays.is_compiled and self._has_water(until))
+
+    def _has_water(self, until: float) -> bool:
+        """Let compiled code read the water until a time [s]; whether it can."""
+        water = self._world.compiled_water(self._vehicle.name, len(self._flow))
+        if water is not self._water:
+            self._water = water
+            self._row["water"] = (0, 0) if water is None else water.addresses
+        if water is not None:
+            water.prepare(until)
+        return water is not None
 
     def _prepare(self, time: float) -> None:
         """Look up where everything is, and how the water moves at ``time`` [s]."""
@@ -178,12 +185,10 @@ class Dvl(CompiledSensor):
         if self._is_original:
             return
         self._world.rays.prepare()
-        flow = self._world.even_water(self._vehicle.name)
-        if flow is None:
+        if not self._has_water(time):
             pose, reach = self._mount.world_from_body, self._spec.water_layer / self._janus.cosine
             points = pose.position + reach * product(self._janus.directions, pose.rotation.T)
-            flow = self._world.water_velocity(points, time, self._vehicle.name)
-        self._flow[:] = flow
+            self._flow[:] = self._world.water_velocity(points, time, self._vehicle.name)
 
     def message(self, time: float, values: Array) -> DVL:
         """Make the message of a sample taken at ``time`` [s]."""

@@ -86,7 +86,7 @@ class GpsSensor(CompiledSensor):
             parameters=row,
             n_values=N_VALUES,
             prepare=lambda _: mount.prepare(),
-            is_alone=lambda: mount.is_compiled,
+            is_alone=lambda _: mount.is_compiled,
             kept=(self.state, mount),
         )
         """What takes the numbers of a sample."""

@@ -113,7 +113,7 @@ class PressureSensor(CompiledSensor):
             parameters=row,
             n_values=1,
             prepare=lambda _: mount.prepare(),
-            is_alone=lambda: mount.is_compiled,
+            is_alone=lambda _: mount.is_compiled,
             kept=(self.state, mount, levels),
         )
         """What takes the numbers of a sample."""

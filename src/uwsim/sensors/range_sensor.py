@@ -106,7 +106,7 @@ class RangeSensor(CompiledSensor):
             parameters=row,
             n_values=1,
             prepare=prepare,
-            is_alone=lambda: mount.is_compiled and rays.is_compiled,
+            is_alone=lambda _: mount.is_compiled and rays.is_compiled,
             kept=(self.state, mount, rays, directions),
         )
         """What takes the numbers of a sample."""

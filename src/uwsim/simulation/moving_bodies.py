@@ -184,17 +184,17 @@ class CompiledVehicle:
         place, twist = self._engine.link_motion.base_addresses(self._index)
         self._twist = twist
         self._addresses = np.concatenate([place, twist])
-        return gathering(self._addresses, prepare=self._prepare, is_alone=self._is_alone)
+        return gathering(self._addresses, prepare=self._prepare, is_alone=lambda _: self._follow())
 
     def _prepare(self, time: float) -> None:
         """Look up where the base is, and its twist if the engine does not move it."""
         self._engine.poses.refresh()
-        if not self._is_alone():
+        if not self._follow():
             twist = self._led_twist()
             assert twist is not None
             self._led[:] = twist
 
-    def _is_alone(self) -> bool:
+    def _follow(self) -> bool:
         """Whether the engine moves it; samples read its twist, else that which is led."""
         is_free = self._led_twist() is None
         self._addresses[-len(self._led) :] = self._twist if is_free else addresses_in(self._led)
@@ -206,4 +206,4 @@ class CompiledVehicle:
         addresses = engine.link_motion.joint_addresses(
             self._index, self._joints, with_motion=engine.is_simulated(self._index)
         )
-        return gathering(addresses, prepare=lambda _: None, is_alone=lambda: True)
+        return gathering(addresses, prepare=lambda _: None, is_alone=lambda _: True)

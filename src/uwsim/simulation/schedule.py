@@ -40,10 +40,9 @@ class _Timer:
     sampling: Sampling | None
     state: TimerState
 
-    @property
-    def is_alone(self) -> bool:
-        """Whether its sample, if it takes one, needs no preparation."""
-        return self.sampling is None or self.sampling.sampler.is_alone()
+    def is_alone(self, until: float) -> bool:
+        """Whether its samples, if it takes any, need no preparation until a time [s]."""
+        return self.sampling is None or self.sampling.sampler.is_alone(until)
 
     @property
     def is_called(self) -> bool:
@@ -137,7 +136,7 @@ class Schedule:
             due = int(timer.state.counts[DUE])
             if due > last or due >= unprepared:
                 continue
-            if not timer.is_alone:
+            if not timer.is_alone(last * self._timestep):
                 unprepared = due
             elif due < for_python and timer.is_called:
                 for_python = due

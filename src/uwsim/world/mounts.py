@@ -1,4 +1,4 @@
-"""Frames on vehicles as compiled code reads them, without knowing what moves them."""
+"""Frames on vehicles, and the water, as compiled code reads them: it knows not what moves them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,12 @@ MOUNT = np.dtype([("place", np.int64), ("move", np.int64), ("parameters", np.int
 """Addresses of the functions that write a frame and its motion, and of what they read.
 
 See `uwsim.base.numerics.calls`; ``move`` is 0 where the motion is not read.
+"""
+
+WATER = np.dtype([("function", np.int64), ("parameters", np.int64)])
+"""Addresses of the function that writes the velocity of the water at points, and of what it reads.
+
+The function is 0 where Python has to be asked.
 """
 
 Record = Any
@@ -35,3 +41,15 @@ def read_motion(mount: Record, motion: Array) -> None:
             [rad/s] and the acceleration of the point [m/s2] are written, (12,).
     """
     call(mount.move, mount.parameters, motion.ctypes.data, 0.0)
+
+
+@njit
+def read_water(water: Record, points: Array, time: float) -> None:
+    """Write how the water moves at points, behind them.
+
+    Args:
+        water: a record of `WATER`, with a function.
+        points: of W, (n, 3) [m]; then their velocities are written, (2, n, 3) [m/s].
+        time: [s].
+    """
+    call(water.function, water.parameters, points.ctypes.data, time)

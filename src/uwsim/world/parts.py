@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -102,6 +102,18 @@ class MovingBody(Mount, Protocol):
         Force [N] and torque about its origin [N m], in its axes, in the last step, with the water
         on these links; 0 for a vehicle that is not simulated.
         """
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CompiledWater:
+    """The water at some points as compiled code reads it."""
+
+    addresses: tuple[int, int]
+    """The numbers of `uwsim.world.mounts.WATER`."""
+    prepare: Callable[[float], None]
+    """Makes ready what it needs up to a time [s]."""
+    kept: tuple[object, ...]
+    """What the addresses are of."""
 
 
 class CompiledVehicle(Protocol):

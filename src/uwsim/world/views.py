@@ -14,7 +14,7 @@ from ..base.geodesy import Geodetic
 from ..base.geometry import Intrinsics, Pose
 from ..bus import Bus
 from ..network import Network
-from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays
+from .parts import Actuators, Attachment, Body, Camera, CompiledWater, Contact, Flow, Rays
 
 
 class TimedWorld(Protocol):
@@ -189,10 +189,10 @@ class SensorWorld(TimedWorld, Protocol):
     def density_levels(self) -> Sequence[tuple[float, float]]:
         """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
 
-    def even_water(self, vehicle: str) -> npt.NDArray[np.float64] | None:
-        """Return the velocity of water that moves the same everywhere and always; None if not.
+    def compiled_water(self, vehicle: str, n: int) -> CompiledWater | None:
+        """Return the water at ``n`` points as a vehicle feels it; None if Python has to be asked.
 
-        In W, (3,) [m/s], as a vehicle feels it.
+        It is another one after the water has changed.
         """
 
     def water_velocity(

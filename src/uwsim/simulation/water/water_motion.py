@@ -21,8 +21,9 @@ from ...model.robots import find_file
 from ...model.scene_model import SceneModel
 from ...physics.hydrodynamics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
-from ...world import Flow
+from ...world import CompiledWater, Flow
 from .drift_kernel import of_drift
+from .point_kernel import at_points
 from .water_kernel import NEARBY, of_flow, of_rows
 
 F = TypeVar("F")
@@ -59,7 +60,8 @@ class WaterMotion:
         # a flow, the vehicles it is felt by, and its functions
         self._felt: _Found[WaterFunction] = None, (), None, None
         self._drift: _Found[DriftFunction] = None, (), None, None
-        self._even: tuple[Flow, dict[str, Array | None]] = self._sum, {}  # what it was found for
+        # a flow, and its functions by the vehicle and the number of points
+        self._points: tuple[Flow, dict[tuple[str, int], CompiledWater | None]] = self._sum, {}
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
         for spec in specs:
@@ -217,22 +219,24 @@ class WaterMotion:
         velocity = self._flow.velocity(localized, time, (vehicle,) * len(points))
         return product(velocity, self._localized_from_world.rotation)
 
-    def even(self, vehicle: str) -> Array | None:
-        """Return the velocity of water that moves the same everywhere and always, in W, (3,) [m/s].
-
-        None where it does not.
+    def at_points(self, vehicle: str, n: int) -> CompiledWater | None:
+        """Return what says `velocity` at ``n`` points in compiled code; None if Python is asked.
 
         Args:
             vehicle: the name of that which feels it.
+            n: how many points.
         """
-        flow = self._flow
-        if self._even[0] is not flow:
-            self._even = flow, {}
-        known = self._even[1]
-        if vehicle not in known:
-            is_even = flow.is_still or (flow.is_uniform and is_steady(flow))
-            known[vehicle] = self.velocity(np.zeros((1, 3)), 0.0, vehicle)[0] if is_even else None
-        return known[vehicle]
+        flow, (for_flow, known) = self._flow, self._points
+        if for_flow is not flow:
+            known = {}
+            self._points = flow, known
+        if (vehicle, n) not in known:
+            function = None if flow.is_still else compiled(flow, (vehicle,))
+            is_asked = function is None and not flow.is_still
+            known[vehicle, n] = (
+                None if is_asked else at_points(function, self._localized_from_world, n)
+            )
+        return known[vehicle, n]
 
     def carried(self, world_from_base: Pose, time: float, timestep: float, vehicle: str) -> Pose:
         """Return where a vehicle is after a step of drifting with the water: ``p += v dt``."""

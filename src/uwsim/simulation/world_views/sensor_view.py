@@ -37,7 +37,7 @@ class SensorView(SceneView):
         """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
         self.earth_origin = spec.earth_origin
         """Where on Earth the origin of W is; None if the scene does not say."""
-        self.even_water = scene.water.even
+        self.compiled_water = scene.water.at_points
         self.water_velocity = scene.water.velocity
         self.render = scene.scenery.render
         self.stream = scene.stream

@@ -1,0 +1,69 @@
+"""The velocity of the water at points of W, in compiled code: `WaterMotion.velocity`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...base.geometry import Pose
+from ...base.numerics.calls import address_of, call, function_address
+from ...base.numerics.memory import carray, floats, pointer
+from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...world import CompiledWater
+from .water_kernel import turn_into
+
+POINTS = np.dtype(
+    [
+        ("flow", FLOW),  # 0: the water is still
+        ("query", np.int64),  # the address of a record of `QUERY`
+        ("rotation", np.float64, (3, 3)),  # of L from W
+        ("position", np.float64, 3),
+    ],
+    align=True,
+)
+"""The water at some points, for compiled code."""
+
+
+def at_points(flow: FlowFunction | None, localized_from_world: Pose, n: int) -> CompiledWater:
+    """Return the water at points that one vehicle asks about.
+
+    Args:
+        flow: how it flows in L, for this vehicle alone; None: it is still.
+        localized_from_world: L from W.
+        n: how many points.
+    """
+    query, *kept = query_of(np.zeros(n, dtype=np.int64))
+    query["acceleration"] = 0
+    row = np.zeros(1, POINTS)
+    row["query"] = address_of(query)
+    row["rotation"] = localized_from_world.rotation
+    row["position"] = localized_from_world.position
+    if flow is not None:
+        row["flow"] = flow.addresses
+    return CompiledWater(
+        addresses=(function_address(write_velocities), address_of(row)),
+        prepare=(lambda _: None) if flow is None else flow.prepare,
+        kept=(row, flow, query, kept),
+    )
+
+
+def write_velocities(parameters: int, values: int, time: float) -> None:
+    """Write velocities behind the points, see `uwsim.world.mounts.read_water`."""
+    water = carray(pointer(parameters), (1,), POINTS)[0]
+    query = carray(pointer(water.query), (1,), QUERY)[0]
+    found = floats(values, 6 * query.n).reshape((2, query.n, 3))
+    found[1] = 0.0
+    if water.flow.function == 0:
+        return
+    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    for i in range(query.n):
+        for k in range(3):
+            turn = water.rotation[k]
+            points[3 * i + k] = (
+                turn[0] * found[0, i, 0]
+                + turn[1] * found[0, i, 1]
+                + turn[2] * found[0, i, 2]
+                + water.position[k]
+            )
+    call(water.flow.function, water.flow.parameters, water.query, time)
+    for i in range(query.n):
+        turn_into(water.rotation, velocities[3 * i : 3 * i + 3], found[1, i])
