@@ -119,6 +119,11 @@ class Instances:
         casting: Numbers = numbers[self._is_opaque[numbers] & is_small]
         return casting
 
+    def are_opaque(self, numbers: Numbers) -> bool:
+        """Whether none of some batches is seen through."""
+        self._follow()
+        return bool(self._is_opaque[numbers].all())
+
     @property
     def spheres(self) -> Array:
         """Bounding spheres of the batches in W: centre and radius, (m, 4) [m]."""

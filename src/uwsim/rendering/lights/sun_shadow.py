@@ -8,9 +8,10 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
-from ...base.geometry import Array, Pose
+from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import cross, matrices, product
+from ..bounds import seen_from
 from ..instance import INSTANCE, Instances, Numbers
 from ..program import build
 from .caster_map import CasterMap
@@ -166,6 +167,83 @@ def _reach(
                 low, high = max(box[0, j], slice_box[0, j]), min(box[1, j], slice_box[1, j])
                 over = boxes[k, 0, j] <= high + MARGIN and boxes[k, 1, j] >= low - MARGIN
                 may[n, k] = may[n, k] and over
+
+
+def shadowed(
+    instances: Instances,
+    casters: Numbers,
+    seen: Numbers,
+    may: npt.NDArray[np.bool_],
+    sun: Array,
+    world_from_camera: Pose,
+    intrinsics: Intrinsics,
+    margin: float,
+) -> Array:
+    """Bound where in the image shadows of the casters may fall on what is seen.
+
+    A shadow lies below the box of its caster along the beams, between the lowest and the highest
+    point of what it falls on.
+
+    Args:
+        instances: All there are.
+        casters: Numbers of the batches that cast shadows, k.
+        seen: Numbers of batches in view, n.
+        may: Whether a caster may cast a shadow on a batch, as `reached` returns it, (n, k).
+        sun: Unit vector towards the sun in W, (3,).
+        world_from_camera: Where the camera is.
+        intrinsics: Its pinhole.
+        margin: By how much shadows may reach beyond boxes [m].
+
+    Returns:
+        Least u and v and greatest u and v [px], (4,); infinite where they are not bounded, and
+        least greater than greatest where there is no shadow.
+    """
+    i, bounds = intrinsics, np.array([np.inf, np.inf, -np.inf, -np.inf])
+    lens = np.array([i.fx, i.fy, i.cx, i.cy, i.skew, i.near])
+    place, turn = world_from_camera.position, np.ascontiguousarray(world_from_camera.rotation)
+    if sun[2] < LOW_SUN and may.any():
+        return -bounds
+    _bound_shadows(
+        instances.corners, casters, seen, may, _along(sun), place, turn, lens, margin, bounds
+    )
+    return bounds
+
+
+@njit
+def _bound_shadows(
+    corners: Array,
+    casters: Numbers,
+    seen: Numbers,
+    may: npt.NDArray[np.bool_],
+    frame: Array,
+    place: Array,
+    turn: Array,
+    lens: Array,
+    margin: float,
+    bounds: Array,
+) -> None:
+    """Do as `shadowed`, into ``bounds``; ``lens``: fx, fy, cx, cy, skew [px], near [m]."""
+    box, point, shown = np.empty((2, 3)), np.empty(3), np.empty(3)
+    for k in range(len(casters)):
+        _bound(corners[casters[k]], frame, box)
+        for n in range(len(seen)):
+            if not may[n, k]:
+                continue
+            low, high = corners[seen[n], :, 2].min() - margin, corners[seen[n], :, 2].max() + margin
+            for c in range(8):
+                point[2] = high if c & 1 else low
+                for j in range(2):
+                    side = box[1, j] + margin if c & (2 << j) else box[0, j] - margin
+                    point[j] = side - frame[j, 2] * point[2]
+                seen_from(point, place, turn, shown)
+                depth = -shown[2]
+                if depth < lens[5]:
+                    bounds[:2], bounds[2:] = -np.inf, np.inf
+                    return
+                u = lens[2] + (lens[0] * shown[0] + lens[4] * shown[1]) / depth
+                v = lens[3] - lens[1] * shown[1] / depth
+                bounds[0], bounds[1] = min(bounds[0], u), min(bounds[1], v)
+                bounds[2], bounds[3] = max(bounds[2], u), max(bounds[3], v)
 
 
 @njit
