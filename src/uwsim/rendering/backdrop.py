@@ -12,16 +12,12 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from ..base.geometry import Array
 from ..base.numerics.jit import njit
 from .instance import Instances, Numbers
 
 Colours = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 """Red, green, blue and alpha, (h, w, 4)."""
-
-Region = tuple[int, int, int, int]
-"""A rectangle of an image: left column, top row, number of columns and of rows [px]."""
-
-NOWHERE: Region = (0, 0, 0, 0)
 
 
 class Backdrop:
@@ -30,6 +26,8 @@ class Backdrop:
     def __init__(self) -> None:
         self.colours: Colours | None = None
         """Its colours; None before they are drawn."""
+        self.tiles: Array = np.zeros((0, 0, 2, 3))
+        """Bounds of what is in its tiles (`shadow_region`)."""
         self._arrangement = self._version = -1  # of the instances in the last image
         self._drawn = b"", -1  # numbers of its batches in order, and version of the instances
 
@@ -57,9 +55,9 @@ class Backdrop:
         others = np.flatnonzero(moved > before)
         return seen[others[-1] + 1 if len(others) else 0 :]
 
-    def keep(self, colours: Colours, members: Numbers) -> None:
-        """Keep its colours, which were drawn of some batches."""
-        self.colours = colours
+    def keep(self, colours: Colours, tiles: Array, members: Numbers) -> None:
+        """Keep its colours and tiles, which were drawn of some batches."""
+        self.colours, self.tiles = colours, tiles
         self._drawn = members.tobytes(), self._version
 
 
@@ -72,18 +70,3 @@ def fill(colours: Colours, behind: Colours) -> None:
             if colours[row, column, 3] == 0:
                 for channel in range(4):
                     colours[row, column, channel] = behind[row, column, channel]
-
-
-def region_of(bounds: npt.NDArray[np.float64], width: int, height: int) -> Region:
-    """Return the pixels between least u and v and greatest u and v [px], with two more around.
-
-    Args:
-        bounds: (4,); the least are greater than the greatest where there is nothing.
-        width: of the image [px].
-        height: of the image [px].
-    """
-    if bounds[0] > bounds[2]:
-        return NOWHERE
-    left, right = np.clip([bounds[0] - 2.0, bounds[2] + 3.0], 0.0, width).astype(int).tolist()
-    top, bottom = np.clip([bounds[1] - 2.0, bounds[3] + 3.0], 0.0, height).astype(int).tolist()
-    return left, top, right - left, bottom - top

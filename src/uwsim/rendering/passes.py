@@ -8,13 +8,13 @@ from collections.abc import Callable, Sequence
 
 import moderngl
 
-from .backdrop import Region
 from .brush import Brush
 from .frame import FRAME
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots
 from .lights.lamps import LAMPS
 from .lights.projector_light import PROJECTOR
+from .lights.shadow_region import Region
 from .lights.sun_shadow import SunShadow
 from .program import build
 from .targets import Targets

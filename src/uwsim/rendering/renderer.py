@@ -16,7 +16,7 @@ import numpy.typing as npt
 from ..assets.mesh import Model
 from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
-from .backdrop import Backdrop, Colours, Region, region_of
+from .backdrop import Backdrop, Colours
 from .context import create_context
 from .frame import Frame
 from .gpu_model import GpuModels
@@ -25,7 +25,8 @@ from .lights.lamp import Lamp
 from .lights.lamps import Lamps
 from .lights.projector import Projector
 from .lights.projector_light import ProjectorLight
-from .lights.sun_shadow import MARGIN, MAX_CASTER_RADIUS, SunShadow, reached, shadowed
+from .lights.shadow_region import Region, shaded_region, tiles_of
+from .lights.sun_shadow import MARGIN, MAX_CASTER_RADIUS, SunShadow, reached
 from .passes import SAMPLERS, Passes, Switches
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
@@ -36,6 +37,8 @@ __all__ = ["RenderedImage", "Renderer"]
 
 N_VIEWS = 4
 """So many of the last views are remembered."""
+MAX_REGION = 0.75
+"""A backdrop of which more may lie in shadow is not used: to shade all takes less time."""
 MAX_KEPT = 2**23
 """The largest image that is kept for a view that stays as it is [bytes]."""
 
@@ -231,18 +234,27 @@ class Renderer:
         behind = seen[:0] if backdrop is None else backdrop.find(self._instances, seen)
         # Without terrain there is little to be gained.
         if len(self._instances.casting(behind, MAX_CASTER_RADIUS)) < len(behind):
-            first = len(seen) - len(behind)
-            region = self._shaded(view, world_from_camera, casters, behind, may[first:])
-            if 2 * region[2] * region[3] < view.intrinsics.width * view.intrinsics.height:
-                assert backdrop is not None
-                if backdrop.colours is None:
-                    lit = [(number, False, close) for number, _, close in drawn[first:]]
-                    self._passes.draw(target, lit, switches)
-                    backdrop.keep(target.colours(), behind)
-                self._passes.draw_before(target, drawn[:first], drawn[first:], region, switches)
+            assert backdrop is not None
+            front, back = drawn[: len(seen) - len(behind)], drawn[len(seen) - len(behind) :]
+            if backdrop.colours is None:
+                lit = [(number, False, close) for number, _, close in back]
+                self._passes.draw(target, lit, switches)
+                lens, sun = view.intrinsics, sun_direction(light.sun)
+                tiles = tiles_of(target.depths(), world_from_camera, lens, sun)
+                backdrop.keep(target.colours(), tiles, behind)
+            region = self._shaded(view, backdrop, casters)
+            if region is not None:
+                self._passes.draw_before(target, front, back, region, switches)
                 return backdrop.colours
         self._passes.draw(target, drawn, switches)
         return None
+
+    def _shaded(self, view: View, backdrop: Backdrop, casters: Numbers) -> Region | None:
+        """Return where shadows may fall on a backdrop; None where it is too much."""
+        lens, margin = view.intrinsics, MARGIN + 8.0 * self._shadow.lift
+        sun = sun_direction(view.light.sun)
+        region = shaded_region(backdrop.tiles, self._instances, casters, sun, margin)
+        return region if region[2] * region[3] <= MAX_REGION * lens.width * lens.height else None
 
     def _backdrop(self, view: View) -> Backdrop | None:
         """Return the backdrop of a view; None if it can have none."""
@@ -256,20 +268,6 @@ class Renderer:
         if len(self._backdrops) > N_VIEWS:
             del self._backdrops[next(iter(self._backdrops))]
         return backdrop
-
-    def _shaded(
-        self,
-        view: View,
-        world_from_camera: Pose,
-        casters: Numbers,
-        behind: Numbers,
-        may: npt.NDArray[np.bool_],
-    ) -> Region:
-        """Return where in the image shadows may fall on the batches of the backdrop."""
-        sun, margin = sun_direction(view.light.sun), MARGIN + 8.0 * self._shadow.lift
-        place = world_from_camera, view.intrinsics
-        bounds = shadowed(self._instances, casters, behind, may, sun, *place, margin)
-        return region_of(bounds, view.intrinsics.width, view.intrinsics.height)
 
     def _cast(
         self,

@@ -73,6 +73,12 @@ class Targets:
             return self._read("colour", np.empty((*self._shape, 4), np.uint8))
         return self._read("colour", np.empty((*self._shape, 4), np.uint16))
 
+    def depths(self) -> npt.NDArray[np.float32]:
+        """Read the depths back as OpenGL stores them, 0..1, (h, w)."""
+        pixels = np.empty(self._shape, np.float32)
+        self.framebuffer.read_into(pixels, components=1, attachment=-1, alignment=1, dtype="f4")
+        return pixels
+
     def _read(self, name: str, pixels: npt.NDArray[T]) -> npt.NDArray[T]:
         self.framebuffer.read_into(
             pixels,

@@ -8,10 +8,9 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
-from ...base.geometry import Array, Intrinsics, Pose
+from ...base.geometry import Array, Pose
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import cross, matrices, product
-from ..bounds import seen_from
 from ..instance import INSTANCE, Instances, Numbers
 from ..program import build
 from .caster_map import CasterMap
@@ -110,7 +109,7 @@ def reached(
         instances.corners,
         casters,
         seen,
-        _along(sun),
+        along(sun),
         rays,
         world_from_camera.position,
         np.ascontiguousarray(world_from_camera.rotation[:, 2]),
@@ -145,7 +144,7 @@ def _reach(
     slices = np.empty((8, 3))
     boxes, slice_box = np.empty((len(casters), 2, 3)), np.empty((2, 3))
     for k in range(len(casters)):
-        _bound(corners[casters[k]], frame, boxes[k])
+        bound(corners[casters[k]], frame, boxes[k])
     box = np.empty((2, 3))
     for n in range(len(seen)):
         points = corners[seen[n]]
@@ -159,8 +158,8 @@ def _reach(
             for j in range(3):
                 slices[c, j] = place[j] + max(0.0, least) * rays[c, j]
                 slices[4 + c, j] = place[j] + max(0.0, most) * rays[c, j]
-        _bound(points, frame, box)
-        _bound(slices, frame, slice_box)
+        bound(points, frame, box)
+        bound(slices, frame, slice_box)
         for k in range(len(casters)):
             may[n, k] = boxes[k, 1, 2] >= max(box[0, 2], slice_box[0, 2]) - MARGIN
             for j in range(2):
@@ -169,85 +168,8 @@ def _reach(
                 may[n, k] = may[n, k] and over
 
 
-def shadowed(
-    instances: Instances,
-    casters: Numbers,
-    seen: Numbers,
-    may: npt.NDArray[np.bool_],
-    sun: Array,
-    world_from_camera: Pose,
-    intrinsics: Intrinsics,
-    margin: float,
-) -> Array:
-    """Bound where in the image shadows of the casters may fall on what is seen.
-
-    A shadow lies below the box of its caster along the beams, between the lowest and the highest
-    point of what it falls on.
-
-    Args:
-        instances: All there are.
-        casters: Numbers of the batches that cast shadows, k.
-        seen: Numbers of batches in view, n.
-        may: Whether a caster may cast a shadow on a batch, as `reached` returns it, (n, k).
-        sun: Unit vector towards the sun in W, (3,).
-        world_from_camera: Where the camera is.
-        intrinsics: Its pinhole.
-        margin: By how much shadows may reach beyond boxes [m].
-
-    Returns:
-        Least u and v and greatest u and v [px], (4,); infinite where they are not bounded, and
-        least greater than greatest where there is no shadow.
-    """
-    i, bounds = intrinsics, np.array([np.inf, np.inf, -np.inf, -np.inf])
-    lens = np.array([i.fx, i.fy, i.cx, i.cy, i.skew, i.near])
-    place, turn = world_from_camera.position, np.ascontiguousarray(world_from_camera.rotation)
-    if sun[2] < LOW_SUN and may.any():
-        return -bounds
-    _bound_shadows(
-        instances.corners, casters, seen, may, _along(sun), place, turn, lens, margin, bounds
-    )
-    return bounds
-
-
 @njit
-def _bound_shadows(
-    corners: Array,
-    casters: Numbers,
-    seen: Numbers,
-    may: npt.NDArray[np.bool_],
-    frame: Array,
-    place: Array,
-    turn: Array,
-    lens: Array,
-    margin: float,
-    bounds: Array,
-) -> None:
-    """Do as `shadowed`, into ``bounds``; ``lens``: fx, fy, cx, cy, skew [px], near [m]."""
-    box, point, shown = np.empty((2, 3)), np.empty(3), np.empty(3)
-    for k in range(len(casters)):
-        _bound(corners[casters[k]], frame, box)
-        for n in range(len(seen)):
-            if not may[n, k]:
-                continue
-            low, high = corners[seen[n], :, 2].min() - margin, corners[seen[n], :, 2].max() + margin
-            for c in range(8):
-                point[2] = high if c & 1 else low
-                for j in range(2):
-                    side = box[1, j] + margin if c & (2 << j) else box[0, j] - margin
-                    point[j] = side - frame[j, 2] * point[2]
-                seen_from(point, place, turn, shown)
-                depth = -shown[2]
-                if depth < lens[5]:
-                    bounds[:2], bounds[2:] = -np.inf, np.inf
-                    return
-                u = lens[2] + (lens[0] * shown[0] + lens[4] * shown[1]) / depth
-                v = lens[3] - lens[1] * shown[1] / depth
-                bounds[0], bounds[1] = min(bounds[0], u), min(bounds[1], v)
-                bounds[2], bounds[3] = max(bounds[2], u), max(bounds[3], v)
-
-
-@njit
-def _bound(points: Array, frame: Array, found: Array) -> None:
+def bound(points: Array, frame: Array, found: Array) -> None:
     """Least and greatest coordinates of points (k, 3) in another frame, into (2, 3)."""
     found[0], found[1] = np.inf, -np.inf
     for i in range(len(points)):
@@ -258,7 +180,7 @@ def _bound(points: Array, frame: Array, found: Array) -> None:
             found[0, k], found[1, k] = min(found[0, k], total), max(found[1, k], total)
 
 
-def _along(sun: Array) -> Array:
+def along(sun: Array) -> Array:
     """Coordinates of W in which a sunbeam keeps the first two and falls along the third, (3, 3).
 
     Where a beam meets the level of W's origin, or of a plane that it meets squarely when the sun
