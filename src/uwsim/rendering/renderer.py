@@ -39,7 +39,7 @@ N_VIEWS = 4
 """So many of the last views are remembered."""
 MAX_REGION = 0.75
 """A backdrop of which more may lie in shadow is not used: to shade all takes less time."""
-MAX_KEPT = 2**23
+MAX_KEPT = 2**24
 """The largest image that is kept for a view that stays as it is [bytes]."""
 
 
