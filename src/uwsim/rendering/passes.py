@@ -65,7 +65,7 @@ class Passes:
     def draw(
         self,
         target: Targets,
-        drawn: Sequence[tuple[int, bool, bool]],
+        drawn: Sequence[Drawn],
         switches: Switches,
     ) -> None:
         """Draw near and small instances first, terrain last, then the background, then glass.
