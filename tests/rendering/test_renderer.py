@@ -369,7 +369,12 @@ def test_an_image_of_what_stands_still_is_drawn_twice(
     aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
     drawn: list[object] = []
     draw = renderer._begin
-    monkeypatch.setattr(renderer, "_begin", lambda *view: (drawn.append(view), draw(*view)))
+
+    def counted(*view: object) -> object:
+        drawn.append(view)
+        return draw(*view)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(renderer, "_begin", counted)
     images = [renderer.draw(eye, CAMERA, DRY, Light()) for eye in (HERE, aside) * 4]
     assert len(drawn) == 4
     assert {image.n_bytes for image in images} == {160 * 120 * (3 + 4 + 2)}

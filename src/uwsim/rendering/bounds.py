@@ -226,6 +226,16 @@ def seen_from(point: Array, position: Array, rotation: Array, found: Array) -> N
 
 
 @njit
+def seen_to(point: Array, position: Array, rotation: Array, found: Array) -> None:
+    """A point of the frame of the camera in W: the inverse of `seen_from`."""
+    for k in range(3):
+        total = position[k]
+        for j in range(3):
+            total += rotation[k, j] * point[j]
+        found[k] = total
+
+
+@njit
 def _height(point: Array, plane: Array) -> float:
     """How far inside a plane a point is [m]."""
     x, y, z = point[0], point[1], point[2]

@@ -67,7 +67,8 @@ class Instances:
     def place(self, handles: Sequence[int], world_from_model: Array) -> None:
         """Set the poses of instances, (k, 4, 4); UnknownName if one is not there."""
         rows = np.array([self._row(handle) for handle in handles], dtype=np.intp)
-        if bounds.put(world_from_model, rows, self.version + 1, self.world_from_model, self.moved):
+        places = np.ascontiguousarray(world_from_model)
+        if bounds.put(places, rows, self.version + 1, self.world_from_model, self.moved):
             self.version += 1
 
     def remove(self, handle: int) -> None:
@@ -118,6 +119,11 @@ class Instances:
         is_small = self._radii[self._owners[numbers]] <= max_radius
         casting: Numbers = numbers[self._is_opaque[numbers] & is_small]
         return casting
+
+    def are_opaque(self, numbers: Numbers) -> bool:
+        """Whether none of some batches is seen through."""
+        self._follow()
+        return bool(self._is_opaque[numbers].all())
 
     @property
     def spheres(self) -> Array:

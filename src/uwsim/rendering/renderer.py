@@ -7,27 +7,27 @@ modelled: the water's surface, caustics, reflections, refraction.
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-import moderngl
 import numpy as np
+import numpy.typing as npt
 
 from ..assets.mesh import Model
 from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
-from .brush import Brush
+from .backdrop import Backdrop, Colours
 from .context import create_context
-from .frame import FRAME, Frame
+from .frame import Frame
 from .gpu_model import GpuModels
-from .instance import INSTANCE, Instances, Numbers, Slots, in_view
+from .instance import Instances, Numbers, Slots, in_view
 from .lights.lamp import Lamp
-from .lights.lamps import LAMPS, Lamps
+from .lights.lamps import Lamps
 from .lights.projector import Projector
-from .lights.projector_light import PROJECTOR, ProjectorLight
-from .lights.sun_shadow import MAX_CASTER_RADIUS, SunShadow, reached
-from .program import build
+from .lights.projector_light import ProjectorLight
+from .lights.shadow_region import Region, shaded_region, tiles_of
+from .lights.sun_shadow import MARGIN, MAX_CASTER_RADIUS, SunShadow, reached
+from .passes import SAMPLERS, Passes, Switches
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .targets import STORES, TARGETS, Targets
@@ -35,25 +35,12 @@ from .water import Light, Water, sun_direction
 
 __all__ = ["RenderedImage", "Renderer"]
 
-SAMPLERS = {
-    "base_map": 0,
-    "shadow_map": 1,
-    "lamp_maps": 2,
-    "projector_map": 3,
-    "projector_pattern": 4,
-}
-"""Texture unit of every sampler in the shaders."""
-
 N_VIEWS = 4
 """So many of the last views are remembered."""
-MAX_KEPT = 2**23
+MAX_REGION = 0.75
+"""A backdrop of which more may lie in shadow is not used: to shade all takes less time."""
+MAX_KEPT = 2**24
 """The largest image that is kept for a view that stays as it is [bytes]."""
-
-Switches = tuple[tuple[str, int], ...]
-"""Preprocessor switches of a shader and their values."""
-
-ColourMask = tuple[bool, bool, bool, bool]
-"""Whether red, green, blue and alpha of a target are written."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -98,12 +85,14 @@ class Renderer:
         """What draws: ``llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6``."""
         self._models = GpuModels(self._context)
         self._instances = Instances()
-        self._programs: dict[tuple[object, ...], moderngl.Program] = {}
-        self._empty: dict[int, moderngl.VertexArray] = {}
         self._targets: dict[tuple[object, ...], Targets] = {}
         self._frame = Frame(self._context)
         self._slots = Slots(self._context)
         self._shadow = SunShadow(self._context)
+        self._backdrops: dict[object, Backdrop] = {}  # of the last stages, the newest last
+        self._passes = Passes(
+            self._context, self._models, self._instances, self._slots, self._shadow
+        )
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
         self._seen: dict[View, RenderedImage | None] = {}  # the last views, the newest last
@@ -141,6 +130,7 @@ class Renderer:
     def clear(self) -> None:
         """Remove every instance; uploaded models stay on the GPU for the next scenes."""
         self._seen.clear()
+        self._backdrops.clear()
         self._instances.clear()
         with self._context:
             self._models.end_scene()
@@ -209,19 +199,19 @@ class Renderer:
     def _drawn(self, view: View, world_from_camera: Pose) -> RenderedImage:
         """Draw an image and read it back."""
         with self._context:
-            self._begin(view, world_from_camera)
-            return self._target(view).image(view.intrinsics)
+            behind = self._begin(view, world_from_camera)
+            return self._target(view).image(view.intrinsics, behind)
 
-    def _begin(self, view: View, world_from_camera: Pose) -> None:
-        """Issue the draw calls without waiting for them."""
+    def _begin(self, view: View, world_from_camera: Pose) -> Colours | None:
+        """Issue the draw calls without waiting for them; returns the backdrop, if there is one."""
         water, light, hidden, lamps = view.water, view.light, view.hidden, view.lamps
         shown = self._instances.without(hidden)
         pinhole = projection(view.intrinsics)
         seen = in_view(self._instances, shown, world_from_camera, pinhole.planes)
         switches: Switches = water.switches + light.switches
-        in_shadow = [False] * len(seen)
+        casters, may = shown[:0], np.zeros((len(seen), 0), dtype=bool)
         if "colour" in view.wanted and light.shadows:
-            in_shadow = self._cast(shown, seen, view, world_from_camera, pinhole)
+            casters, may = self._cast(shown, seen, view, world_from_camera, pinhole)
         if lamps and "colour" in view.wanted:
             switches += (("LAMPS", len(lamps)),)
             self._shine(lamps, shown, world_from_camera, hidden)
@@ -238,8 +228,46 @@ class Renderer:
         )
         self._slots.fill(self._instances, world_from_camera.inverse().matrix)
         is_close = self._instances.needs_no_copies(seen, world_from_camera, view.intrinsics)
-        drawn = list(zip(seen.tolist(), in_shadow, is_close, strict=True))
-        self._draw_into(self._target(view), drawn, switches)
+        in_shadow = np.any(may, axis=1)
+        drawn = [(int(n), bool(s), c) for n, s, c in zip(seen, in_shadow, is_close, strict=True)]
+        target, backdrop = self._target(view), self._backdrop(view)
+        behind = seen[:0] if backdrop is None else backdrop.find(self._instances, seen)
+        # Without terrain there is little to be gained.
+        if len(self._instances.casting(behind, MAX_CASTER_RADIUS)) < len(behind):
+            assert backdrop is not None
+            front, back = drawn[: len(seen) - len(behind)], drawn[len(seen) - len(behind) :]
+            if backdrop.colours is None:
+                lit = [(number, False, close) for number, _, close in back]
+                self._passes.draw(target, lit, switches)
+                lens, sun = view.intrinsics, sun_direction(light.sun)
+                tiles = tiles_of(target.depths(), world_from_camera, lens, sun)
+                backdrop.keep(target.colours(), tiles, behind)
+            region = self._shaded(view, backdrop, casters)
+            if region is not None:
+                self._passes.draw_before(target, front, back, region, switches)
+                return backdrop.colours
+        self._passes.draw(target, drawn, switches)
+        return None
+
+    def _shaded(self, view: View, backdrop: Backdrop, casters: Numbers) -> Region | None:
+        """Return where shadows may fall on a backdrop; None where it is too much."""
+        lens, margin = view.intrinsics, MARGIN + 8.0 * self._shadow.lift
+        sun = sun_direction(view.light.sun)
+        region = shaded_region(backdrop.tiles, self._instances, casters, sun, margin)
+        return region if region[2] * region[3] <= MAX_REGION * lens.width * lens.height else None
+
+    def _backdrop(self, view: View) -> Backdrop | None:
+        """Return the backdrop of a view; None if it can have none."""
+        lens, bytes_per_pixel = view.intrinsics, 4 if view.store == "uint8" else 8
+        is_small = bytes_per_pixel * lens.width * lens.height <= MAX_KEPT
+        if not is_small or view.wanted != {"colour"} or view.lamps or view.projector is not None:
+            return None
+        stage = view.place, lens, view.water, view.light, view.hidden, view.store
+        backdrop = self._backdrops.pop(stage, None) or Backdrop()
+        self._backdrops[stage] = backdrop
+        if len(self._backdrops) > N_VIEWS:
+            del self._backdrops[next(iter(self._backdrops))]
+        return backdrop
 
     def _cast(
         self,
@@ -248,15 +276,15 @@ class Renderer:
         view: View,
         world_from_camera: Pose,
         pinhole: Projection,
-    ) -> list[bool]:
-        """Update the shadow map; returns which visible batches may be in shadow."""
+    ) -> tuple[Numbers, npt.NDArray[np.bool_]]:
+        """Update the shadow map; returns k casters, and on which batches each may cast, (n, k)."""
         instances, sun = self._instances, sun_direction(view.light.sun)
         casters = instances.casting(shown, MAX_CASTER_RADIUS)
         may = reached(instances, casters, seen, sun, world_from_camera, pinhole.corner_rays)
         is_needed = may.any(axis=0)
         if is_needed.any():
             self._shadow.update(instances, casters[is_needed], sun)
-        return [bool(one) for one in np.any(may, axis=1)]
+        return casters[is_needed], may[:, is_needed]
 
     def _shine(
         self,
@@ -289,121 +317,9 @@ class Renderer:
             shadow_map=SAMPLERS["projector_map"], pattern=SAMPLERS["projector_pattern"]
         )
 
-    def _draw_into(
-        self, target: Targets, drawn: Sequence[tuple[int, bool, bool]], switches: Switches
-    ) -> None:
-        """Draw near and small instances first, terrain last, then the background, then glass.
-
-        Args:
-            target: Where to draw.
-            drawn: Number of each batch, whether it may lie in shadow, and whether its texture
-                needs no smaller copies; near ones first.
-            switches: Of all of them.
-        """
-        context = self._context
-        batches = self._instances.numbered
-        opacities = [batches[number][1].opacity for number, _, _ in drawn]
-        draw = self._surface_pass(target, switches)
-        target.framebuffer.use()
-        target.framebuffer.clear(depth=1.0)  # of no account: every pixel is drawn
-        context.enable_only(moderngl.DEPTH_TEST)
-        context.depth_func = "<="
-        self._shadow.texture.use(SAMPLERS["shadow_map"])
-        for one, opacity in zip(drawn, opacities, strict=True):
-            if opacity >= 1.0:
-                draw(*one)
-        self._models.release(SAMPLERS["base_map"])
-        context.disable(moderngl.CULL_FACE)
-        program = self._program("background", target, ())
-        if program.glo not in self._empty:
-            self._empty[program.glo] = context.vertex_array(program, [])
-        self._empty[program.glo].render(moderngl.TRIANGLES, vertices=3)
-        clear = [
-            (one, opacity) for one, opacity in zip(drawn, opacities, strict=True) if opacity < 1.0
-        ]
-        if clear:
-            self._draw_glass(target, clear[::-1], switches)
-
-    def _surface_pass(
-        self, target: Targets, switches: Switches
-    ) -> Callable[[int, bool, bool], None]:
-        """Return what draws a batch, told as in `_draw_into`."""
-        batches = self._instances.numbered
-        # The image is upside down for OpenGL, so outside is clockwise.
-        brush = Brush(self._context, self._instances, self._slots, outside="cw")
-
-        @functools.cache
-        def program(in_shadow: bool, is_textured: bool) -> moderngl.Program:
-            own = {"SHADOWS": in_shadow, "TEXTURED": is_textured}
-            present = tuple((name, 1) for name, value in own.items() if value)
-            return self._program("surface", target, switches + present)
-
-        def draw(number: int, in_shadow: bool, is_close: bool) -> None:
-            texture = batches[number][1].texture
-            if texture is not None:
-                self._models.use(texture, SAMPLERS["base_map"], is_close=is_close)
-            brush.draw(number, program(in_shadow, texture is not None))
-
-        return draw
-
-    def _draw_glass(
-        self,
-        target: Targets,
-        clear: Sequence[tuple[tuple[int, bool, bool], float]],
-        switches: Switches,
-    ) -> None:
-        """Blend transparent batches over the colours; range and ids are those of the nearest."""
-        context, buffer, places = self._context, target.framebuffer, target.places
-
-        def write(*, colour: bool, rest: bool) -> None:
-            rgb = (colour, colour, colour, False)  # alpha stays 1
-            others = (rest, rest, rest, rest)
-            masks = [rgb if name == "colour" else others for name in places]
-            _set_colour_masks(buffer, masks)
-
-        shown = [(one, round(255.0 * opacity)) for one, opacity in clear if opacity > 0.0]
-        if "colour" in places:
-            write(colour=True, rest=False)
-            buffer.depth_mask = False
-            context.enable(moderngl.BLEND)
-            context.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
-            for one, opacity in shown:
-                self._surface_pass(target, (*switches, ("OPACITY", opacity)))(*one)
-            context.disable(moderngl.BLEND)
-            buffer.depth_mask = True
-        if set(places) != {"colour"}:
-            write(colour=False, rest=True)
-            draw = self._surface_pass(target, switches)
-            for one, _ in shown:
-                draw(*one)
-        _set_colour_masks(buffer, [(True, True, True, True)] * len(places))
-        self._models.release(SAMPLERS["base_map"])
-        context.disable(moderngl.CULL_FACE)
-
-    def _program(self, effect: str, target: Targets, switches: Switches) -> moderngl.Program:
-        key = (effect, *target.places, *switches)
-        if key not in self._programs:
-            defines = {name.upper(): place for name, place in target.places.items()}
-            self._programs[key] = build(
-                self._context,
-                effect,
-                defines=defines | dict(switches),
-                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR),
-                samplers=SAMPLERS,
-            )
-        return self._programs[key]
-
     def _target(self, view: View) -> Targets:
         size = view.intrinsics.width, view.intrinsics.height
         key = size, view.wanted, view.store
         if key not in self._targets:
             self._targets[key] = Targets(self._context, size, view.wanted, view.store)
         return self._targets[key]
-
-
-def _set_colour_masks(buffer: moderngl.Framebuffer, masks: Sequence[ColourMask]) -> None:
-    """Say which channels of each target are written; moderngl takes that of a single one alone."""
-    if len(masks) == 1:
-        buffer.color_mask = masks[0]
-    else:
-        buffer.color_mask = masks  # type: ignore[assignment]  # one for each target

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Intrinsics
 from ..base.numerics.jit import njit
+from .backdrop import Colours, fill
 from .rendered_image import RenderedImage
 
 TARGETS = ("colour", "range", "ids")
@@ -45,20 +46,38 @@ class Targets:
         """Where to draw."""
         self._shape = size[1], size[0]
 
-    def image(self, intrinsics: Intrinsics) -> RenderedImage:
-        """Read everything back, into arrays of the image's own."""
-        colour: npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | None = None
-        if "colour" in self.places and self._formats["colour"] == "f1":
-            # RGBA is read several times faster than RGB; the alpha goes afterwards.
-            colour = without_alpha(self._read("colour", np.empty((*self._shape, 4), np.uint8)))
-        elif "colour" in self.places:
-            colour = self._read("colour", np.empty((*self._shape, 4), np.uint16))
+    def image(self, intrinsics: Intrinsics, behind: Colours | None = None) -> RenderedImage:
+        """Read everything back, into arrays of the image's own.
+
+        Args:
+            intrinsics: the pinhole.
+            behind: the colours of the backdrop, which fill pixels that are clear.
+        """
+        colour: Colours | None = None
+        if "colour" in self.places:
+            colour = self.colours()
+            if behind is not None:
+                fill(colour, behind)
+            if colour.dtype == np.uint8:
+                colour = without_alpha(colour.view(np.uint8))
         range = ids = None
         if "range" in self.places:
             range = self._read("range", np.empty(self._shape, np.float32))
         if "ids" in self.places:
             ids = self._read("ids", np.empty(self._shape, np.uint16))
         return RenderedImage(intrinsics=intrinsics, colour=colour, range=range, ids=ids)
+
+    def colours(self) -> Colours:
+        """Read the colours back, with alpha: several times faster than without."""
+        if self._formats["colour"] == "f1":
+            return self._read("colour", np.empty((*self._shape, 4), np.uint8))
+        return self._read("colour", np.empty((*self._shape, 4), np.uint16))
+
+    def depths(self) -> npt.NDArray[np.float32]:
+        """Read the depths back as OpenGL stores them, 0..1, (h, w)."""
+        pixels = np.empty(self._shape, np.float32)
+        self.framebuffer.read_into(pixels, components=1, attachment=-1, alignment=1, dtype="f4")
+        return pixels
 
     def _read(self, name: str, pixels: npt.NDArray[T]) -> npt.NDArray[T]:
         self.framebuffer.read_into(

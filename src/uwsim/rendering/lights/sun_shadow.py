@@ -109,7 +109,7 @@ def reached(
         instances.corners,
         casters,
         seen,
-        _along(sun),
+        along(sun),
         rays,
         world_from_camera.position,
         np.ascontiguousarray(world_from_camera.rotation[:, 2]),
@@ -144,7 +144,7 @@ def _reach(
     slices = np.empty((8, 3))
     boxes, slice_box = np.empty((len(casters), 2, 3)), np.empty((2, 3))
     for k in range(len(casters)):
-        _bound(corners[casters[k]], frame, boxes[k])
+        bound(corners[casters[k]], frame, boxes[k])
     box = np.empty((2, 3))
     for n in range(len(seen)):
         points = corners[seen[n]]
@@ -158,8 +158,8 @@ def _reach(
             for j in range(3):
                 slices[c, j] = place[j] + max(0.0, least) * rays[c, j]
                 slices[4 + c, j] = place[j] + max(0.0, most) * rays[c, j]
-        _bound(points, frame, box)
-        _bound(slices, frame, slice_box)
+        bound(points, frame, box)
+        bound(slices, frame, slice_box)
         for k in range(len(casters)):
             may[n, k] = boxes[k, 1, 2] >= max(box[0, 2], slice_box[0, 2]) - MARGIN
             for j in range(2):
@@ -169,7 +169,7 @@ def _reach(
 
 
 @njit
-def _bound(points: Array, frame: Array, found: Array) -> None:
+def bound(points: Array, frame: Array, found: Array) -> None:
     """Least and greatest coordinates of points (k, 3) in another frame, into (2, 3)."""
     found[0], found[1] = np.inf, -np.inf
     for i in range(len(points)):
@@ -180,7 +180,7 @@ def _bound(points: Array, frame: Array, found: Array) -> None:
             found[0, k], found[1, k] = min(found[0, k], total), max(found[1, k], total)
 
 
-def _along(sun: Array) -> Array:
+def along(sun: Array) -> Array:
     """Coordinates of W in which a sunbeam keeps the first two and falls along the third, (3, 3).
 
     Where a beam meets the level of W's origin, or of a plane that it meets squarely when the sun
