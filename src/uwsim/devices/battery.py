@@ -32,7 +32,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
+from ..base.geometry import Array
+from ..base.numerics.calls import FUNCTION, address_of, call, function_address
+from ..base.numerics.exact_sum import exact_sum
+from ..base.numerics.jit import njit
+from ..base.numerics.memory import carray, floats, pointer
 from ..base.record import Record
+from ..base.sampling import Sample, Sampler, Sampling
 from ..messages import BatteryState, header
 from ..schema import element
 from ..world import Actuators, DeviceWorld
@@ -51,6 +59,7 @@ class BatterySpec(DeviceSpec):
     """A ``<u:battery>``."""
 
     message_type: ClassVar[type] = BatteryState
+    is_pure: ClassVar[bool] = True
 
     name: str
     """Its name."""
@@ -80,20 +89,36 @@ class BatterySpec(DeviceSpec):
         reduced = actuators.thrusters if actuators is not None and limited else ()
         cuts = tuple(vehicle.loss_setter(name) for name in reduced)
         battery = Battery(self, world, actuators, cuts)
-        world.every(RATE, battery.drain)
+        sampling = Sampling(battery.sampler, battery.state.sample)
+        world.every(RATE, battery.stop, is_needed=battery.must_stop, sampling=sampling)
         return battery
+
+
+DRAWN, CURRENT, TIME = range(3)
+"""The numbers of `BatteryRecord`."""
+BATTERY = np.dtype(
+    [
+        ("powers", FUNCTION),  # of thrusters and joints; 0: it has none
+        ("n", np.int64),  # how many they are
+        ("hotel_load", np.float64),  # [W]
+        ("voltage", np.float64),  # without a load [V]
+        ("resistance", np.float64),  # [ohm]
+        ("full", np.float64),  # charge of the full battery [A s]
+        ("numbers", np.int64),  # the address of those of the record
+    ]
+)
+"""A battery, for compiled code."""
 
 
 @dataclass(slots=True)
 class BatteryRecord(Record):
     """What a battery has given."""
 
-    drawn: float
-    """The charge that was drawn [A s]."""
-    current: float
-    """The current when it was last looked at [A]."""
-    time: float
-    """When that was [s]."""
+    numbers: Array
+    """The charge that was drawn [A s], the current when it was last looked at [A], and when that
+    was [s], (3,)."""
+    sample: Sample
+    """When compiled code looked last."""
     is_overloaded: bool = False
     """Whether the load is more than it can feed."""
 
@@ -108,9 +133,26 @@ class Battery(Device):
         actuators: Actuators | None,
         cuts: tuple[Callable[[float], None], ...],
     ) -> None:
-        self._spec, self._world, self._actuators, self._cuts = spec, world, actuators, cuts
+        self._spec, self._actuators, self._cuts = spec, actuators, cuts
         drawn = (1.0 - spec.charge) * self._full
-        self.state: BatteryRecord = BatteryRecord(drawn, 0.0, world.time)
+        numbers = np.array([drawn, 0.0, world.time])
+        powers = None if actuators is None else actuators.compiled_powers
+        row = np.zeros(1, BATTERY)
+        if actuators is not None and powers is not None:
+            row["powers"], row["n"] = powers.addresses, len(actuators.powers())
+        row["hotel_load"], row["voltage"] = spec.hotel_load, spec.voltage
+        row["resistance"], row["full"] = spec.resistance, self._full
+        row["numbers"] = address_of(numbers)
+        self.sampler = Sampler(
+            function=function_address(drain),
+            parameters=row,
+            n_values=0,
+            prepare=(lambda _: None) if powers is None else powers.prepare,
+            is_alone=self._lasts,
+            kept=(powers, numbers),
+        )
+        """What takes the charge that was drawn since the last time."""
+        self.state: BatteryRecord = BatteryRecord(numbers, Sample.of(self.sampler))
         greatest = 0.0 if actuators is None else actuators.greatest_power
         self._can_overload = bool(cuts) and spec.hotel_load + greatest > spec.greatest_load
 
@@ -119,20 +161,21 @@ class Battery(Device):
         """Charge of the full battery [A s]."""
         return 3600.0 * self._spec.capacity / self._spec.voltage
 
-    def drain(self) -> None:
-        """Take what was drawn since the last time, by the trapezoidal rule."""
-        now, current = self._world.time, self._current_of(self._load())
-        state = self.state
-        state.drawn += 0.5 * (state.current + current) * (now - state.time)
-        state.drawn = min(state.drawn, self._full)
-        state.current, state.time = current, now
-        if self._is_empty:
-            self._cut(1.0)
+    def _lasts(self, until: float) -> bool:
+        """Whether it cannot be empty before a time [s], or that stops nothing."""
+        spec, numbers = self._spec, self.state.numbers
+        if not spec.stops_thrusters:
+            return True
+        most = 0.5 * spec.voltage / spec.resistance if spec.resistance > 0.0 else math.inf
+        return bool(numbers[DRAWN] + most * (until - numbers[TIME]) < self._full)
 
-    @property
-    def _is_empty(self) -> bool:
+    def stop(self) -> None:
+        """Let the thrusters give nothing: it is empty."""
+        self._cut(1.0)
+
+    def must_stop(self) -> bool:
         """Whether it is empty and stops the thrusters then."""
-        return self._spec.stops_thrusters and self.state.drawn >= self._full
+        return bool(self._spec.stops_thrusters and self.state.numbers[DRAWN] >= self._full)
 
     def rests_until(self, time: float) -> float:
         """Return when it looks at the load again: at the next step, if that may be too much."""
@@ -140,7 +183,7 @@ class Battery(Device):
 
     def animate(self, time: float) -> None:
         """Limit the thrusts, at the end of a step, to what it can feed."""
-        if self._can_overload and not self._is_empty:
+        if self._can_overload and not self.must_stop():
             self._limit()
 
     def _limit(self) -> None:
@@ -176,17 +219,11 @@ class Battery(Device):
         drawn = 0.0 if self._actuators is None else math.fsum(self._actuators.powers().tolist())
         return self._spec.hotel_load + drawn
 
-    def _current_of(self, load: float) -> float:
-        """Current that a load [W] draws; at most that of the largest load it can feed [A]."""
-        voltage, resistance = self._spec.voltage, self._spec.resistance
-        root = math.sqrt(max(voltage**2 - 4.0 * resistance * load, 0.0))
-        return 2.0 * load / (voltage + root) if root else 0.5 * voltage / resistance
-
     def sample(self, time: float) -> BatteryState:
         """Read it now, at ``time`` [s]."""
         load = self._load()
-        current = self._current_of(load)
-        left = max(self._full - self.state.drawn, 0.0)
+        current = current_of(load, self._spec.voltage, self._spec.resistance)
+        left = max(self._full - float(self.state.numbers[DRAWN]), 0.0)
         greatest = self._spec.greatest_load * (1.0 + 1e-6)
         health = BatteryState.POWER_SUPPLY_HEALTH_UNKNOWN
         if left <= 0.0:
@@ -206,3 +243,27 @@ class Battery(Device):
             power_supply_health=health,
             present=True,
         )
+
+
+@njit
+def current_of(load: float, voltage: float, resistance: float) -> float:
+    """Return the current that a load [W] draws, at most that of the largest that can be fed [A]."""
+    root = math.sqrt(max(voltage * voltage - 4.0 * resistance * load, 0.0))
+    return 2.0 * load / (voltage + root) if root != 0.0 else 0.5 * voltage / resistance
+
+
+def drain(parameters: int, values: int, time: float) -> None:
+    """Take what was drawn since the last time, by the trapezoidal rule.
+
+    See `uwsim.base.numerics.calls`.
+    """
+    battery = carray(pointer(parameters), (1,), BATTERY)[0]
+    numbers, load = floats(battery.numbers, 3), battery.hotel_load
+    if battery.powers.function != 0:
+        powers = np.empty(battery.n)
+        call(battery.powers.function, battery.powers.parameters, powers.ctypes.data, time)
+        load += exact_sum(powers)
+    current = current_of(load, battery.voltage, battery.resistance)
+    numbers[DRAWN] += 0.5 * (numbers[CURRENT] + current) * (time - numbers[TIME])
+    numbers[DRAWN] = min(numbers[DRAWN], battery.full)
+    numbers[CURRENT], numbers[TIME] = current, time

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import FUNCTION
 from ..base.numerics.draws import STREAM, normal, uniform
 from ..base.numerics.jit import njit
 from ..base.numerics.linear import matrices, solved, turned, turned_back, turned_rows
 from ..base.numerics.memory import carray, floats, pointer
 from ..rays import Hits
 from ..rays.scene_record import RAYS, cast_from
-from ..world.mounts import MOUNT, WATER, read_frame, read_motion, read_water
+from ..world.mounts import MOUNT, read_frame, read_motion, read_water
 from .janus import ENOUGH, SIGNS, Flags
 
 DVL = np.dtype(
@@ -37,7 +38,7 @@ DVL = np.dtype(
         ("max_altitude", np.float64),  # [m]
         ("water_layer", np.float64),  # [m]
         ("surface", np.float64),  # height of the water's surface in W [m]
-        ("water", WATER),  # what says how the water moves; if there is no function, it is here:
+        ("water", FUNCTION),  # what says how the water moves; if there is no function, it is here:
         ("flow", np.int64),  # the address of its velocity at the beams, in W, (4, 3) [m/s]
         ("bottom", np.int64),  # addresses of `TrackState.numbers`
         ("through", np.int64),

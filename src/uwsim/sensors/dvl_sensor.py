@@ -22,14 +22,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import CompiledFunction, address_of, function_address
 from ..base.numerics.draws import stream_of
 from ..base.numerics.linear import product
 from ..base.record import Record
 from ..base.sampling import Sampler
 from ..messages import DVL, header
 from ..schema import MAX_DISTANCE, element
-from ..world import CompiledWater, MovingBody, SensorWorld
+from ..world import MovingBody, SensorWorld
 from . import dvl_kernel as kernel
 from .dvl_message import dvl_message
 from .janus import Flags, Janus
@@ -134,7 +134,7 @@ class Dvl(CompiledSensor):
         self._flow = np.zeros((4, 3))  # of the water at the beams, in W, if Python is asked [m/s]
         self._is_own = np.array([each == vehicle.name for each in world.rays.vehicles], np.uint8)
         self._row = self._parameters()
-        self._water: CompiledWater | None = None  # what the row has the addresses of
+        self._water: CompiledFunction | None = None  # what the row has the addresses of
         self.sampler = Sampler(
             function=function_address(kernel.sample_dvl),
             parameters=self._row,

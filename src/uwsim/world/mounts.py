@@ -16,12 +16,6 @@ MOUNT = np.dtype([("place", np.int64), ("move", np.int64), ("parameters", np.int
 See `uwsim.base.numerics.calls`; ``move`` is 0 where the motion is not read.
 """
 
-WATER = np.dtype([("function", np.int64), ("parameters", np.int64)])
-"""Addresses of the function that writes the velocity of the water at points, and of what it reads.
-
-The function is 0 where Python has to be asked.
-"""
-
 Record = Any
 
 
@@ -48,7 +42,7 @@ def read_water(water: Record, points: Array, time: float) -> None:
     """Write how the water moves at points, behind them.
 
     Args:
-        water: a record of `WATER`, with a function.
+        water: a record of `FUNCTION`.
         points: of W, (n, 3) [m]; then their velocities are written, (2, n, 3) [m/s].
         time: [s].
     """

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from ..acoustics import Material
 from ..base.geometry import Intrinsics, Pose
+from ..base.numerics.calls import CompiledFunction
 from ..base.sampling import Sampler
 from ..rays import Balls, Hits
 
@@ -104,18 +105,6 @@ class MovingBody(Mount, Protocol):
         """
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
-class CompiledWater:
-    """The water at some points as compiled code reads it."""
-
-    addresses: tuple[int, int]
-    """The numbers of `uwsim.world.mounts.WATER`."""
-    prepare: Callable[[float], None]
-    """Makes ready what it needs up to a time [s]."""
-    kept: tuple[object, ...]
-    """What the addresses are of."""
-
-
 class CompiledVehicle(Protocol):
     """A vehicle as compiled code reads it."""
 
@@ -190,6 +179,10 @@ class Actuators(Protocol):
 
     def powers(self) -> npt.NDArray[np.float64]:
         """Electric power of the thrusters, then of the joints, (n,) [W]."""
+
+    @property
+    def compiled_powers(self) -> CompiledFunction:
+        """The function that writes these for compiled code."""
 
 
 @runtime_checkable

@@ -12,9 +12,11 @@ import numpy.typing as npt
 from ..acoustics import SeaWater
 from ..base.geodesy import Geodetic
 from ..base.geometry import Intrinsics, Pose
+from ..base.numerics.calls import CompiledFunction
+from ..base.sampling import Sampling
 from ..bus import Bus
 from ..network import Network
-from .parts import Actuators, Attachment, Body, Camera, CompiledWater, Contact, Flow, Rays
+from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays
 
 
 class TimedWorld(Protocol):
@@ -155,8 +157,19 @@ class DeviceWorld(TimedWorld, Protocol):
         None where the simulation takes none.
         """
 
-    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
-        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
+    def every(
+        self,
+        rate: float,
+        call: Callable[[], None],
+        *,
+        is_needed: Callable[[], bool] | None = None,
+        sampling: Sampling | None = None,
+    ) -> Callable[[], None]:
+        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop.
+
+        With ``is_needed`` it is called only where that says so; ``sampling`` takes a sample before,
+        needed or not.
+        """
 
 
 class SensorWorld(TimedWorld, Protocol):
@@ -189,10 +202,10 @@ class SensorWorld(TimedWorld, Protocol):
     def density_levels(self) -> Sequence[tuple[float, float]]:
         """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
 
-    def compiled_water(self, vehicle: str, n: int) -> CompiledWater | None:
+    def compiled_water(self, vehicle: str, n: int) -> CompiledFunction | None:
         """Return the water at ``n`` points as a vehicle feels it; None if Python has to be asked.
 
-        It is another one after the water has changed.
+        See `uwsim.world.mounts.read_water`; it is another one after the water has changed.
         """
 
     def water_velocity(

@@ -10,6 +10,7 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,26 @@ ir: Any = importlib.import_module("llvmlite.ir")  # of numba; it has no types
 
 SIGNATURE = types.void(types.intp, types.intp, types.float64)
 """Addresses of parameters and values, and the time [s]."""
+
+
+FUNCTION = np.dtype([("function", np.int64), ("parameters", np.int64)])
+"""The addresses of a function and of what it reads; the function is 0 where there is none."""
+
+
+def _nothing(until: float) -> None:
+    """Prepare nothing."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CompiledFunction:
+    """A function that other compiled code calls by its address."""
+
+    addresses: tuple[int, int]
+    """The numbers of `FUNCTION`."""
+    prepare: Callable[[float], None] = _nothing
+    """Makes ready what it needs up to a time [s]."""
+    kept: tuple[object, ...] = field(default=())
+    """What the addresses are of."""
 
 
 def _call(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import mujoco
@@ -16,6 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
+from ...base.numerics.calls import CompiledFunction, address_of, function_address
 from ...model.body_names import vehicle_joint, vehicle_thruster
 from ...scene.hydrodynamics import VehicleHydrodynamics
 from ...scene.hydrodynamics.spec import JointDrive
@@ -82,6 +84,16 @@ class Actuators:
     def efforts(self) -> Array:
         """Of the joints' servos, or what was commanded where those are off, (m,) [N m or N]."""
         return self._law.efforts(*self._motors)
+
+    @cached_property
+    def compiled_powers(self) -> CompiledFunction:
+        """The function that writes `powers` for compiled code."""
+        row = self._law.powers_record(self._tables, self._rotors, self._motors)
+        return CompiledFunction(
+            addresses=(function_address(self._law.write_powers), address_of(row)),
+            prepare=lambda _: self._refresh(),
+            kept=(self, row),
+        )
 
     def powers(self) -> Array:
         """Electric power of the thrusters, then of the joints, (n + m,) [W]."""

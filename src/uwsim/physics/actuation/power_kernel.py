@@ -8,7 +8,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
+from ...base.numerics.calls import address_of
 from ...base.numerics.jit import njit
+from ...base.numerics.memory import carray, floats, longs, pointer
 from ..hydrodynamics.columns import WATER_COLUMNS
 from ..hydrodynamics.kernel.thrusters import curve
 
@@ -146,3 +148,71 @@ def powers(tables: Array, thrusters: Rotors, joints: Motors) -> Array:
         speed = qvel[motors[i, DOF]]
         drawn[n + i] = joint_power(traits[i, EFFICIENCY], traits[i, COPPER], acted[i], speed)
     return drawn
+
+
+POWERS = np.dtype(
+    [
+        *((name, np.int64) for name in ("tables", "n_terms", "rotors", "rotor_traits", "n_rotors")),
+        *((name, np.int64) for name in ("curves", "n_curves", "curve_columns", "controls", "nu")),
+        *((name, np.int64) for name in ("states", "na", "userdata", "n_userdata")),
+        *((name, np.int64) for name in ("sites", "n_sites", "motors", "motor_traits", "n_motors")),
+        *((name, np.int64) for name in ("gains", "gain_columns", "biases", "bias_columns")),
+        *((name, np.int64) for name in ("qpos", "nq", "qvel", "applied", "nv")),
+        ("still", np.float64),  # height of the still water's surface [m]
+        ("timestep", np.float64),  # [s]
+    ]
+)
+"""Addresses and lengths of the arrays that `powers` takes."""
+
+
+def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArray[np.void]:
+    """Return the record of `POWERS` of what `powers` takes, (1,); the arrays have to live on."""
+    rotors, traits, curves, still, controls, states, userdata, sites = thrusters
+    dt, motors, motor_traits, gains, biases, _, qpos, qvel, applied = joints
+    row = np.zeros(1, POWERS)
+    arrays = {
+        "tables": tables, "rotors": rotors, "rotor_traits": traits, "curves": curves,
+        "controls": controls, "states": states, "userdata": userdata, "sites": sites,
+        "motors": motors, "motor_traits": motor_traits, "gains": gains, "biases": biases,
+        "qpos": qpos, "qvel": qvel, "applied": applied,
+    }  # fmt: skip
+    for name, array in arrays.items():
+        if not array.flags.c_contiguous:
+            raise ValueError(f"{name} is not contiguous")
+        row[name] = address_of(array)
+    row["n_terms"], row["n_rotors"], row["n_motors"] = tables.shape[2], len(rotors), len(motors)
+    row["n_curves"], row["curve_columns"] = curves.shape
+    row["nu"], row["na"], row["n_userdata"] = len(controls), len(states), len(userdata)
+    row["n_sites"], row["gain_columns"] = len(sites), gains.shape[1]
+    row["bias_columns"], row["nq"], row["nv"] = biases.shape[1], len(qpos), len(qvel)
+    row["still"], row["timestep"] = still, dt
+    return row
+
+
+def write_powers(parameters: int, values: int, time: float) -> None:
+    """Write what `powers` returns; see `uwsim.base.numerics.calls`."""
+    p = carray(pointer(parameters), (1,), POWERS)[0]
+    n, m, controls = p.n_rotors, p.n_motors, floats(p.controls, p.nu)
+    rotors = (
+        longs(p.rotors, 7 * n).reshape((n, 7)),
+        floats(p.rotor_traits, 3 * n).reshape((n, 3)),
+        floats(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
+        p.still,
+        controls,
+        floats(p.states, p.na),
+        floats(p.userdata, p.n_userdata),
+        floats(p.sites, 3 * p.n_sites).reshape((p.n_sites, 3)),
+    )
+    motors = (
+        p.timestep,
+        longs(p.motors, 4 * m).reshape((m, 4)),
+        floats(p.motor_traits, 3 * m).reshape((m, 3)),
+        floats(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
+        floats(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
+        controls,
+        floats(p.qpos, p.nq),
+        floats(p.qvel, p.nv),
+        floats(p.applied, p.nv),
+    )
+    tables = floats(p.tables, 2 * n * p.n_terms).reshape((n, 2, p.n_terms))
+    floats(values, n + m)[:] = powers(tables, rotors, motors)

@@ -5,10 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from ...base.geometry import Pose
-from ...base.numerics.calls import address_of, call, function_address
+from ...base.numerics.calls import CompiledFunction, address_of, call, function_address
 from ...base.numerics.memory import carray, floats, pointer
 from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
-from ...world import CompiledWater
 from .water_kernel import turn_into
 
 POINTS = np.dtype(
@@ -23,7 +22,7 @@ POINTS = np.dtype(
 """The water at some points, for compiled code."""
 
 
-def at_points(flow: FlowFunction | None, localized_from_world: Pose, n: int) -> CompiledWater:
+def at_points(flow: FlowFunction | None, localized_from_world: Pose, n: int) -> CompiledFunction:
     """Return the water at points that one vehicle asks about.
 
     Args:
@@ -39,7 +38,7 @@ def at_points(flow: FlowFunction | None, localized_from_world: Pose, n: int) -> 
     row["position"] = localized_from_world.position
     if flow is not None:
         row["flow"] = flow.addresses
-    return CompiledWater(
+    return CompiledFunction(
         addresses=(function_address(write_velocities), address_of(row)),
         prepare=(lambda _: None) if flow is None else flow.prepare,
         kept=(row, flow, query, kept),

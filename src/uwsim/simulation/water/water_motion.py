@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array, Pose
+from ...base.numerics.calls import CompiledFunction
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...base.record import Record
@@ -21,7 +22,7 @@ from ...model.robots import find_file
 from ...model.scene_model import SceneModel
 from ...physics.hydrodynamics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
-from ...world import CompiledWater, Flow
+from ...world import Flow
 from .drift_kernel import of_drift
 from .point_kernel import at_points
 from .water_kernel import NEARBY, of_flow, of_rows
@@ -61,7 +62,7 @@ class WaterMotion:
         self._felt: _Found[WaterFunction] = None, (), None, None
         self._drift: _Found[DriftFunction] = None, (), None, None
         # a flow, and its functions by the vehicle and the number of points
-        self._points: tuple[Flow, dict[tuple[str, int], CompiledWater | None]] = self._sum, {}
+        self._points: tuple[Flow, dict[tuple[str, int], CompiledFunction | None]] = self._sum, {}
         self.files: dict[str, Path] = {}
         """Files that the currents read, by name."""
         for spec in specs:
@@ -219,7 +220,7 @@ class WaterMotion:
         velocity = self._flow.velocity(localized, time, (vehicle,) * len(points))
         return product(velocity, self._localized_from_world.rotation)
 
-    def at_points(self, vehicle: str, n: int) -> CompiledWater | None:
+    def at_points(self, vehicle: str, n: int) -> CompiledFunction | None:
         """Return what says `velocity` at ``n`` points in compiled code; None if Python is asked.
 
         Args:

@@ -1,0 +1,53 @@
+"""The sum of some numbers in compiled code, rounded once: that of `math.fsum`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from .jit import njit
+from .linear import Array
+
+
+@njit
+def exact_sum(values: Array) -> float:
+    """Return the sum of finite numbers, (n,), as if it were computed exactly and then rounded.
+
+    Partial sums that do not overlap hold it (J. R. Shewchuk, *Adaptive Precision Floating-Point
+    Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18, 1997).
+    Sums beyond the greatest float are not provided for.
+    """
+    partials, n = np.empty(len(values)), 0
+    for number in values:
+        x, kept = number, 0
+        for i in range(n):
+            y = partials[i]
+            if abs(x) < abs(y):
+                x, y = y, x
+            high = x + y
+            low = y - (high - x)
+            if low != 0.0:
+                partials[kept] = low
+                kept += 1
+            x = high
+        n = kept
+        if x != 0.0:
+            partials[n] = x
+            n += 1
+    if n == 0:
+        return 0.0
+    n -= 1
+    total, low = partials[n], 0.0
+    while n > 0:
+        n -= 1
+        x, y = total, partials[n]
+        total = x + y
+        low = y - (total - x)
+        if low != 0.0:
+            break
+    if n > 0 and low * partials[n - 1] > 0.0:  # half of a last digit, and more of the same sign
+        doubled = 2.0 * low
+        higher = total + doubled
+        if doubled == higher - total:
+            total = higher
+    found: float = total
+    return found
