@@ -207,6 +207,7 @@ def step_us(*simulations: tuple[Simulation, int]) -> list[list[float]]:
 
 def measured(n_vehicles: int = 1, **options: object) -> dict[str, float]:
     """A step of a scene beside the engine's own."""
+    print("a step with", n_vehicles, "vehicles and", options, file=sys.stderr, flush=True)
     with tempfile.TemporaryDirectory() as folder:
         of_scene = {"n_vehicles": n_vehicles, "is_read": True, **options}
         with opened(Path(folder), **of_scene) as simulation:  # type: ignore[arg-type]
@@ -257,6 +258,7 @@ def influences() -> dict[str, object]:
 def added(**options: object) -> dict[str, float]:
     """The cost of a step beside one in still water without sensors."""
     chosen = {"current": "still", "is_read": False, **options}
+    print("what is added by", options, file=sys.stderr, flush=True)
     with (
         tempfile.TemporaryDirectory() as folder,
         opened(Path(folder), is_read=False, current="still") as plain,

@@ -111,7 +111,7 @@ def test_a_closed_inbox_costs_the_publisher_nothing() -> None:
 
 def test_an_inbox_that_nobody_looks_into_keeps_the_newest(monkeypatch: pytest.MonkeyPatch) -> None:
     bus = Bus()
-    inbox, publish = bus.inbox("a", String), bus.publisher("a", String)
+    inbox, publish = bus.inbox("a", String, n_kept=2), bus.publisher("a", String)
 
     def kept(*words: str) -> list[str]:
         for word in words:
@@ -119,7 +119,6 @@ def test_an_inbox_that_nobody_looks_into_keeps_the_newest(monkeypatch: pytest.Mo
         bus.deliver()
         return [message.data for message in inbox.take()]
 
-    monkeypatch.setattr("uwsim.base.inbox.MAX_KEPT", 2)
     assert kept("a", "b", "c") == ["b", "c"]
     monkeypatch.setattr("uwsim.base.inbox.MAX_BYTES_KEPT", 200)
     assert kept("a", "b" * 150, "c" * 150) == ["c" * 150]

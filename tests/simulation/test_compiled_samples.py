@@ -76,3 +76,19 @@ def test_many_steps_at_once_take_the_samples_of_single_steps(current: object) ->
         assert repr(message) == repr(second.bus.unread(topic)), topic
     first.close()
     second.close()
+
+
+def test_the_newest_message_is_known_although_others_read_and_one_is_kept() -> None:
+    """Of what compiled steps sample: the message is that of the newest sample."""
+    simulation = opened(None)
+    for topic in ("imu", "joints"):
+        simulation.bus.subscribe(topic, object, lambda _: None)
+    simulation.advance(0.5)
+    assert simulation.latest("imu").header.stamp.nanosec == 500_000_000
+    received: list[object] = []
+    simulation.bus.subscribe("imu", object, received.append)
+    simulation.advance(0.5)
+    box = simulation.state.access.newest.value()["imu"][0]
+    assert box is received[-1]
+    assert simulation._access._inboxes["imu"].take() == [received[-1]], "one message is kept"
+    simulation.close()

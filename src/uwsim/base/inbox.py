@@ -17,10 +17,14 @@ MAX_BYTES_KEPT = 256 * 2**20
 class Inbox(Generic[M]):
     """The messages of one topic that one reader has not taken yet, and the last one.
 
-    One that is not looked into keeps the newest, at most `MAX_KEPT` of `MAX_BYTES_KEPT` together.
+    One that is not looked into keeps the newest, of `MAX_BYTES_KEPT` together at most.
+
+    Args:
+        n_kept: at most so many; `MAX_KEPT` if it is not given.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, n_kept: int | None = None) -> None:
+        self._n_kept = MAX_KEPT if n_kept is None else n_kept
         self._new: deque[M] = deque()
         self._sizes: deque[int] = deque()
         self._n_bytes = 0
@@ -35,7 +39,9 @@ class Inbox(Generic[M]):
         self._new.append(message)
         self._sizes.append(size_of(message))
         self._n_bytes += self._sizes[-1]
-        while len(self._new) > MAX_KEPT or (self._n_bytes > MAX_BYTES_KEPT and len(self._new) > 1):
+        while len(self._new) > self._n_kept or (
+            self._n_bytes > MAX_BYTES_KEPT and len(self._new) > 1
+        ):
             self._new.popleft()
             self._n_bytes -= self._sizes.popleft()
         self.last, self.last_step = message, step

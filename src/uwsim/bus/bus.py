@@ -141,13 +141,16 @@ class Bus:
 
         return stop
 
-    def inbox(self, topic: str, type: type[M], *, latched: bool = False) -> Inbox[M]:
+    def inbox(
+        self, topic: str, type: type[M], *, latched: bool = False, n_kept: int | None = None
+    ) -> Inbox[M]:
         """Return an inbox that collects the messages of ``topic`` from now on.
 
         A ``latched`` one begins with the newest message there was, as a subscriber of ROS does on
-        a latched topic. The bus keeps that message from the first time it is asked so.
+        a latched topic. The bus keeps that message from the first time it is asked so. What is not
+        taken out is kept, ``n_kept`` messages at most.
         """
-        inbox: Inbox[M] = Inbox()
+        inbox: Inbox[M] = Inbox(n_kept)
         if latched:
             entry = self._typed(topic, type)
             name = without_slash(topic)

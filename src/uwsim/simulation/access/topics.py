@@ -65,9 +65,12 @@ class TopicAccess:
     def __init__(self, bus: Bus, read: Iterable[str] = ()) -> None:
         self._bus = bus
         self._published: dict[str, Callable[[Any], None]] = {}
-        self._inboxes = {name: bus.inbox(name, object) for name in read if name in bus.topics}
-        self.state = AccessState(Newest(self._inboxes, lambda topic: bus.inbox(topic, object)))
+        self._inboxes = {name: self._opened(name) for name in read if name in bus.topics}
+        self.state = AccessState(Newest(self._inboxes, self._opened))
         """What it has read."""
+
+    def _opened(self, name: str) -> Inbox[Any]:
+        return self._bus.inbox(name, object, n_kept=1)
 
     @property
     def read(self) -> tuple[str, ...]:
@@ -105,7 +108,7 @@ class TopicAccess:
             if name not in self._bus.topics:
                 raise UnknownName("topic", topic, self._bus.topics)
             before = self._bus.unread(name)
-            self._inboxes[name] = self._bus.inbox(name, object)
+            self._inboxes[name] = self._opened(name)
             if before is not None:
                 self._inboxes[name].receive(before, self._bus.step)
         inbox = self._inboxes[name]
