@@ -193,7 +193,6 @@ def gathering(
     *,
     prepare: Callable[[float], None],
     is_alone: Callable[[float], bool],
-    kept: tuple[object, ...] = (),
 ) -> Sampler:
     """Return what takes the numbers at some addresses, in their order, as a sample.
 
@@ -201,7 +200,6 @@ def gathering(
         addresses: of doubles, (n,); they may be changed by ``prepare``.
         prepare: as in `Sampler`.
         is_alone: as in `Sampler`.
-        kept: as in `Sampler`.
     """
     row = np.zeros(1, NUMBERS)
     row["addresses"], row["n"] = address_of(addresses), len(addresses)
@@ -211,7 +209,7 @@ def gathering(
         n_values=len(addresses),
         prepare=prepare,
         is_alone=is_alone,
-        kept=(addresses, *kept),
+        kept=(addresses,),
     )
 
 

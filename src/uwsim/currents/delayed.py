@@ -8,12 +8,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import call
+from ..base.numerics.calls import FUNCTION, call
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer
 from ..world import Flow
 from .current import Current, compiled
-from .flow_function import FLOW, QUERY, FlowFunction, write_everywhere
+from .flow_function import QUERY, FlowFunction, write_everywhere
 
 
 class LateCurrent(Current):
@@ -82,7 +82,7 @@ class LateCurrent(Current):
 
 
 LATE = np.dtype(
-    [("flow", FLOW), ("began", np.float64), ("delay", np.float64), ("offset", np.float64)]
+    [("flow", FUNCTION), ("began", np.float64), ("delay", np.float64), ("offset", np.float64)]
 )
 """A current that starts at a given time, for compiled code."""
 

@@ -28,8 +28,6 @@ QUERY = np.dtype(
     ]
 )
 """A question about the water at some points, and where the answer is written."""
-FLOW = np.dtype([("function", np.int64), ("parameters", np.int64)])
-"""The addresses of a current's function and of its parameters."""
 
 Record = Any
 
@@ -53,7 +51,7 @@ class FlowFunction:
 
     @property
     def addresses(self) -> tuple[int, int]:
-        """The numbers of `FLOW`; the function is compiled when they are first needed."""
+        """The numbers of `calls.FUNCTION`; the function is compiled when they are first needed."""
         return function_address(self.function), address_of(self.parameters)
 
 

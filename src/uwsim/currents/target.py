@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import call
+from ..base.numerics.calls import FUNCTION, call
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, longs, pointer
 from ..world import Flow
 from .current import Current, compiled, is_steady
-from .flow_function import FLOW, QUERY, FlowFunction, Record
+from .flow_function import QUERY, FlowFunction, Record
 
 
 class TargetCurrent(Current):
@@ -76,7 +76,7 @@ class TargetCurrent(Current):
         return vectors
 
 
-TARGET = np.dtype([("flow", FLOW), ("target", np.int64)])
+TARGET = np.dtype([("flow", FUNCTION), ("target", np.int64)])
 """A current, and the number of the only vehicle that it acts on, for compiled code."""
 
 

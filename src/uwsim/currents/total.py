@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of, call
+from ..base.numerics.calls import FUNCTION, address_of, call
 from ..base.numerics.memory import carray, floats, pointer
 from ..world import Flow
 from .current import Current, CurrentSpec, Place, compiled, is_steady
-from .flow_function import FLOW, QUERY, FlowFunction
+from .flow_function import QUERY, FlowFunction
 
 
 class TotalCurrent(Current):
@@ -44,7 +44,7 @@ class TotalCurrent(Current):
             return None
         if len(flows) == 1:
             return flows[0]
-        parts, row = np.zeros(len(flows), FLOW), np.zeros(1, TOTAL)
+        parts, row = np.zeros(len(flows), FUNCTION), np.zeros(1, TOTAL)
         for part, flow in zip(parts, flows, strict=True):
             part["function"], part["parameters"] = flow.addresses
         row["parts"], row["n"] = address_of(parts), len(parts)
@@ -81,13 +81,13 @@ def _sum(parts: list[Array], n: int) -> Array:
 
 
 TOTAL = np.dtype([("parts", np.int64), ("n", np.int64)])
-"""The address of records of `flow_function.FLOW`, and how many, for compiled code."""
+"""The address of records of `calls.FUNCTION`, and how many, for compiled code."""
 
 
 def flow_total(parameters: int, values: int, time: float) -> None:
     """Answer a query about a sum of currents; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), TOTAL)[0]
-    parts = carray(pointer(current.parts), (current.n,), FLOW)
+    parts = carray(pointer(current.parts), (current.n,), FUNCTION)
     query = carray(pointer(values), (1,), QUERY)[0]
     wanted = query.velocity, query.acceleration
     size = 3 * query.n

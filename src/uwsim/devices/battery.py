@@ -139,7 +139,8 @@ class Battery(Device):
         powers = None if actuators is None else actuators.compiled_powers
         row = np.zeros(1, BATTERY)
         if actuators is not None and powers is not None:
-            row["powers"], row["n"] = powers.addresses, len(actuators.powers())
+            row["powers"] = powers.addresses
+            row["n"] = len(actuators.thrusters) + len(actuators.joints)
         row["hotel_load"], row["voltage"] = spec.hotel_load, spec.voltage
         row["resistance"], row["full"] = spec.resistance, self._full
         row["numbers"] = address_of(numbers)

@@ -21,16 +21,14 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import function_address
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.memory import carray, floats, pointer
 from ..base.record import RandomState
-from ..base.sampling import Sampler
 from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
 from ..world import Mount, SensorWorld
 from ..world.mounts import MOUNT, read_frame
-from .sensor import Carrier, CompiledSensor, SensorSpec
+from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
 
 NO_FIX, FIX = -1, 0
 """Of NavSatStatus."""
@@ -81,14 +79,7 @@ class GpsSensor(CompiledSensor):
         self._is_original = "gps-metres" in world.compatibility
         row = np.zeros(1, GNSS)
         row["mount"], row["stream"], row["std"] = mount.functions, stream_of(random), spec.std
-        self.sampler = Sampler(
-            function=function_address(sample_gps),
-            parameters=row,
-            n_values=N_VALUES,
-            prepare=lambda _: mount.prepare(),
-            is_alone=lambda _: mount.is_compiled,
-            kept=(self.state, mount),
-        )
+        self.sampler = follow_mount(mount, sample_gps, row, N_VALUES, (self.state,))
         """What takes the numbers of a sample."""
 
     def message(self, time: float, values: Array) -> NavSatFix | None:

@@ -23,19 +23,17 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..base.geometry import Array, write_quaternion, write_rotation
-from ..base.numerics.calls import function_address
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.jit import njit
 from ..base.numerics.linear import matrices, turned_back
 from ..base.numerics.memory import carray, floats, pointer
 from ..base.record import Record
-from ..base.sampling import Sampler
 from ..messages import Imu, Quaternion, Vector3, header
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, MovingBody, SensorWorld
 from ..world.mounts import MOUNT, read_frame, read_motion
 from .drift import DRIFT, Drift, DriftSpec, DriftState, draw_errors
-from .sensor import Carrier, CompiledSensor, SensorSpec
+from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,14 +109,7 @@ class InertialUnit(CompiledSensor):
         row["localized_from_world"] = world.world_from_localized.rotation.T
         row["measures_motion"] = self._measures_motion
         row["gyro"], row["accelerometer"] = gyro.parameters, accelerometer.parameters
-        self.sampler = Sampler(
-            function=function_address(sample_imu),
-            parameters=row,
-            n_values=N_VALUES,
-            prepare=lambda _: mount.prepare(),
-            is_alone=lambda _: mount.is_compiled,
-            kept=(self.state, mount),
-        )
+        self.sampler = follow_mount(mount, sample_imu, row, N_VALUES, (self.state,))
         """What takes the numbers of a sample."""
 
     def message(self, time: float, values: Array) -> Imu:

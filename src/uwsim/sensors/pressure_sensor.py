@@ -22,17 +22,16 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, pointer
 from ..base.record import RandomState
-from ..base.sampling import Sampler
 from ..messages import Pressure, header
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, Mount, SensorWorld
 from ..world.mounts import MOUNT, read_frame
-from .sensor import Carrier, CompiledSensor, SensorSpec
+from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
 
 Quantity = Literal["depth", "pressure", "gauge"]
 """Depth below the surface [m], absolute pressure [Pa], or that above the air's [Pa]."""
@@ -108,14 +107,7 @@ class PressureSensor(CompiledSensor):
         localized_from_world = world.world_from_localized.inverse()
         row["upward"] = localized_from_world.rotation[2]
         row["origin"] = localized_from_world.position[2]
-        self.sampler = Sampler(
-            function=function_address(sample_pressure),
-            parameters=row,
-            n_values=1,
-            prepare=lambda _: mount.prepare(),
-            is_alone=lambda _: mount.is_compiled,
-            kept=(self.state, mount, levels),
-        )
+        self.sampler = follow_mount(mount, sample_pressure, row, 1, (self.state, levels))
         """What takes the numbers of a sample."""
 
     def message(self, time: float, values: Array) -> Pressure:

@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import abc
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, Protocol, runtime_checkable
 
+import numpy as np
+import numpy.typing as npt
+
 from ..base.geometry import Array
+from ..base.numerics.calls import function_address
 from ..base.record import Record
 from ..base.sampling import Sampler
 from ..schema import Spec
@@ -133,6 +138,32 @@ class CompiledSensor(abc.ABC):
     def sample(self, time: float) -> Any:
         """Measure now, at ``time`` [s]: a message, None for none."""
         return self.message(time, self.sampler.take(time))
+
+
+def follow_mount(
+    mount: Mount,
+    function: Callable[[int, int, float], None],
+    parameters: npt.NDArray[np.void],
+    n_values: int,
+    kept: tuple[object, ...],
+) -> Sampler:
+    """Return what takes the samples of a sensor that reads nothing that moves but its mount.
+
+    Args:
+        mount: where it is.
+        function: of the module's level, which takes a sample; see `uwsim.base.numerics.calls`.
+        parameters: what the function reads, (1,).
+        n_values: how many numbers it writes.
+        kept: what the parameters have the addresses of, besides the mount.
+    """
+    return Sampler(
+        function=function_address(function),
+        parameters=parameters,
+        n_values=n_values,
+        prepare=lambda _: mount.prepare(),
+        is_alone=lambda _: mount.is_compiled,
+        kept=(mount, *kept),
+    )
 
 
 @runtime_checkable

@@ -114,10 +114,9 @@ def lattice(discs: Discs, fan: Fan, highest: float) -> Lattice:
         fan: the beams.
         highest: elevation beyond which nothing is received [rad].
     """
-    spacing = np.empty(len(discs.radius))
+    spacing = 2.0 / ACROSS * np.sqrt(discs.radius**2)
     begins = np.flatnonzero(np.diff(discs.surface, prepend=-1))
     ends = np.append(begins[1:], len(spacing))
-    spacing[:] = 2.0 / ACROSS * np.sqrt(discs.radius**2)
     for k in np.flatnonzero(ends - begins > 1).tolist():
         begin, end = begins[k], ends[k]
         mean_square = float((discs.radius[begin:end] ** 2).mean())
@@ -260,22 +259,20 @@ def _wrapped(angle: float) -> float:
 @njit
 def _may_be_received(azimuth: float, broad: float, fan: Fan) -> bool:
     """Whether any beam may receive anything within an angle from an azimuth [rad]."""
-    last = fan.first + (fan.n - 1) * fan.step
-    margin = MARGIN * fan.width + broad + SURE
-    low, high = min(fan.first, last) - margin, max(fan.first, last) + margin
-    is_within = False
-    for turn in (-1.0, 0.0, 1.0):
-        is_within |= low <= azimuth + 2.0 * math.pi * turn <= high
-    return is_within
+    return _is_beside(azimuth, MARGIN * fan.width + broad + SURE, fan)
 
 
 @njit
 def _is_all_received(azimuth: float, broad: float, fan: Fan) -> bool:
     """Whether some beam receives whatever is within an angle from an azimuth [rad]."""
-    if abs(fan.step) > 2.0 * MARGIN * fan.width:
-        return False
+    has_gaps = abs(fan.step) > 2.0 * MARGIN * fan.width
+    return not has_gaps and _is_beside(azimuth, MARGIN * fan.width - broad - SURE, fan)
+
+
+@njit
+def _is_beside(azimuth: float, margin: float, fan: Fan) -> bool:
+    """Whether an azimuth is between the first beam and the last, or within a margin [rad]."""
     last = fan.first + (fan.n - 1) * fan.step
-    margin = MARGIN * fan.width - broad - SURE
     low, high = min(fan.first, last) - margin, max(fan.first, last) + margin
     is_within = False
     for turn in (-1.0, 0.0, 1.0):

@@ -6,15 +6,15 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Pose, write_quaternion
-from ...base.numerics.calls import address_of, call, function_address
+from ...base.numerics.calls import FUNCTION, address_of, call, function_address
 from ...base.numerics.memory import carray, floats, pointer
-from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...currents.flow_function import QUERY, FlowFunction, query_of
 from ...physics.hydrodynamics.water_function import DriftFunction
 from ...physics.step_kernel import rotation_of
 
 DRIFT = np.dtype(
     [
-        ("flow", FLOW),
+        ("flow", FUNCTION),
         ("query", np.int64),  # the address of a record of `QUERY`, with a point a vehicle
         ("timestep", np.float64),  # [s]
         ("rotation", np.float64, (3, 3)),  # of W from L

@@ -5,14 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from ...base.geometry import Pose
-from ...base.numerics.calls import CompiledFunction, address_of, call, function_address
+from ...base.numerics.calls import FUNCTION, CompiledFunction, address_of, call, function_address
 from ...base.numerics.memory import carray, floats, pointer
-from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...currents.flow_function import QUERY, FlowFunction, query_of
 from .water_kernel import turn_into
 
 POINTS = np.dtype(
     [
-        ("flow", FLOW),  # 0: the water is still
+        ("flow", FUNCTION),  # 0: the water is still
         ("query", np.int64),  # the address of a record of `QUERY`
         ("rotation", np.float64, (3, 3)),  # of L from W
         ("position", np.float64, 3),

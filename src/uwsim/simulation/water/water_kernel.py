@@ -17,10 +17,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array, Pose
-from ...base.numerics.calls import address_of, call, function_address
+from ...base.numerics.calls import FUNCTION, address_of, call, function_address
 from ...base.numerics.jit import njit
 from ...base.numerics.memory import carray, floats, pointer
-from ...currents.flow_function import FLOW, QUERY, FlowFunction, query_of
+from ...currents.flow_function import QUERY, FlowFunction, query_of
 from ...physics.hydrodynamics.water_function import (
     ACCELERATION,
     POINT,
@@ -37,7 +37,7 @@ N_AROUND = 6
 
 WATER = np.dtype(
     [
-        ("flow", FLOW),
+        ("flow", FUNCTION),
         ("n", np.int64),  # bodies
         ("is_uniform", np.int64),
         ("rotation", np.float64, (3, 3)),  # of L from W
