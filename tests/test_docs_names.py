@@ -210,7 +210,9 @@ def missing_options(page: str) -> list[str]:
                 continue
             text = path.read_text()
             for module in PROGRAM_OF_A_SCRIPT.findall(text):
-                text += (ROOT / f"{module.replace('.', '/')}.py").read_text()
+                path = ROOT / module.replace(".", "/")
+                path = path / "__main__.py" if path.is_dir() else path.with_suffix(".py")
+                text += path.read_text()
             known = OPTION.findall(text)
             found += [each for each in options if OPTION.match(each) and each not in known]
     return found
