@@ -75,6 +75,7 @@ def test_few_sentences_of_all_pages_are_long_once_no_page_is_an_exception(report
         ("variable", "nearest"),
         ("variable", "firstly"),
         ("variable", "turned"),
+        ("function", "sendable"),
     ],
 )
 def test_a_name_without_a_verb_or_noun_is_a_violation(kind: str, name: str) -> None:
@@ -95,6 +96,7 @@ def test_a_name_without_a_verb_or_noun_is_a_violation(kind: str, name: str) -> N
         ("function", "world_from_camera"),
         ("class", "ThrusterCommand"),
         ("class", "Servo"),
+        ("class", "Recordable"),
         ("constant", "JPEG_QUALITY"),
         ("variable", "workers"),
         ("variable", "quality"),
@@ -227,6 +229,7 @@ def test_the_names_of_a_typescript_module_are_found() -> None:
       draw(found: number, at?: string): void {
         const { each, name: own } = this.read("told");
         for (const one of names) send((thing) => thing.id);
+        setTimeout(first, last);
       }
     }
     function by(what: string) { return what; }

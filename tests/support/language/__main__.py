@@ -68,7 +68,9 @@ def main(arguments: list[str]) -> None:
     elif arguments == ["--new"]:
         exceptions = set(read_exceptions())
         violations = scan().violations
-        print("\n".join(str(item) for item in violations if item.key not in exceptions))
+        for violation in violations:
+            if violation.key not in exceptions:
+                print(violation)
     elif any(argument.startswith("-") for argument in arguments):
         raise SystemExit(USAGE)
     elif arguments:

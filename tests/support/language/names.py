@@ -51,7 +51,8 @@ def name_fault(kind: str, name: str) -> str | None:
     if kind == "constant" and word in WEAK_CONSTANTS:
         return f"{word!r} does not state what the constant is"
     title = word_class(word)
-    if title is None:
+    is_protocol = kind == "class" and word.endswith("able")  # Hashable, Iterable
+    if title is None or is_protocol:
         return None
     article = "an" if title[0] in "aeiou" else "a"
     return f"{word!r} is {article} {title}; name what it is"

@@ -14,7 +14,7 @@ FUNCTION = re.compile(r"\bfunction\*?\s+([A-Za-z_$]\w*)\s*(?:<[^>(]*>)?\(([^)]*)
 METHOD = re.compile(
     r"^[ \t]+(?:(?:async|static|private|protected|public|override|get|set)[ \t]+|\*)*"
     r"(#?[A-Za-z_$]\w*)\??[ \t]*(?:<[^>(]*>)?"
-    r"\(([^()]*(?:\([^()]*\)[^()]*)*)\)[ \t]*(?::[^{;=]+)?[{;]",
+    r"\(([^()]*(?:\([^()]*\)[^()]*)*)\)[ \t]*(?::[^{;=]+;|(?::[^{;=]+)?\{)",
     re.MULTILINE,
 )
 VARIABLE = re.compile(

@@ -73,7 +73,8 @@ THIRD_PERSON = word_set(
     continues could depends did differs does doing equals exists follows gets gives goes had
     happens has have having hears holds is keeps knows lacks lasts listens may meets might must
     needs obeys owns presses publishes reads remains rests says seems sees sends serves should
-    sleeps stands takes tells thinks uses wants was were will wishes would writes yields"""
+    sleeps stands takes tells thinks uses wants was were will wishes succeeds stays enters fails
+    dies hangs would writes yields"""
 )
 """The finite verbs, which state something but name nothing: ``has``, ``closes``, ``may``."""
 PRESENT_PARTICIPLES = word_set(
@@ -100,34 +101,36 @@ ADJECTIVES = word_set(
     consistent constant cool copyable correct crude current damp dark dead deep dense different
     dim direct dirty distant distinct doubtful dry dual due dull dynamic easy electric eligible
     empty endless entire equal essential eternal exact exclusive explicit external extra extreme
-    faint fair false fatal feasible final fine finite firm first fluent foreign formal former
-    fragile free frequent fresh full future general genuine global golden good grave great green
-    handy hard harmless harsh healthy heavy high hollow homogeneous honest horizontal hostile
-    hot huge idle illegal immediate implicit importable impossible inactive incomplete
-    inconsistent incorrect inertial infinite inherent initial inner intact internal invalid
-    invisible keen kinetic large last lateral lax lazy legal legible lenient light likely linear
-    literal little live local logical lone long longitudinal loose loud low lower lucky major
-    manual mere mild minor mobile modern movable mute mutual naive narrow native natural near
-    neat neutral new next nice noisy nominal nonzero normal notable novel numeric obscure
-    obsolete obvious odd okay old opaque open optical optional ordinary original outer overall
-    overt pale parallel partial particular passable passive past perfect periodic permanent
-    physical plain planar plausible poor portable possible potential precise present previous
-    primary prime principal printable prior private probable prompt proper public pure quick
-    quiet random rapid rare raw readable ready real rear recent rectangular redundant regular
-    relative relevant reliable remote renderable reverse rich right rigid robust rough round
-    safe sane scarce secondary secret secure semantic sensible separate serious severe shallow
-    sharp sheer short sick silent similar simple single slack slender slight slim slow small
-    smart smooth soft sole solid solvable sore sound spare sparse special specific spherical
-    square stable stale standard static steady steep stern stiff strange stray strict strong
-    subtle sudden sufficient suitable sure surplus swift symmetric synthetic systematic tall
-    tentative textual thick thin third thorough tidy tight tiny total touchable tough transient
-    transparent trivial true typical ugly ultimate unable uncertain unclear unequal uneven
-    unfair unfit uniform unimodular unique universal unlikely unreadable unreliable unsafe
-    unstable unsure unusual upper upright urgent useful useless usual vague valid valuable
-    variable various vast verbose vertical viable virtual visible visual vital void volatile
-    warm weak weird wet white whole wide wild wise worse worst worth worthy writable writeable
-    wrong young"""
+    faint fair false fatal feasible final fine finite firm first flat fluent foreign formal
+    former fragile free frequent fresh full future general genuine global golden good grave
+    great green handy hard harmless harsh healthy heavy high hollow homogeneous honest
+    horizontal hostile hot huge idle illegal immediate implicit importable impossible inactive
+    incomplete inconsistent incorrect inertial infinite inherent initial inner intact internal
+    invalid invisible keen kinetic large last lateral lax lazy legal legible lenient light
+    likely linear literal little live local logical lone long longitudinal loose loud low lower
+    lucky major manual mere mild minor mobile modern movable mute mutual naive narrow native
+    natural near neat neutral new next nice noisy nominal nonzero normal notable novel numeric
+    obscure obsolete obvious odd okay old opaque open optical optional ordinary original outer
+    overall overt pale parallel partial particular passable passive past perfect periodic
+    permanent physical plain planar plausible poor portable possible potential precise present
+    previous primary prime principal printable prior private probable prompt proper public pure
+    quick quiet random rapid rare raw readable ready real rear recent rectangular redundant
+    regular relative relevant reliable remote renderable reverse rich right rigid robust rough
+    round safe sane scarce secondary secret secure semantic sensible separate serious severe
+    shallow sharp sheer short sick silent similar simple single slack slender slight slim slow
+    small smart smooth soft sole solid solvable sore sound spare sparse special specific
+    spherical square stable stale standard static steady steep stern stiff strange stray strict
+    strong subtle sudden sufficient suitable sure surplus swift symmetric synthetic systematic
+    tall tentative textual thick thin third thorough tidy tight tiny total touchable tough
+    transient transparent trivial true typical ugly ultimate unable uncertain unclear unequal
+    uneven unfair unfit uniform unimodular unique universal unlikely unreadable unreliable
+    unsafe unstable unsure untrue unusual upper upright urgent useful useless usual vague valid
+    valuable variable various vast verbose vertical viable virtual visible visual vital void
+    volatile warm weak weird wet white whole wide wild wise worse worst worth worthy writable
+    writeable wrong young"""
 )
+NOT_ADJECTIVES = word_set("able cable callable disable enable iterable table timetable variable")
+"""Nouns and verbs in -able; the other words in -able and -ible are adjectives."""
 NOT_SUPERLATIVES = word_set(
     """arrest attest chest conquest contest crest digest forest guest harvest ingest interest
     invest manifest nest pest protest pytest quest request rest suggest test unittest vest west"""
@@ -136,13 +139,13 @@ NOT_SUPERLATIVES = word_set(
 COMPARATIVES = word_set(
     """bigger broader closer colder deeper denser faster finer greater harder heavier higher larger
     lighter longer louder narrower nearer newer odder older outermost innermost uppermost
-    lowermost foremost utmost topmost redder sharper shorter simpler slower smaller softer
-    steeper stronger taller thicker thinner tighter warmer weaker wider younger"""
+    lowermost foremost utmost topmost redder sharper shorter simpler slower darker smaller
+    softer steeper stronger taller thicker thinner tighter warmer weaker wider younger"""
 )
 
 FIGURES = word_set(
-    """clark craft dawdle dive hush lean nap obey onlooker onlookers room seat thing things unwant
-    wish"""
+    """clark craft dawdle dive hush lean look looks nap obey onlooker onlookers room seat thing
+    things touch touches unwant wish"""
 )
 """Figures of speech that the style page and the glossary replace."""
 WEAK_CONSTANTS = word_set("prompt quality")
@@ -257,6 +260,8 @@ def word_class(word: str) -> str | None:
         return "superlative"
     if len(word) > 3 and word.endswith("ly") and word not in NOT_ADVERBS:
         return "adverb"
+    if word.endswith(("able", "ible")) and word not in NOT_ADJECTIVES:
+        return "adjective"
     return None
 
 
