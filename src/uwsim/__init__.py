@@ -1,6 +1,6 @@
-"""Underwater robots, simulated and measured.
+"""Simulate underwater robots, and benchmark the algorithms that control them.
 
-The public names, each imported when it is first used (`uwsim.api` says what they do)::
+The names of `__all__` are stable: `docs/python.md` states the rule, `uwsim.api` describes them::
 
     import uwsim
 
@@ -51,7 +51,7 @@ __all__ = [
     "read_result",
 ]
 
-_HOMES = {
+_MODULES = {
     "Algorithm": "bus",
     "Node": "bus",
     "OrientedBox": "simulation.access.boxes",
@@ -72,19 +72,20 @@ _HOMES = {
 """Public name -> the module that defines it."""
 
 
-def __getattr__(name: str) -> Any:
-    """Import a public name when it is first used."""
-    if name == "messages":
-        return importlib.import_module(".messages", __name__)
-    if name not in _HOMES:
-        import difflib
+if not TYPE_CHECKING:  # with it, a type checker accepts every name
 
-        near = difflib.get_close_matches(name, __all__, n=1)
-        hint = f" Did you mean {near[0]!r}?" if near else ""
-        raise AttributeError(f"module 'uwsim' has no attribute {name!r}.{hint}")
-    value = getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
-    globals()[name] = value
-    return value
+    def __getattr__(name: str) -> Any:
+        """Import a public name when it is first used."""
+        if name == "messages":
+            return importlib.import_module(".messages", __name__)
+        if name not in _MODULES:
+            import difflib
+
+            near = difflib.get_close_matches(name, __all__, n=1)
+            hint = f" Did you mean {near[0]!r}?" if near else ""
+            raise AttributeError(f"module 'uwsim' has no attribute {name!r}.{hint}")
+        module = importlib.import_module(f".{_MODULES[name]}", __name__)
+        return globals().setdefault(name, getattr(module, name))
 
 
 def __dir__() -> list[str]:
