@@ -46,9 +46,9 @@ def errors_of_release(title: str, text: str) -> list[str]:
     n_lines = len(text.strip().splitlines()) + 2  # the heading and a blank line
     if n_lines > MAX_LINES:
         errors.append(f"{title}: {n_lines} lines, more than {MAX_LINES}")
-    before, *sections = re.split(r"^### ", text, flags=re.MULTILINE)
-    if before.strip():
-        errors.append(f"{title}: '{before.strip()}' is outside a section")
+    preface, *sections = re.split(r"^### ", text, flags=re.MULTILINE)
+    if preface.strip():
+        errors.append(f"{title}: '{preface.strip()}' is outside a section")
     names = [section.splitlines()[0] for section in sections]
     if names != [name for name in SECTIONS if name in names]:
         errors.append(f"{title}: {names} are not sections, each once, in the order {SECTIONS}")
@@ -116,33 +116,33 @@ def test_the_citation_names_the_newest_release() -> None:
 
 
 def test_each_mistake_of_form_is_found() -> None:
-    good = (
+    changelog = (
         "# Changelog\n\n## [Unreleased]\n\n## [0.3.0] - 2026-02-01\n\n"
         "### Scenes\n\n- Read a scene.\n\n### Fixed\n\n- Read a mesh.\n\n"
         "## [0.2.0] - 2026-01-01\n\n### Views\n\n- Watch a run.\n"
     )
-    assert errors_of_changelog(good) == []
-    unreleased = good.replace("Unreleased]\n", "Unreleased]\n\n### Views\n\n- Watch it.\n")
-    assert errors_of_changelog(unreleased) == []
-    for wrong in (
-        good.replace("# Changelog", "# News"),
-        good.replace("[Unreleased]", "[Next]"),
-        good.replace("## [Unreleased]\n", ""),
-        good.replace("## [0.2.0]", "## [Unreleased]\n\n## [0.2.0]"),
-        good.replace("Scenes", "Other"),
-        good.replace("Fixed", "Scenes"),
-        good.replace("Scenes", "Security"),
-        good.replace("- Read a scene.\n", ""),
-        good.replace("scene.", "scene"),
-        good.replace("- Read a scene", "Read a scene"),
-        good.replace("- Read a scene", "- `uwsim` reads a scene"),
-        good.replace("a scene", "a " + "x" * 160),
-        good.replace("a scene", "a b " * 13),
-        good.replace("- Read a scene.\n", "- Read a scene.\n" * 60),
-        good.replace("### Scenes", "Some text.\n\n### Scenes"),
-        good.replace("2026-01-01", "1.1.2026"),
-        good.replace("2026-01-01", "2026-03-01"),
-        good.replace("0.2.0", "0.3.1"),
-        good.replace("0.2.0", "0.3.0"),
+    assert errors_of_changelog(changelog) == []
+    with_entry = changelog.replace("Unreleased]\n", "Unreleased]\n\n### Views\n\n- Watch it.\n")
+    assert errors_of_changelog(with_entry) == []
+    for text in (
+        changelog.replace("# Changelog", "# News"),
+        changelog.replace("[Unreleased]", "[Next]"),
+        changelog.replace("## [Unreleased]\n", ""),
+        changelog.replace("## [0.2.0]", "## [Unreleased]\n\n## [0.2.0]"),
+        changelog.replace("Scenes", "Other"),
+        changelog.replace("Fixed", "Scenes"),
+        changelog.replace("Scenes", "Security"),
+        changelog.replace("- Read a scene.\n", ""),
+        changelog.replace("scene.", "scene"),
+        changelog.replace("- Read a scene", "Read a scene"),
+        changelog.replace("- Read a scene", "- `uwsim` reads a scene"),
+        changelog.replace("a scene", "a " + "x" * 160),
+        changelog.replace("a scene", "a b " * 13),
+        changelog.replace("- Read a scene.\n", "- Read a scene.\n" * 60),
+        changelog.replace("### Scenes", "Some text.\n\n### Scenes"),
+        changelog.replace("2026-01-01", "1.1.2026"),
+        changelog.replace("2026-01-01", "2026-03-01"),
+        changelog.replace("0.2.0", "0.3.1"),
+        changelog.replace("0.2.0", "0.3.0"),
     ):
-        assert errors_of_changelog(wrong) != [], wrong
+        assert errors_of_changelog(text) != [], text

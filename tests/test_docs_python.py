@@ -17,7 +17,7 @@ PAGE = (Path(__file__).parent.parent / "docs" / "python.md").read_text()
 ROW = re.compile(r"^\| (`[^|]*`) \|", re.MULTILINE)
 CODE = re.compile(r"`([^`\n]+)`")
 NAME = re.compile(r"(\w+)(?:\((.*)\))?")
-STABLE = re.compile(r"^\| (\d+\.\d+\.\d+) \| (.*) \|$", re.MULTILINE)
+STABLE_NAMES = re.compile(r"^\| (\d+\.\d+\.\d+) \| (.*) \|$", re.MULTILINE)
 BLOCK = re.compile(r"^```python\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 
@@ -99,7 +99,7 @@ def test_what_the_page_says_of_boxes_and_pinholes_is_there() -> None:
 
 
 def test_the_stable_names_of_the_page_are_the_public_names() -> None:
-    rows = STABLE.findall(section("## Stability"))
+    rows = STABLE_NAMES.findall(section("## Stability"))
     names = [name for _, text in rows for name in CODE.findall(text)]
     assert sorted(names) == sorted(uwsim.__all__)
 

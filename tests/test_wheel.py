@@ -24,8 +24,8 @@ import uwsim
 
 ROOT = Path(__file__).parent.parent
 NAME = f"uwsim-{uwsim.__version__}"
-WITHOUT = {".ci/run"}
-"""The files of the repository that a packager does not need."""
+CI_FILES = {".ci/run"}
+"""The files of the repository that only continuous integration needs."""
 PROGRAM = '''"""A program of a user; an unused `type: ignore` would be an error, too."""
 
 from typing import assert_type
@@ -67,38 +67,38 @@ def environment() -> dict[str, str]:
 
 def run(*command: str | Path, folder: Path) -> str:
     """Run a command that must succeed; return its output."""
-    done = subprocess.run(command, cwd=folder, env=environment(), capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
+    result = subprocess.run(command, cwd=folder, env=environment(), capture_output=True, text=True)
+    assert result.returncode == 0, result.stdout + result.stderr
+    return result.stdout
 
 
 @pytest.fixture(scope="module")
 def sdist(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Build the sdist."""
+    """The sdist."""
     folder = tmp_path_factory.mktemp("sdist")
     run(sys.executable, "-m", "hatchling", "build", "-t", "sdist", "-d", folder, folder=ROOT)
     return folder / f"{NAME}.tar.gz"
 
 
 @pytest.fixture(scope="module")
-def unpacked(sdist: Path) -> Path:
-    """Unpack the sdist; return its folder."""
+def source(sdist: Path) -> Path:
+    """The folder of the unpacked sdist."""
     with tarfile.open(sdist) as archive:
         archive.extractall(sdist.parent, filter="data")
     return sdist.parent / NAME
 
 
 @pytest.fixture(scope="module")
-def wheel(unpacked: Path) -> Path:
-    """Build the wheel from the unpacked sdist."""
+def wheel(source: Path) -> Path:
+    """The wheel, built from the unpacked sdist."""
     command = [sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", "--no-index"]
-    run(*command, "--no-build-isolation", "-w", unpacked.parent, unpacked, folder=unpacked.parent)
-    return unpacked.parent / f"{NAME}-py3-none-any.whl"
+    run(*command, "--no-build-isolation", "-w", source.parent, source, folder=source.parent)
+    return source.parent / f"{NAME}-py3-none-any.whl"
 
 
 @pytest.fixture(scope="module")
-def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Install the wheel in an empty environment; return the environment's ``bin``."""
+def programs(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The ``bin`` of an empty environment in which the wheel is installed."""
     home = tmp_path_factory.mktemp("environment")
     venv.create(home, with_pip=False)
     pip = [sys.executable, "-m", "pip", "--python", home / "bin" / "python", "install", "--quiet"]
@@ -111,7 +111,7 @@ def installed(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def metadata(wheel: Path) -> Message:
-    """Read the metadata of the wheel."""
+    """The metadata of the wheel."""
     with zipfile.ZipFile(wheel) as archive:
         return message_from_bytes(archive.read(f"{NAME}.dist-info/METADATA"))
 
@@ -120,22 +120,22 @@ def metadata(wheel: Path) -> Message:
 def test_the_sdist_holds_the_files_of_the_repository_and_no_other(sdist: Path) -> None:
     if not (ROOT / ".git").exists():
         pytest.skip("not a checkout: git lists the files of the repository")
-    listed = run("git", "ls-files", "--cached", "--others", "--exclude-standard", folder=ROOT)
-    files = {name for name in listed.splitlines() if (ROOT / name).exists()}
+    names = run("git", "ls-files", "--cached", "--others", "--exclude-standard", folder=ROOT)
+    files = {name for name in names.splitlines() if (ROOT / name).exists()}
     with tarfile.open(sdist) as archive:
         members = {member.name.removeprefix(f"{NAME}/") for member in archive}
-    assert members == files - WITHOUT | {"PKG-INFO"}
+    assert members == files - CI_FILES | {"PKG-INFO"}
 
 
 @pytest.mark.slow
-def test_the_tests_of_the_sdist_run(unpacked: Path) -> None:
+def test_the_tests_of_the_sdist_run(source: Path) -> None:
     names = ("changelog", "docs_python", "schema", "setup")
     tests = [f"tests/test_{name}.py" for name in names]
     options = ["-q", "-m", "not slow", "-p", "no:cacheprovider", "-p", "no:xdist"]
     command = [sys.executable, "-m", "pytest", *options, *tests]
-    variables = {**environment(), "PYTHONPATH": str(unpacked / "src")}
-    done = subprocess.run(command, cwd=unpacked, env=variables, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
+    variables = {**environment(), "PYTHONPATH": str(source / "src")}
+    result = subprocess.run(command, cwd=source, env=variables, capture_output=True, text=True)
+    assert result.returncode == 0, result.stdout
 
 
 @pytest.mark.slow
@@ -146,9 +146,11 @@ def test_the_wheel_holds_the_files_of_the_package_and_no_other(wheel: Path) -> N
         for path in package.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
-    about = {"METADATA", "RECORD", "WHEEL", "entry_points.txt", "licenses/LICENSE"}
+    metadata_names = {"METADATA", "RECORD", "WHEEL", "entry_points.txt", "licenses/LICENSE"}
     with zipfile.ZipFile(wheel) as archive:
-        assert {*archive.namelist()} == files | {f"{NAME}.dist-info/{name}" for name in about}
+        assert {*archive.namelist()} == files | {
+            f"{NAME}.dist-info/{name}" for name in metadata_names
+        }
 
 
 @pytest.mark.slow
@@ -167,14 +169,14 @@ def test_the_readme_names_the_wheel() -> None:
 
 
 @pytest.mark.slow
-def test_the_installed_command_lists_renders_and_scores(installed: Path, tmp_path: Path) -> None:
+def test_the_installed_command_lists_renders_and_scores(programs: Path, tmp_path: Path) -> None:
     def command(*arguments: str) -> str:
-        return run(installed / "uwsim", *arguments, folder=tmp_path)
+        return run(programs / "uwsim", *arguments, folder=tmp_path)
 
     code = "import uwsim; print(uwsim.__version__, uwsim.__file__)"
-    version, file = run(installed / "python", "-c", code, folder=tmp_path).split()
+    version, file = run(programs / "python", "-c", code, folder=tmp_path).split()
     assert version == uwsim.__version__
-    assert Path(file).is_relative_to(installed.parent)
+    assert Path(file).is_relative_to(programs.parent)
     assert command("--version").strip() == f"uwsim {uwsim.__version__}"
     assert "currents-scene" in command("list", "scenes")
     command("render", "visibility-scene", "-o", "water.png")
@@ -185,9 +187,9 @@ def test_the_installed_command_lists_renders_and_scores(installed: Path, tmp_pat
 
 @pytest.mark.slow
 def test_a_program_is_checked_with_the_types_of_the_installed_package(
-    installed: Path, tmp_path: Path
+    programs: Path, tmp_path: Path
 ) -> None:
     program = tmp_path / "program.py"
     program.write_text(PROGRAM)
-    options = ["--strict", "--config-file=", "--python-executable", installed / "python"]
+    options = ["--strict", "--config-file=", "--python-executable", programs / "python"]
     run(sys.executable, "-m", "mypy", *options, program, folder=tmp_path)

@@ -69,7 +69,7 @@ _MODULES = {
     "load": "api",
     "read_result": "api",
 }
-"""Public name -> the module that defines it."""
+"""The module that defines each public name."""
 
 
 if not TYPE_CHECKING:  # with it, a type checker accepts every name
