@@ -87,7 +87,7 @@ class Stepper:
         uses_callback = callback.has_slot()
         plan["model"], plan["data"] = model._address, data._address
         plan["is_in_middle"] = uses_callback
-        plan["kinematics"] = callback.kinematics_address()
+        plan["kinematics"] = callback.function_address("mj_kinematics")
         plan["autopilot_steps"] = max(1, round(AUTOPILOT_PERIOD / model.opt.timestep))
         plan["timestep"] = model.opt.timestep
         self._kept = {

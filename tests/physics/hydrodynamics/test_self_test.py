@@ -5,13 +5,38 @@ from __future__ import annotations
 import mujoco
 import pytest
 
-from uwsim.physics.hydrodynamics import self_test
+from uwsim.physics.hydrodynamics import callback, self_test
+from uwsim.physics.hydrodynamics.kernel import fields, layout
 from uwsim.physics.hydrodynamics.kernel.layout import MujocoChanged
 
 
 def test_this_mujoco_passes() -> None:
     self_test.self_test.cache_clear()
     self_test.self_test()
+
+
+@pytest.mark.parametrize(
+    ("field", "name"),
+    [
+        (fields.CONTACT_POINT, "contact"),
+        (fields.CONTACT_AXES, "contact"),
+        (fields.CONTACT_GEOMS, "contact"),
+        (fields.CONTACT_SIZE, "contact"),
+        (fields.CONTACTS, "contact"),
+        (fields.N_CONTACTS, "ncon"),
+        (fields.GEOM_BODY, "geom_bodyid"),
+        (fields.SUBTREE_FORCE, "cfrc_int"),
+    ],
+)
+def test_a_field_at_another_place_is_found(field: int, name: str) -> None:
+    model = mujoco.MjModel.from_xml_string(callback._SMALL)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    at = layout.offsets()
+    layout.check(model, data, at)
+    at[field] += 8
+    with pytest.raises(MujocoChanged, match=f"keeps '{name}' elsewhere"):
+        layout.check(model, data, at)
 
 
 def test_a_gyroscopic_term_that_is_not_undone_is_found(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -184,9 +184,9 @@ def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
 
 
 @functools.cache
-def kinematics_address() -> int:
-    """Return the address of ``mj_kinematics``, which places all bodies."""
-    return ctypes.cast(library().mj_kinematics, ctypes.c_void_p).value or 0
+def function_address(name: str) -> int:
+    """Return the address of a function of MuJoCo by its name."""
+    return ctypes.cast(getattr(library(), name), ctypes.c_void_p).value or 0
 
 
 @functools.cache
@@ -215,6 +215,7 @@ _SMALL = """
   <size nuser_body="2" nuser_actuator="3" nuserdata="5"/>
   <option timestep="0.003" noslip_iterations="2" integrator="implicitfast" gravity="1 2 -9.8"/>
   <worldbody>
+    <geom size="0.1" pos="0 0 -0.15"/>
     <body name="a"><freejoint/><geom size="0.1"/><site name="s"/>
       <body name="b" pos="0.3 0 0"><joint name="j"/><geom size="0.1"/></body></body>
   </worldbody>

@@ -5,7 +5,7 @@ A field's number here is its place among the offsets that `layout.offsets` gives
 
 from __future__ import annotations
 
-from .layout import DATA_FIELDS, MODEL_FIELDS
+from .layout import CONTACT_FIELDS, DATA_FIELDS, MODEL_FIELDS
 
 _NAMES = (*MODEL_FIELDS, *DATA_FIELDS)
 TIMESTEP = _NAMES.index("opt.timestep")
@@ -33,6 +33,7 @@ TREE_DOFADR = _NAMES.index("tree_dofadr")
 TREE_DOFNUM = _NAMES.index("tree_dofnum")
 BODY_JNTNUM = _NAMES.index("body_jntnum")
 BODY_JNTADR = _NAMES.index("body_jntadr")
+GEOM_BODY = _NAMES.index("geom_bodyid")
 JNT_QPOSADR = _NAMES.index("jnt_qposadr")
 BODY_DOFNUM = _NAMES.index("body_dofnum")
 BODY_DOFADR = _NAMES.index("body_dofadr")
@@ -64,6 +65,7 @@ CACC = _NAMES.index("cacc")
 CINERT = _NAMES.index("cinert")
 CRB = _NAMES.index("crb")
 M = _NAMES.index("M")
+SUBTREE_FORCE = _NAMES.index("cfrc_int")
 PASSIVE = _NAMES.index("qfrc_passive")
 APPLIED = _NAMES.index("qfrc_applied")
 BIAS_FORCE = _NAMES.index("qfrc_bias")
@@ -75,6 +77,11 @@ ACCELERATION = _NAMES.index("qacc")
 UNCONSTRAINED = _NAMES.index("qacc_smooth")
 N_ROWS = _NAMES.index("nefc")
 ITERATIONS = _NAMES.index("solver_niter")
+N_CONTACTS = _NAMES.index("ncon")
+CONTACTS = _NAMES.index("contact")
+CONTACT_POINT, CONTACT_AXES, CONTACT_GEOMS, CONTACT_SIZE = range(
+    len(_NAMES), len(_NAMES) + len(CONTACT_FIELDS) + 1
+)
 
 # a row of the kernel's own array, one a body; wrenches and twists have their rotational part
 # first, as in MuJoCo

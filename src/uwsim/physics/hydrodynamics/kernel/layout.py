@@ -25,7 +25,7 @@ MODEL_FIELDS = (
     "nq", "nv", "nu", "nbody", "nactuator", "nuser_body", "nuser_actuator", "nuserdata",
     "ntree", "tree_bodyadr", "tree_bodynum", "tree_dofadr", "tree_dofnum",
     "body_parentid", "body_rootid", "body_treeid", "body_jntnum", "body_jntadr", "body_dofnum",
-    "body_dofadr", "body_user", "jnt_qposadr",
+    "body_dofadr", "body_user", "jnt_qposadr", "geom_bodyid",
     "dof_bodyid", "M_rownnz", "M_rowadr", "M_colind",
     "actuator_user", "actuator_trnid", "actuator_actadr", "actuator_ctrladr", "actuator_ctrlrange",
     "site_bodyid",
@@ -34,13 +34,16 @@ MODEL_FIELDS = (
 
 DATA_FIELDS = (
     "qpos", "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat",
-    "subtree_com", "cdof", "cdof_dot", "cvel", "cacc", "cinert", "crb", "M", "qfrc_passive",
-    "qfrc_applied", "qfrc_bias", "qfrc_spring", "qfrc_damper", "qfrc_actuator", "tree_awake",
-    "qacc", "qacc_smooth", "nefc", "solver_niter",
+    "subtree_com", "cdof", "cdof_dot", "cvel", "cacc", "cinert", "crb", "M", "cfrc_int",
+    "qfrc_passive", "qfrc_applied", "qfrc_bias", "qfrc_spring", "qfrc_damper", "qfrc_actuator",
+    "tree_awake", "qacc", "qacc_smooth", "nefc", "solver_niter", "ncon", "contact",
 )  # fmt: skip
 """What the kernel reads and writes of the data."""
 
-_INSIDE = ("opt.", "nefc", "solver_niter")
+CONTACT_FIELDS = ("pos", "frame", "geom")
+"""The fields of a contact that the kernel reads."""
+
+_INSIDE = ("opt.", "nefc", "solver_niter", "ncon")
 """Beginnings of the names of numbers of 32 bits, and of arrays that lie in the struct itself."""
 
 _SIZES = {
@@ -54,7 +57,11 @@ class MujocoChanged(UwsimError):
 
 
 def offsets() -> npt.NDArray[np.int64]:
-    """Byte offsets of `MODEL_FIELDS` in mjModel, then of `DATA_FIELDS` in mjData, (n,)."""
+    """Return the byte offsets of all fields, (n,).
+
+    Those of `MODEL_FIELDS` in mjModel, `DATA_FIELDS` in mjData and `CONTACT_FIELDS` in mjContact,
+    and the size of mjContact.
+    """
     model, data = _fields("mjModel"), _fields("mjData")
     option = _fields("mjOption")
     found = []
@@ -64,22 +71,33 @@ def offsets() -> npt.NDArray[np.int64]:
             _find(model, "mjModel", head) + (_find(option, "mjOption", tail) if tail else 0)
         )
     found += [_find(data, "mjData", name) for name in DATA_FIELDS]
+    contact: dict[str, int] = {}
+    size, _ = _walk(structs.STRUCTS["mjContact"].fields, contact)
+    found += [*(_find(contact, "mjContact", name) for name in CONTACT_FIELDS), size]
     return np.array(found, dtype=np.int64)
 
 
 def check(model: mujoco.MjModel, data: mujoco.MjData, at: npt.NDArray[np.int64]) -> None:
     """Compare the offsets with live arrays and numbers.
 
+    Args:
+        model: the model.
+        data: its state, with a contact.
+        at: the offsets.
+
     Raises:
         MujocoChanged: a pointer or a number is not where it should be.
     """
-    for name, offset in zip((*MODEL_FIELDS, *DATA_FIELDS), at.tolist(), strict=True):
+    names, n_contact = (*MODEL_FIELDS, *DATA_FIELDS), len(CONTACT_FIELDS) + 1
+    for name, offset in zip(names, at[:-n_contact].tolist(), strict=True):
         is_data = name in DATA_FIELDS
         place = (data if is_data else model)._address + offset
         live = data if is_data else model
         for part in name.split("."):
             live = getattr(live, part)
-        if isinstance(live, np.ndarray) and name.startswith(_INSIDE):
+        if name == "contact":
+            right = _has_contact_layout(live, _read(place, ctypes.c_uint64), at[-n_contact:])
+        elif isinstance(live, np.ndarray) and name.startswith(_INSIDE):
             right = live.ctypes.data == place
         elif isinstance(live, np.ndarray):
             right = live.size == 0 or live.ctypes.data == _read(place, ctypes.c_uint64)
@@ -105,6 +123,16 @@ def data_places() -> tuple[dict[str, slice], int]:
         each.name: slice(places[each.name], places[each.name] + _size(each.type)[0])
         for each in fields
     }, size
+
+
+def _has_contact_layout(contacts: Any, address: int, layout: npt.NDArray[np.int64]) -> bool:
+    """Check offsets of `CONTACT_FIELDS`, and the size of a contact, against live contacts."""
+    *offsets, size = layout.tolist()
+    fields = [getattr(contacts, name) for name in CONTACT_FIELDS]  # views, one row per contact
+    return len(contacts) > 0 and all(
+        (field.ctypes.data, field.strides[0]) == (address + offset, size)
+        for field, offset in zip(fields, offsets, strict=True)
+    )
 
 
 def _read(place: int, kind: Any) -> Any:
