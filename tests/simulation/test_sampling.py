@@ -1,7 +1,9 @@
 import numpy as np
 import pytest
 
-from uwsim.base.sampling import sample_step
+from uwsim.base.sampling import Sample, Sampling, addresses_in, gathering, sample_step
+from uwsim.bus import Bus
+from uwsim.simulation.schedule import Schedule
 
 
 @pytest.mark.parametrize(
@@ -18,3 +20,18 @@ def test_a_camera_takes_its_rate_times_the_time_however_long_it_runs() -> None:
     steps = [sample_step(n, 30.0, 0.002) for n in range(30 * 600)]
     assert steps[-1] == 299984
     assert set(np.diff(steps)) == {16, 17}
+
+
+def test_a_sample_that_is_not_needed_is_neither_taken_nor_published() -> None:
+    """Also where a reader comes during the step: there is nothing to publish."""
+    values, is_read, calls = np.array([3.0]), [False], []
+    sampler = gathering(addresses_in(values), prepare=lambda _: None, is_alone=lambda _: True)
+    sample, schedule = Sample.of(sampler), Schedule(Bus(), 0.002)
+    schedule.every(100.0, lambda: is_read.__setitem__(0, True))
+    sampling = Sampling(sampler, sample, lambda: is_read[0])
+    schedule.every(100.0, lambda: calls.append(sample.numbers.tolist()), sampling=sampling)
+    schedule.tick(0)
+    assert np.isnan(sample.numbers).all()
+    assert not calls
+    schedule.tick(5)
+    assert calls == [[0.01, 3.0]]

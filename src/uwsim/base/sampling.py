@@ -33,7 +33,8 @@ TIMER = np.dtype(
         ("function", np.int64),  # addresses of a sampler; 0: there is none
         ("parameters", np.int64),
         ("values", np.int64),  # of `Sample.numbers`
-        ("is_fired", np.int64),  # whether it was due when the table was walked last
+        ("is_needed", np.int64),  # whether its samples are taken
+        ("is_fired", np.int64),  # whether it was due, and needed, when the table was walked last
     ]
 )
 """A timer in a table."""
@@ -72,10 +73,11 @@ def take_due(tables: Records, step: int) -> None:
     for i in range(table.n):
         timer = timers[i]
         counts = longs(timer.counts, 3)
-        timer.is_fired = 1 if step >= counts[DUE] else 0
-        if timer.is_fired != 0:
+        is_due = step >= counts[DUE]
+        timer.is_fired = timer.is_needed if is_due else 0
+        if is_due:
             count_sample(counts, timer.rate, table.timestep)
-            if timer.function != 0:
+            if timer.function != 0 and timer.is_needed != 0:
                 time = step * table.timestep
                 floats(timer.values, 1)[0] = time
                 call(timer.function, timer.parameters, timer.values + 8, time)
@@ -170,6 +172,8 @@ class Sampling:
     """What takes them."""
     sample: Sample
     """The last one."""
+    is_needed: Callable[[], bool] | None = None
+    """A check whether a sample is needed now; None where each sample changes the sensor."""
 
 
 NUMBERS = np.dtype([("addresses", np.int64), ("n", np.int64)])

@@ -80,7 +80,7 @@ class Schedule:
             call: what is called.
             is_needed: says whether the call has something to do; None: it always has. Compiled
                 steps do not end where it has nothing to do.
-            sampling: takes a sample before each call, needed or not.
+            sampling: takes a sample before each call, whether or not the call is needed.
 
         Returns:
             How to stop.
@@ -104,6 +104,7 @@ class Schedule:
     def _rows(self) -> npt.NDArray[np.void]:
         """The timers for compiled code, records of `TIMER`."""
         rows = np.zeros(len(self._timers), TIMER)
+        rows["is_needed"] = 1
         for row, timer in zip(rows, self._timers, strict=True):
             row["rate"], row["counts"] = timer.rate, address_of(timer.state.counts)
             if timer.sampling is not None:
@@ -132,15 +133,23 @@ class Schedule:
             of the first sample which compiled code cannot take without preparation.
         """
         for_python = unprepared = NEVER
-        for timer in self._timers:
+        for i, timer in enumerate(self._timers):
             due = int(timer.state.counts[DUE])
-            if due > last or due >= unprepared:
+            if due > last or due >= unprepared or not self._is_sampled(i, timer):
                 continue
             if not timer.is_alone(last * self._timestep):
                 unprepared = due
             elif due < for_python and timer.is_called:
                 for_python = due
         return min(for_python, unprepared), unprepared
+
+    def _is_sampled(self, index: int, timer: _Timer) -> bool:
+        """Decide whether a timer takes its samples now, and tell compiled code."""
+        if timer.sampling is None or timer.sampling.is_needed is None:
+            return True
+        is_sampled = timer.sampling.is_needed()
+        self._rows["is_needed"][index] = is_sampled
+        return is_sampled
 
     def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
         """Return what has ``apply(message)`` called at the start of the next step."""
@@ -165,8 +174,10 @@ class Schedule:
             self._call_fired(self._timers)
         while step >= self.state.due[0]:  # a call may have another made that is due at once
             timers = self._timers
-            for timer in timers:
-                if timer.sampling is not None and step >= timer.state.counts[DUE]:
+            for i, timer in enumerate(timers):
+                if timer.sampling is None or step < timer.state.counts[DUE]:
+                    continue
+                if self._is_sampled(i, timer):
                     timer.sampling.sampler.prepare(step * self._timestep)
             take_due(self.table, step)
             self._call_fired(timers)

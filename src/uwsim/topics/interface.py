@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, ClassVar, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
@@ -216,26 +217,29 @@ class SampledTopic(Interface):
         make: Callable[[float, Array], object],
         publish: Callable[[Any], None],
     ) -> None:
-        self._topic, self._make, self._publish = topic, make, publish
+        self._topic, self._sampler, self._make, self._publish = topic, sampler, make, publish
         self.state: Sample = Sample.of(sampler)
         """The last sample."""
-        self._sampling = Sampling(sampler, self.state)
 
-    def begin(self, rate: float, world: TopicWorld, *, is_faulty: bool = False) -> None:
+    def begin(
+        self, rate: float, world: TopicWorld, *, is_faulty: bool = False, is_pure: bool = False
+    ) -> None:
         """Take samples from now on.
 
         Args:
             rate: how often [Hz].
             world: which takes them.
             is_faulty: whether something becomes of each message before it is published.
+            is_pure: whether a sample changes nothing, so that it need not be taken for nobody.
         """
-        bus = world.bus
-        is_needed = None if is_faulty else bus.reader_check(self._topic)
-        if not is_faulty:
-            bus.defer_unread(self._topic, self.newest)
-        world.every(
-            sample_rate(rate, world), self.publish, is_needed=is_needed, sampling=self._sampling
+        bus, topic = world.bus, self._topic
+        sampling = Sampling(
+            self._sampler, self.state, partial(is_needed, bus, topic) if is_pure else None
         )
+        is_read = None if is_faulty else bus.reader_check(topic)
+        if not is_faulty:
+            bus.defer_unread(topic, self.newest)
+        world.every(sample_rate(rate, world), self.publish, is_needed=is_read, sampling=sampling)
 
     def newest(self) -> object | None:
         """Make the message of the newest sample; None before the first."""

@@ -63,7 +63,8 @@ class SensorTopicSpec(InterfaceSpec):
         publish = world.sensors.publisher(self.name, self.topic, part.message_type)
         if isinstance(sensor, CompiledSensor):
             sampled = SampledTopic(self.topic, sensor.sampler, sensor.message, publish)
-            sampled.begin(self.rate, world, is_faulty=world.sensors.has_faults(self.name))
+            is_faulty = world.sensors.has_faults(self.name)
+            sampled.begin(self.rate, world, is_faulty=is_faulty, is_pure=part.is_pure)
             return sampled
         needed = partial(is_needed, world.bus, self.topic) if part.is_pure else None
         publisher = SensorPublisher(sensor, publish, lambda: world.time)

@@ -69,6 +69,27 @@ def _call_both(typingctx: Any, function: Any, first: Any, second: Any) -> Any:
     return types.void(types.intp, types.intp, types.intp), codegen
 
 
+def _call_three(typingctx: Any, function: Any, a: Any, b: Any, c: Any) -> Any:
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        word = ir.IntType(64)
+        kind = ir.FunctionType(word, [word, word, word])
+        return builder.call(builder.inttoptr(args[0], kind.as_pointer()), args[1:])
+
+    return types.intp(types.intp, types.intp, types.intp, types.intp), codegen
+
+
+def _call_numbered(typingctx: Any, function: Any, a: Any, b: Any, n: Any, c: Any) -> Any:
+    def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+        word, integer = ir.IntType(64), ir.IntType(32)
+        kind = ir.FunctionType(ir.VoidType(), [word, word, integer, word])
+        arguments = [args[1], args[2], builder.trunc(args[3], integer), args[4]]
+        builder.call(builder.inttoptr(args[0], kind.as_pointer()), arguments)
+        return context.get_dummy_value()
+
+    words = (types.intp, types.intp, types.intp, types.intp, types.intp)
+    return types.void(*words), codegen
+
+
 def _call_word(typingctx: Any, function: Any, argument: Any) -> Any:
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         word = ir.IntType(64)
@@ -82,6 +103,10 @@ call: Any = intrinsic(_call)
 """``call(function, parameters, values, time)``, for compiled code."""
 call_both: Any = intrinsic(_call_both)
 """``call_both(function, first, second)``: a C function ``void(void*, void*)``."""
+call_three: Any = intrinsic(_call_three)
+"""``call_three(function, a, b, c)``: a C function ``void*(void*, void*, void*)``."""
+call_numbered: Any = intrinsic(_call_numbered)
+"""``call_numbered(function, a, b, n, c)``: a C function ``void(void*, void*, int, void*)``."""
 call_word: Any = intrinsic(_call_word)
 """``call_word(function, argument)``: a C function ``uint64_t(void*)``."""
 
