@@ -9,6 +9,7 @@ import pytest
 
 from tests.simulation.girona500 import TWIST, make
 from uwsim.currents import ConstantSpec, GaussMarkovSpec, Place, PowerProfileSpec
+from uwsim.devices.force_sensor import ForceSensorSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors import DvlSensorSpec, GpsSensorSpec, ImuSpec, PressureSensorSpec, RangeSensorSpec
 from uwsim.simulation import Simulation
@@ -28,6 +29,8 @@ SENSORS = (
         name="dvl", relative_to="base_link", orientation=DOWN, std=0.001, beam_std=0.002,
         range_std=0.01, dropout=0.1, scale_std=0.01,
     ),
+    ForceSensorSpec(name="contacts", target="base_link"),
+    ForceSensorSpec(name="wrist", target="end_effector", measures="joint"),
 )  # fmt: skip
 TOPICS = (
     TWIST,
@@ -35,7 +38,7 @@ TOPICS = (
     PATToROSOdomSpec(topic="/odometry", vehicle_name="girona500", rate=30),
     ArmToROSJointStateSpec(topic="/joints", vehicle_name="girona500", rate=30),
 )
-UNREAD = ("imu", "pressure", "gps", "range", "dvl", "odometry", "joints")
+UNREAD = ("imu", "pressure", "gps", "range", "dvl", "odometry", "joints", "contacts", "wrist")
 
 
 def with_sensors(vehicle: VehicleSpec) -> VehicleSpec:

@@ -17,6 +17,7 @@ from tests.support.opened import open_scene
 from uwsim.base.geometry import Array, Pose
 from uwsim.base.record import RandomState
 from uwsim.checks import check_file
+from uwsim.devices.force_sensor import ForceSensorSpec
 from uwsim.errors import SceneError, SimulationFailed, UnknownName, UwsimError
 from uwsim.forces import DockingMagnetSpec, Force, ForceSpec
 from uwsim.forces.docking_magnet import MagnetSpec
@@ -233,6 +234,14 @@ def test_a_force_on_a_link_is_felt_by_base_and_joints_as_its_jacobian_says(link:
         assert not np.array_equal(plain.velocity("girona0"), simulation.velocity("girona0"))
 
 
+def wrist_wrench(simulation: Simulation) -> np.ndarray:
+    """What the end effector of the first vehicle does to its joint, in W, (6,) [N, N m]."""
+    vehicle = simulation.world.vehicles[0]
+    wrist = ForceSensorSpec(name="wrist", target="end_effector", measures="joint")
+    found = vehicle.wrench_sampler(wrist, at_joint=True).take(0.0).reshape(2, 3)
+    return (found @ vehicle.mount(wrist).world_from_body.rotation.T).ravel()
+
+
 def test_a_force_is_what_is_applied_by_hand_also_to_a_sensor_in_the_joint() -> None:
     wrench = np.array([4.0, -7.0, 5.0, 1.0, 0.5, -0.25])
     pull = PullSpec(body="girona0/end_effector", wrench=tuple(wrench))
@@ -247,12 +256,11 @@ def test_a_force_is_what_is_applied_by_hand_also_to_a_sensor_in_the_joint() -> N
             plain.advance()
             simulation.advance()
         for each in (plain, simulation):
-            place = each.world.engine.poses.link(0, "end_effector").position
-            readings.append(each.world.engine.joint_wrench.of(0, "end_effector", place))
+            readings.append(wrist_wrench(each))
         assert engine(simulation)[1].qpos == pytest.approx(data.qpos, abs=1e-12)
         assert readings[1] == pytest.approx(readings[0], abs=1e-9)
         data.xfrc_applied[:] = 0.0
-        without = plain.world.engine.joint_wrench.of(0, "end_effector", place)
+        without = wrist_wrench(plain)
         assert readings[0][:3] - without[:3] == pytest.approx(wrench[:3], abs=1e-9)
 
 

@@ -15,6 +15,8 @@ from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import ContactMode
 from uwsim.scene.urdf.kinematics import link_poses
 from uwsim.scene.urdf.reader import read_urdf
+from uwsim.schema import Spec
+from uwsim.topics import InterfaceSpec
 from uwsim.topics.ros_joint_state_to_arm import ROSJointStateToArmSpec
 from uwsim.topics.ros_pose_to_pat import ROSPoseToPATSpec
 from uwsim.world import GRAVITY
@@ -36,9 +38,11 @@ class Grasp:
         *,
         friction: float | None = None,
         contacts: ContactMode = "default",
+        parts: tuple[Spec, ...] = (),
+        topics: tuple[InterfaceSpec, ...] = (),
     ) -> None:
         scene = read_scene(SCENE).nominal
-        vehicle = replace(scene.vehicles[0], parts=(), joint_values=(*ARM, OPEN))
+        vehicle = replace(scene.vehicles[0], parts=parts, joint_values=(*ARM, OPEN))
         self.place = vehicle.localized_from_base
         robot = read_urdf(SCENE.parent / "g500ARM5.urdf")
         wrist = self.place @ link_poses(robot, [*ARM, OPEN])["part4_base"]
@@ -61,6 +65,7 @@ class Grasp:
         interfaces = (
             ROSPoseToPATSpec(topic="/pose", vehicle_name="girona500"),
             ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500"),
+            *topics,
         )
         self.simulation = open_scene(
             replace(

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from typing import ClassVar, Protocol
 
 from ..base.record import NoState, Record
+from ..base.sampling import Sampler
 from ..schema import Spec
-from ..sensors.sensor import Carrier
+from ..sensors.sensor import Carrier, Mounted
 from ..vehicle import Vehicle
 from ..world import DeviceWorld
 
@@ -27,6 +28,25 @@ class DeviceVehicle(Vehicle, Carrier, Protocol):
 
     def let_go(self, thing: int) -> None:
         """Release an object that is held."""
+
+    def wrench_sampler(
+        self, spec: Mounted, *, at_joint: bool = False, visual: bool = False
+    ) -> Sampler:
+        """Return a sampler of a wrench at a link, in the frame of a part on the link.
+
+        It takes 6 numbers: force [N] and torque about the part [N m] in the last step. They are
+        those of the contacts on the link, and 0 where the scene has no physics. At the joint they
+        are what the link, and all beyond it, does to the joint that carries it, with the water on
+        these links. They are 0 for a vehicle that is not simulated.
+
+        Args:
+            spec: the part.
+            at_joint: whether to measure the wrench at the joint, not that of the contacts.
+            visual: whether the pose of the part is given in the link's visual frame.
+
+        Raises:
+            UnknownName: the vehicle has no such link.
+        """
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,9 +23,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+from ..base.geometry import Array
+from ..base.sampling import Sampler
 from ..messages import Vector3, Wrench, WrenchStamped, header
 from ..schema import REQUIRED, element
-from ..world import DeviceWorld, MovingBody
+from ..sensors.sensor import CompiledSensor
+from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 
@@ -69,19 +72,20 @@ class ForceSensorSpec(DeviceSpec):
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ForceSensor:
         """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        return ForceSensor(self, vehicle.moving_mount(self, visual=True))
+        at_joint = self.measures == "joint"
+        return ForceSensor(self, vehicle.wrench_sampler(self, at_joint=at_joint, visual=True))
 
 
-class ForceSensor(Device):
+class ForceSensor(Device, CompiledSensor):
     """Force and torque of the contacts on a link, or at its joint."""
 
-    def __init__(self, spec: ForceSensorSpec, mount: MovingBody) -> None:
+    def __init__(self, spec: ForceSensorSpec, sampler: Sampler) -> None:
         self._name = spec.name
-        at_joint = spec.measures == "joint"
-        self._wrench = mount.joint_wrench if at_joint else mount.contact_wrench
+        self.sampler = sampler
+        """The sampler of force [N] and torque [N m], 6 numbers."""
 
-    def sample(self, time: float) -> WrenchStamped:
-        """Measure now, at ``time`` [s]."""
-        x, y, z, roll, pitch, yaw = self._wrench().tolist()
+    def message(self, time: float, values: Array) -> WrenchStamped:
+        """Make the message of a sample taken at ``time`` [s]."""
+        x, y, z, roll, pitch, yaw = values.tolist()
         wrench = Wrench(force=Vector3(x=x, y=y, z=z), torque=Vector3(x=roll, y=pitch, z=yaw))
         return WrenchStamped(header=header(time, self._name), wrench=wrench)

@@ -71,7 +71,7 @@ class Engine:
         """How the links of vehicles move."""
         self.grips = Grips(model, data, self.poses, dynamics, shapes)
         """Objects that vehicles hold."""
-        self.contacts = EngineContacts(scene_model, model, data)
+        self.contacts = EngineContacts(scene_model, model, data, self.poses)
         """Contacts between what it simulates."""
         self._check = StepCheck(model, data, names)
         self._placed = [i for i in robots if i not in dynamics]
@@ -87,7 +87,7 @@ class Engine:
             if i not in dynamics and vehicle.scale_factor != (1.0, 1.0, 1.0)
         }
         self._water: Hydrodynamics | None = _water_of(model) if dynamics else None
-        self.joint_wrench = JointWrench(model, data, self.poses, self._water)
+        self.joint_wrench = JointWrench(model, data, self.poses)
         """What links do to the joints that carry them."""
         self.actuation = actuation_of(scene_model, data, self._water, self.poses)
         """What moves each simulated vehicle, by its number."""

@@ -11,17 +11,51 @@ Forces and accelerations are those of the last step, places those at its end.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 import mujoco
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import address_of, call_both, call_three, function_address
+from ..base.numerics.jit import njit
 from ..base.numerics.linear import cross
-from .poses import Poses
+from ..base.numerics.memory import carray, floats, longs, pointer, small, word
+from ..base.sampling import Sampler
+from .collision.contact_wrench import rotate_wrench
+from .hydrodynamics import callback
+from .hydrodynamics.kernel import fields as f
+from .hydrodynamics.kernel.kernel import water_wrenches
+from .kinematics.link_kernel import MOUNT, mounted_frame
+from .poses import Mount, Poses
 
-if TYPE_CHECKING:
-    from .hydrodynamics.hydrodynamics import Hydrodynamics
+FUNCTIONS = ("mj_kinematics", "mj_comPos", "mj_comVel", "mj_rnePostConstraint")
+"""The functions of MuJoCo that compute the forces in joints, in their order."""
+WORKSPACE = np.dtype(
+    [
+        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets in them
+        ("data", np.int64),
+        ("copy", np.int64),  # the address of the copy of the data; 0 before it is made
+        ("offsets", np.int64),
+        ("n_offsets", np.int64),
+        ("copy_data", np.int64),  # addresses of ``mj_copyData`` and of `FUNCTIONS`
+        ("functions", np.int64, len(FUNCTIONS)),
+    ]
+)
+"""The record of the data in which compiled code computes the forces in joints."""
+JOINT_WRENCH = np.dtype(
+    [
+        ("mount", np.int64),  # the address of a record of `link_kernel.MOUNT`
+        ("body", np.int64),
+        (
+            "workspace",
+            np.int64,
+        ),  # the address of a record of `WORKSPACE`; 0: not simulated
+    ]
+)
+"""The record of a joint wrench for compiled code."""
+
+Record = Any
 
 
 class JointWrench:
@@ -33,29 +67,90 @@ class JointWrench:
         model: of the scene.
         data: its state.
         poses: where everything is.
-        water: around the vehicles; None if nothing is simulated.
     """
 
-    def __init__(
-        self, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses, water: Hydrodynamics | None
-    ) -> None:
-        self._model, self._data, self._poses, self._water = model, data, poses, water
-        self._own: mujoco.MjData | None = None
+    def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses) -> None:
+        self._model, self._data, self._poses = model, data, poses
+        self._workspace = np.zeros(1, WORKSPACE)
+        self._copy: mujoco.MjData | None = None
 
-    def of(self, index: int, link: str, point: Array) -> Array:
-        """Force and torque about a point of W (3,) [m], in W, (6,) [N, N m].
+    def sampler(self, body: int, mount: Mount, *, is_simulated: bool) -> Sampler:
+        """Return a sampler of the force [N] and the torque [N m], 6 numbers, in a mount's frame.
 
-        0 for a vehicle that is not simulated.
+        Args:
+            body: the engine's number of the link.
+            mount: the frame on the link.
+            is_simulated: whether its vehicle is simulated; else all numbers are 0.
         """
-        if self._water is None:
-            return np.zeros(6)
-        model, body = self._model, self._poses.link_body(index, link)
-        own = self._own = self._own or mujoco.MjData(model)
-        mujoco.mj_copyData(own, model, self._data)
-        mujoco.mj_kinematics(model, own)
-        mujoco.mj_comPos(model, own)
-        mujoco.mj_comVel(model, own)
-        mujoco.mj_rnePostConstraint(model, own)
-        wrench = self._water.wrenches(own)[body] - own.cfrc_int[body]  # torque, then force
-        lever = point - own.subtree_com[model.body_rootid[body]]
-        return np.concatenate([wrench[3:], wrench[:3] - cross(lever, wrench[3:])])
+        row, offsets = np.zeros(1, JOINT_WRENCH), callback.offsets()
+        row["mount"], row["body"] = address_of(mount), body
+        if is_simulated:
+            space = self._workspace
+            row["workspace"] = address_of(space)
+            space["model"], space["data"] = self._model._address, self._data._address
+            space["offsets"], space["n_offsets"] = address_of(offsets), len(offsets)
+            space["copy_data"] = callback.function_address("mj_copyData")
+            space["functions"] = [callback.function_address(name) for name in FUNCTIONS]
+
+        def prepare(time: float) -> None:
+            self._poses.refresh()
+            self._make_copy()
+
+        def is_alone(end_time: float) -> bool:
+            self._make_copy()
+            return True
+
+        return Sampler(
+            function=function_address(sample_joint),
+            parameters=row,
+            n_values=6,
+            prepare=prepare,
+            is_alone=is_alone,
+            kept=(mount, offsets, self),
+        )
+
+    def _make_copy(self) -> None:
+        """Make the copy of the data for the first sample: it takes megabytes."""
+        if self._copy is None:
+            self._copy = mujoco.MjData(self._model)
+            self._workspace["copy"] = self._copy._address
+
+
+def sample_joint(parameters: int, values: int, time: float) -> None:
+    """Compute a joint wrench; see `uwsim.base.numerics.calls`."""
+    joint = carray(pointer(parameters), (1,), JOINT_WRENCH)[0]
+    frame, wrench = np.empty(12), np.zeros(6)
+    mounted_frame(carray(pointer(joint.mount), (1,), MOUNT)[0], frame)
+    if joint.workspace != 0:
+        space = carray(pointer(joint.workspace), (1,), WORKSPACE)[0]
+        compute_wrench(space, joint.body, frame, wrench)
+    rotate_wrench(frame, wrench, floats(values, 6))
+
+
+@njit
+def compute_wrench(space: Record, body: int, point: Array, wrench: Array) -> None:
+    """Write what a body, and all beyond it, does to its joint, in W, into (6,) [N, N m].
+
+    Args:
+        space: a record of `WORKSPACE`.
+        body: the engine's number.
+        point: about which the torque is, in W, (3,) or more [m].
+        wrench: receives force and torque.
+    """
+    m, d, offsets = space.model, space.copy, longs(space.offsets, space.n_offsets)
+    call_three(space.copy_data, d, m, space.data)
+    for function in space.functions:
+        call_both(function, m, d)
+    n = word(m + offsets[f.NBODY])
+    water = np.empty((n, 6))  # torque, then force
+    water_wrenches(m, d, offsets, water)
+    reaction = floats(word(d + offsets[f.SUBTREE_FORCE]) + 48 * body, 6)
+    root = small(word(m + offsets[f.BODY_ROOT]) + 4 * body)
+    centre = floats(word(d + offsets[f.COM]) + 24 * root, 3)
+    lever = np.empty(3)
+    for i in range(3):
+        lever[i] = point[i] - centre[i]
+        wrench[i] = water[body, 3 + i] - reaction[3 + i]
+    moment = cross(lever, wrench[:3])
+    for i in range(3):
+        wrench[3 + i] = (water[body, i] - reaction[i]) - moment[i]

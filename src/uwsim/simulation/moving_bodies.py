@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.calls import address_of, function_address
-from ..base.numerics.linear import turned_back
 from ..base.sampling import Sampler, addresses_in, gathering
 from ..physics.engine import Engine
 from ..physics.kinematics import link_kernel
@@ -20,9 +19,6 @@ from ..physics.kinematics.placed_motion import PlacedMotion
 from ..physics.poses import Mount, Poses
 from ..world import BodyMotion, Box
 from ..world.mounts import MOUNT
-
-Wrench = Callable[[Array], Array]
-"""Point of W (3,) [m] -> force and torque about it, in W, (6,) [N, N m]."""
 
 
 class MountedBody:
@@ -71,7 +67,7 @@ class MountedBody:
 
 @dataclass(frozen=True, kw_only=True)
 class MovingLink:
-    """How a link moves, and what acts on it."""
+    """How a link moves."""
 
     index: int
     """The number of its vehicle."""
@@ -83,10 +79,6 @@ class MovingLink:
     """The motion of its vehicle where it does not move as it is simulated; None where it does."""
     step: Callable[[], int]
     """The steps that the simulation has taken."""
-    contacts: Wrench
-    """Force and torque of the contacts on the link about a point of W, in W."""
-    joint: Wrench
-    """Those of the link on its joint, about a point of W, in W."""
 
 
 class MovingBody(MountedBody):
@@ -131,19 +123,6 @@ class MovingBody(MountedBody):
         if (led := link.led()) is not None:
             led.update(link.step())
         return link.motion.of(link.body, point, led=None if led is None else link.index)
-
-    def contact_wrench(self) -> Array:
-        """Return that of the contacts on the link, about its origin, in its axes, (6,)."""
-        return self._in_its_axes(self._link.contacts)
-
-    def joint_wrench(self) -> Array:
-        """Return that of the link on its joint, about its origin, in its axes, (6,)."""
-        return self._in_its_axes(self._link.joint)
-
-    def _in_its_axes(self, wrench: Wrench) -> Array:
-        here = self.world_from_body
-        parts = wrench(here.position).reshape(2, 3)
-        return np.concatenate([turned_back(here.rotation, each) for each in parts])
 
 
 class CompiledVehicle:

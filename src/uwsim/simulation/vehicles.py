@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import partial
 
 import numpy as np
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import turned_back
 from ..base.record import Lazy, Record
+from ..base.sampling import Sampler
 from ..bus import Bus
 from ..devices.sway import displaced, undisplaced
 from ..errors import UnknownName
@@ -240,8 +240,8 @@ class SceneVehicle:
     def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MovingBody:
         """Fix something to its link whose motion is read; UnknownName if there is no such link."""
         record, link, engine = self._record_of(spec, visual), spec.relative_to, self._engine
-        body, is_simulated = engine.poses.link_body(self.index, link), self._actuation is not None
-        if not is_simulated:
+        body = engine.poses.link_body(self.index, link)
+        if self._actuation is None:
             self.follow()
         moving = MovingLink(
             index=self.index,
@@ -249,10 +249,24 @@ class SceneVehicle:
             motion=engine.link_motion,
             led=lambda: self._lazy_motion.part,
             step=self._step,
-            contacts=partial(engine.contacts.wrench, body),
-            joint=partial(engine.joint_wrench.of, self.index, link) if is_simulated else _nothing,
         )
         return MovingBody(f"{self.name}/{link}", engine.poses, record, moving)
+
+    def wrench_sampler(
+        self, spec: Mounted, *, at_joint: bool = False, visual: bool = False
+    ) -> Sampler:
+        """Return a sampler of a wrench at a link; raise UnknownName if there is no such link.
+
+        See `uwsim.devices.device.DeviceVehicle`.
+        """
+        record, engine = self._record_of(spec, visual), self._engine
+        is_simulated = self._actuation is not None
+        if not is_simulated:
+            self.follow()  # as for a sensor of motion: its velocity stays the same
+        body = engine.poses.link_body(self.index, spec.relative_to)
+        if at_joint:
+            return engine.joint_wrench.sampler(body, record, is_simulated=is_simulated)
+        return engine.contacts.wrench_sampler(body, record)
 
     def _record_of(self, spec: Mounted, visual: bool) -> Mount:
         """Return the record of something on a link."""
@@ -261,11 +275,6 @@ class SceneVehicle:
             raise UnknownName("link", link, [each.name for each in robot.links])
         link_from_part = self._frames.link_from_mounted(spec, visual=visual)
         return self._engine.poses.mount(self.index, link, link_from_part)
-
-
-def _nothing(point: Array) -> Array:
-    """Return the wrench of what is not simulated, (6,) [N, N m]."""
-    return np.zeros(6)
 
 
 class SceneVehicles:

@@ -82,26 +82,13 @@ class Mount(Body, Protocol):
 
 
 class MovingBody(Mount, Protocol):
-    """A frame on a link; the motion of the link and the contacts on it can be read."""
+    """A frame on a link whose motion can be read."""
 
     def motion(self) -> BodyMotion:
         """Return how it moves now.
 
         Of a simulated vehicle that is the engine's. Another one moves in jumps: each counts as made
         evenly over the time since the one before (`uwsim.physics.kinematics.placed_motion`).
-        """
-
-    def contact_wrench(self) -> npt.NDArray[np.float64]:
-        """Return force and torque about its origin of the contacts on its link, (6,) [N, N m].
-
-        In its axes, in the last step; 0 where the scene has no physics.
-        """
-
-    def joint_wrench(self) -> npt.NDArray[np.float64]:
-        """Return what its link, and all beyond it, does to the joint that carries it, (6,).
-
-        Force [N] and torque about its origin [N m], in its axes, in the last step, with the water
-        on these links; 0 for a vehicle that is not simulated.
         """
 
 

@@ -16,12 +16,15 @@ import numpy.typing as npt
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
-from ...base.numerics.linear import cross, dot, turned_back
+from ...base.numerics.linear import cross, dot
 from ...base.record import Record
+from ...base.sampling import Sampler
 from ...model.body_names import owner_of
 from ...model.scene_model import SceneModel
 from ...scene.spec import SceneSpec
 from ...world import Contact
+from ..poses import Mount, Poses
+from .contact_wrench import contact_sampler
 
 Numbers = npt.NDArray[np.int64]
 Pressing = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], Array, Array]
@@ -42,10 +45,13 @@ class EngineContacts:
         scene_model: the model of the scene.
         model: that of the engine.
         data: its state.
+        poses: where everything is.
     """
 
-    def __init__(self, scene_model: SceneModel, model: mujoco.MjModel, data: mujoco.MjData) -> None:
-        self._model, self._data = model, data
+    def __init__(
+        self, scene_model: SceneModel, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses
+    ) -> None:
+        self._model, self._data, self._poses = model, data, poses
         owners, self._owner_numbers = scene_model.shape_owners
         self._names = [name_of(scene_model.scene, owner) for owner in owners]
         self._numbers = {owner: i for i, owner in enumerate(owners)}
@@ -113,26 +119,19 @@ class EngineContacts:
             self._looked_up = found.geom, found.efc_address, found.frame, self._data.efc_force
         return self._looked_up
 
-    def wrench(self, body: int, point: Array) -> Array:
-        """Force and torque of the contacts on a body, by its number, in W, (6,) [N, N m].
+    def wrench_sampler(self, body: int, mount: Mount) -> Sampler:
+        """Return a sampler of the wrench of the contacts on a link; see `contact_sampler`.
 
         Args:
-            body: the engine's number.
-            point: about which the torque is, in W, (3,) [m].
+            body: the engine's number of the link.
+            mount: the frame on the link.
         """
-        total = np.zeros(6)
-        if not self.state.hold or self._data.ncon == 0:
-            return total
-        found, own = self._data.contact, np.zeros(6)
-        is_own = self._model.geom_bodyid[found.geom] == body  # (n, 2)
-        for i in np.flatnonzero(is_own[:, 0] != is_own[:, 1]).tolist():
-            mujoco.mj_contactForce(self._model, self._data, i, own)
-            axes = found.frame[i].reshape(3, 3)  # rows, in W
-            sign = 1.0 if is_own[i, 1] else -1.0  # the force of the first on the second
-            force = sign * turned_back(axes, own[:3])
-            total[:3] += force
-            total[3:] += sign * turned_back(axes, own[3:]) + cross(found.pos[i] - point, force)
-        return total
+        return contact_sampler(self._model, self._data, body, mount, self._prepare)
+
+    def _prepare(self) -> bool:
+        """Update the poses; return whether the contacts are those of these poses."""
+        self._poses.refresh()
+        return self.state.hold
 
 
 @njit

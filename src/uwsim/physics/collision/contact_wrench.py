@@ -1,0 +1,133 @@
+r"""The wrench of the contacts on a link, in the frame of a mount on the link.
+
+With the force :math:`f_i` and the torque :math:`t_i` of contact i at :math:`p_i`, in W, and with
+the origin o and the axes R of the mount,
+
+.. math:: f = R^T \sum_i f_i, \qquad t = R^T \sum_i (t_i + (p_i - o) \times f_i) .
+
+MuJoCo computes the contacts at the beginning of a step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from ...base.geometry import Array
+from ...base.numerics.calls import address_of, call_numbered, function_address
+from ...base.numerics.jit import njit
+from ...base.numerics.linear import cross, turned_back
+from ...base.numerics.memory import Ints64, carray, floats, ints, longs, pointer, small, word
+from ...base.sampling import Sampler
+from ..hydrodynamics import callback
+from ..hydrodynamics.kernel import fields as f
+from ..kinematics.link_kernel import MOUNT, mounted_frame
+from ..poses import Mount
+
+CONTACT_WRENCH = np.dtype(
+    [
+        ("mount", np.int64),  # the address of a record of `link_kernel.MOUNT`
+        ("body", np.int64),
+        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets in them
+        ("data", np.int64),
+        ("offsets", np.int64),
+        ("n_offsets", np.int64),
+        ("contact_force", np.int64),  # the address of ``mj_contactForce``
+        ("has_contacts", np.int64),  # whether the contacts are those of the current poses
+    ]
+)
+"""The record of a contact wrench for compiled code."""
+
+Record = Any
+
+
+def contact_sampler(
+    model: mujoco.MjModel,
+    data: mujoco.MjData,
+    body: int,
+    mount: Mount,
+    prepare: Callable[[], bool],
+) -> Sampler:
+    """Return a sampler of the force [N] and the torque [N m], 6 numbers.
+
+    Args:
+        model: of the scene.
+        data: its state.
+        body: the engine's number of the link.
+        mount: the frame on the link.
+        prepare: updates the poses, and returns whether the contacts are those of these poses.
+    """
+    row, offsets = np.zeros(1, CONTACT_WRENCH), callback.offsets()
+    row["mount"], row["body"] = address_of(mount), body
+    row["model"], row["data"] = model._address, data._address
+    row["offsets"], row["n_offsets"] = address_of(offsets), len(offsets)
+    row["contact_force"] = callback.function_address("mj_contactForce")
+
+    def prepare_row(time: float) -> None:
+        row["has_contacts"] = prepare()
+
+    def is_alone(end_time: float) -> bool:
+        row["has_contacts"] = True  # each step computes them
+        return True
+
+    return Sampler(
+        function=function_address(sample_contacts),
+        parameters=row,
+        n_values=6,
+        prepare=prepare_row,
+        is_alone=is_alone,
+        kept=(mount, offsets, model, data),
+    )
+
+
+def sample_contacts(parameters: int, values: int, time: float) -> None:
+    """Compute a contact wrench; see `uwsim.base.numerics.calls`."""
+    wrench = carray(pointer(parameters), (1,), CONTACT_WRENCH)[0]
+    frame, sums = np.empty(12), np.zeros(6)
+    mounted_frame(carray(pointer(wrench.mount), (1,), MOUNT)[0], frame)
+    if wrench.has_contacts != 0:
+        add_contacts(wrench, longs(wrench.offsets, wrench.n_offsets), frame, sums)
+    rotate_wrench(frame, sums, floats(values, 6))
+
+
+@njit
+def add_contacts(wrench: Record, offsets: Ints64, point: Array, sums: Array) -> None:
+    """Add the wrenches of the contacts on a body to a sum.
+
+    Args:
+        wrench: a record of `CONTACT_WRENCH`.
+        offsets: of MuJoCo's fields.
+        point: about which the torque is, in W, (3,) or more [m].
+        sums: force and torque, in W, (6,) [N, N m].
+    """
+    m, d, body = wrench.model, wrench.data, wrench.body
+    bodies, contacts = word(m + offsets[f.GEOM_BODY]), word(d + offsets[f.CONTACTS])
+    result, lever = np.empty(6), np.empty(3)
+    for i in range(small(d + offsets[f.N_CONTACTS])):
+        contact = contacts + offsets[f.CONTACT_SIZE] * i
+        geoms = ints(contact + offsets[f.CONTACT_GEOMS], 2)
+        is_second = small(bodies + 4 * geoms[1]) == body
+        if (small(bodies + 4 * geoms[0]) == body) == is_second:
+            continue
+        call_numbered(wrench.contact_force, m, d, i, result.ctypes.data)
+        axes = floats(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
+        position = floats(contact + offsets[f.CONTACT_POINT], 3)
+        sign = 1.0 if is_second else -1.0  # the first body pushes the second
+        force, torque = turned_back(axes, result[:3]), turned_back(axes, result[3:])
+        for k in range(3):
+            force[k] *= sign
+            lever[k] = position[k] - point[k]
+        moment = cross(lever, force)
+        for k in range(3):
+            sums[k] += force[k]
+            sums[3 + k] += sign * torque[k] + moment[k]
+
+
+@njit
+def rotate_wrench(frame: Array, wrench: Array, values: Array) -> None:
+    """Write a wrench in W, (6,), in the axes of a frame, (12,), into ``values``, (6,)."""
+    axes = frame[3:].reshape((3, 3))
+    values[:3], values[3:] = turned_back(axes, wrench[:3]), turned_back(axes, wrench[3:])
