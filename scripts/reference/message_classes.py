@@ -22,7 +22,7 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 ROS: dict[str, dict[str, str]] = {
     "std_msgs": {
         "builtin_interfaces/Time": "A moment, from the beginning of the simulation.",
-        "Header": "When and in which frame.",
+        "Header": "The time and the frame of a message.",
         "Bool": "True or False.",
         "Float64": "A number.",
         "String": "Text.",
@@ -35,10 +35,10 @@ ROS: dict[str, dict[str, str]] = {
         "builtin_interfaces/Duration": "A span of time.",
     },
     "geometry_msgs": {
-        "Point": "A place [m].",
+        "Point": "A position [m].",
         "Vector3": "A direction with a length.",
         "Quaternion": "A rotation; the identity by default (w is 1).",
-        "Pose": "A place and a rotation.",
+        "Pose": "A position and an orientation.",
         "PoseStamped": "A pose, with its time and frame.",
         "PoseWithCovariance": "A pose and its 6x6 covariance, by rows.",
         "Twist": "Linear [m/s] and angular [rad/s] velocity.",
@@ -46,21 +46,22 @@ ROS: dict[str, dict[str, str]] = {
         "TwistWithCovariance": "A twist and its 6x6 covariance, by rows.",
         "Wrench": "Force [N] and torque [N m].",
         "WrenchStamped": "A wrench, with its time and frame.",
-        "Transform": "Where a frame is in another: its origin [m] and its rotation.",
-        "TransformStamped": "A transform with its time, the frame it is in and the frame it is of.",
+        "Transform": "A transform between two frames: the origin [m] and the rotation.",
+        "TransformStamped": "A transform from a child frame to the header's frame, with its time.",
     },
     "sensor_msgs": {
         "Image": "Pixels, row 0 at the top.",
         "RegionOfInterest": "A part of an image [px].",
         "CameraInfo": (
-            "What kind of camera it is: distortion d, intrinsics k, rectification r, projection p."
+            "The calibration of a camera: distortion d, intrinsics k, rectification r, projection "
+            "p."
         ),
         "JointState": "Names, positions [rad or m], velocities and efforts of joints.",
         "BatteryState": (
             "Voltage [V], current [A], below 0 while it is drained, charge [A h] and share left "
             "[0..1]."
         ),
-        "Range": "The distance to what is nearest in a cone [m].",
+        "Range": "The distance to the nearest object in a cone [m].",
         "LaserScan": "Distances along rays of a plane, at equal angles [m, rad].",
         "PointField": "The offset and type of a field of each point.",
         "PointCloud2": "Points as bytes.",
@@ -68,7 +69,7 @@ ROS: dict[str, dict[str, str]] = {
         "Imu": (
             "Attitude, angular velocity [rad/s], specific force [m/s2]; 3x3 covariances by rows."
         ),
-        "NavSatStatus": "Whether a receiver of satellites knows its position.",
+        "NavSatStatus": "The status of a satellite receiver: whether it has a fix.",
         "NavSatFix": (
             "Latitude and longitude [deg], altitude [m], and their 3x3 covariance east, north, up "
             "[m2]."
@@ -76,15 +77,15 @@ ROS: dict[str, dict[str, str]] = {
     },
     "nav_msgs": {
         "Odometry": "Pose and velocity of a vehicle.",
-        "Path": "Poses, one after the other.",
+        "Path": "A sequence of poses.",
     },
     "tf2_msgs": {"TFMessage": "Transforms between frames."},
     "visualization_msgs": {
         "MeshFile": "The content of a mesh file.",
-        "UVCoordinate": "A place in a texture.",
+        "UVCoordinate": "A position in a texture.",
         "Marker": (
-            "A shape to show: `ns` and `id` name it; type, pose, scale [m] and colour say what it "
-            "is."
+            "A shape to show: `ns` and `id` identify it; type, pose, scale [m] and colour define "
+            "it."
         ),
         "MarkerArray": "Several shapes.",
     },
@@ -172,9 +173,9 @@ def _of_folder(folder: Path, package: str) -> Iterator[Definition]:
         yield _of_text(f"{package}/msg/{path.stem}", path.read_text(encoding="utf-8"), path)
     for path in sorted(folder.glob("srv/*.srv")) if package in SERVICES else ():
         request, response = re.split(r"^---\n", path.read_text(encoding="utf-8"), flags=re.M)
-        purpose = f"Request of ``{path.stem}``: "
+        purpose = f"The request of ``{path.stem}``: "
         yield _of_text(f"{package}/srv/{path.stem}_Request", request, path, purpose=purpose)
-        response = f"# Response of ``{path.stem}``.\n{response}"
+        response = f"# The response of ``{path.stem}``.\n{response}"
         yield _of_text(f"{package}/srv/{path.stem}_Response", response, path)
 
 

@@ -83,7 +83,7 @@ def test_every_encoding_is_turned_to_red_first_or_grey(
         tmp_path, "mcap", [(0.0, stored), (0.1, stored)], encoding=encoding, padding=padding
     )
     recording = open_bag(path)
-    seen = recording.first.decode()
+    seen = recording.first_frame.decode()
     recording.close()
     assert np.array_equal(seen.pixels, stored if order is None else stored[..., order])
     assert seen.is_blue_first is (order == [2, 1, 0])
@@ -100,7 +100,7 @@ def test_compressed_images_are_unpacked(tmp_path: Path, kind: str, grey: bool) -
         image_type="sensor_msgs/msg/CompressedImage",
     )
     recording = open_bag(path)
-    seen = recording.first.decode().pixels
+    seen = recording.first_frame.decode().pixels
     recording.close()
     assert np.array_equal(seen, stored if grey else stored[..., ::-1])
 
@@ -152,7 +152,7 @@ def test_pixels_that_do_not_fit_the_size_are_refused(tmp_path: Path) -> None:
     path = write_bag(
         tmp_path, "mcap", [(t, sample_pixels(0, "mono8")) for t in TIMES], encoding="rgb8"
     )
-    with pytest.raises(AssetError, match="says 5x4 pixels of 3 bytes in rows of 5, and holds 20"):
+    with pytest.raises(AssetError, match="header for 5x4 pixels of 3 bytes in rows of 5, and 20 bytes"):
         open_bag(path)
 
 

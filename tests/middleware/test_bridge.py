@@ -11,7 +11,7 @@ import pytest
 from uwsim.bus import Bus, TopicEnds
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import EmptyResponse, Float64, String, Twist
-from uwsim.messages.services import EMPTY, Empty, Service
+from uwsim.messages.services import EMPTY_SERVICE, Empty, Service
 from uwsim.middleware.bridge import Bridge
 from uwsim.middleware.log import MAX_KINDS, MAX_OF_A_KIND, Log
 from uwsim.middleware.queues import LatestQueue
@@ -155,7 +155,7 @@ def test_a_service_is_answered_at_the_step(bus: Bus, bridge: Seen) -> None:
 
     bus.services.serve("dynamics/reset", Empty, answer)
     bridge.step()
-    assert bridge.services == {"dynamics/reset": EMPTY}
+    assert bridge.services == {"dynamics/reset": EMPTY_SERVICE}
     future = bridge.request("/dynamics/reset", Empty())
     assert not future.done()
     bridge.step()

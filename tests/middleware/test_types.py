@@ -6,7 +6,7 @@ import pytest
 
 from uwsim import messages
 from uwsim.errors import UnknownName
-from uwsim.messages.services import EMPTY, GT_PUBLISH, SPAWN_MARKER
+from uwsim.messages.services import EMPTY_SERVICE, GT_PUBLISH, SPAWN_MARKER
 from uwsim.middleware.types import message_class, service, service_of, wire_service, wire_type
 
 MD5 = {
@@ -74,7 +74,7 @@ def test_a_class_without_a_definition_has_no_type() -> None:
 @pytest.mark.parametrize(
     ("of", "name", "md5"),
     [
-        (EMPTY, "std_srvs/Empty", "d41d8cd98f00b204e9800998ecf8427e"),
+        (EMPTY_SERVICE, "std_srvs/Empty", "d41d8cd98f00b204e9800998ecf8427e"),
         (GT_PUBLISH, "underwater_sensor_msgs/GTpublish", "0b412ada447d72a7ae228bb70b64a2cb"),
         (SPAWN_MARKER, "underwater_sensor_msgs/SpawnMarker", "a7395a01b635e68c485c6bc7fed0b5a1"),
     ],

@@ -21,12 +21,12 @@ from ..errors import AssetError, UnknownName
 from . import CameraInfo, Header, RegionOfInterest, Time
 
 IMAGE = "sensor_msgs/msg/Image"
-COMPRESSED = "sensor_msgs/msg/CompressedImage"
-INFO = "sensor_msgs/msg/CameraInfo"
-GREY = ("mono8", "8UC1")
-COLOUR = {"rgb8": 3, "bgr8": 3, "8UC3": 3, "rgba8": 4, "bgra8": 4}
-"""Encoding -> bytes a pixel; ``8UC3`` is blue first, as OpenCV writes it."""
-RED_FIRST = ("rgb8", "rgba8")
+COMPRESSED_IMAGE = "sensor_msgs/msg/CompressedImage"
+CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
+GREY_ENCODINGS = ("mono8", "8UC1")
+BYTES_PER_PIXEL = {"rgb8": 3, "bgr8": 3, "8UC3": 3, "rgba8": 4, "bgra8": 4}
+"""The bytes a pixel by encoding; ``8UC3`` is blue first, as OpenCV writes it."""
+RED_FIRST_ENCODINGS = ("rgb8", "rgba8")
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +36,9 @@ class DecodedImage:
     pixels: npt.NDArray[np.uint8]
     """(h, w, 3), red first; or (h, w) grey; row 0 is the top."""
     is_blue_first: bool
-    """Whether blue came first in the recording."""
+    """A flag: the recording has blue as its first channel."""
     frame_id: str
-    """Frame of its header."""
+    """The frame in its header."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,58 +46,58 @@ class RecordedFrame:
     """An image in a recording, not decoded yet."""
 
     time: int
-    """When it was recorded, from the first image on [ns]."""
+    """The time of recording, from the first image on [ns]."""
     info: Any
-    """The newest CameraInfo recorded by then; the first, while there is none."""
-    place: str
-    """What messages call it."""
+    """The newest CameraInfo at that time; the first, if there is none yet."""
+    label: str
+    """The name of the image in messages."""
     read: Callable[[], Any]
-    """Return the Image or CompressedImage, as rosbags gives it."""
+    """The function that returns the Image or CompressedImage as rosbags reads it."""
 
     def decode(self) -> DecodedImage:
-        """Decode it.
+        """Decode the image.
 
         Raises:
-            AssetError: it is none of the encodings read, or its size does not fit them.
+            AssetError: its encoding is not supported, or its size does not match.
         """
         message = self.read()
-        is_packed = message.__msgtype__ == COMPRESSED
+        is_compressed = message.__msgtype__ == COMPRESSED_IMAGE
         pixels, is_blue_first = (
-            self._unpacked(message) if is_packed else self._uncompressed(message)
+            self._decompress(message) if is_compressed else self._read_pixels(message)
         )
         return DecodedImage(pixels, is_blue_first, str(message.header.frame_id))
 
-    def _uncompressed(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
+    def _read_pixels(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
         encoding = str(message.encoding)
-        if encoding not in (*GREY, *COLOUR):
+        if encoding not in (*GREY_ENCODINGS, *BYTES_PER_PIXEL):
             raise AssetError(
-                f"{self.place} is encoded as {encoding[:40]!r}; expected one of "
-                f"{', '.join((*GREY, *COLOUR))}."
+                f"{self.label} is encoded as {encoding[:40]!r}; expected one of "
+                f"{', '.join((*GREY_ENCODINGS, *BYTES_PER_PIXEL))}."
             )
-        depth = COLOUR.get(encoding, 1)
+        depth = BYTES_PER_PIXEL.get(encoding, 1)
         height, width, step = message.height, message.width, message.step
         if height < 1 or width < 1 or step < width * depth or len(message.data) < height * step:
             raise AssetError(
-                f"{self.place} says {width}x{height} pixels of {depth} bytes in rows of {step}, "
-                f"and holds {len(message.data)} bytes."
+                f"{self.label} has a header for {width}x{height} pixels of {depth} bytes in rows "
+                f"of {step}, and {len(message.data)} bytes of pixels."
             )
         rows = np.frombuffer(message.data, dtype=np.uint8)[: height * step].reshape(height, step)
-        if encoding in GREY:
+        if encoding in GREY_ENCODINGS:
             return rows[:, :width], False
         pixels = rows[:, : width * depth].reshape(height, width, depth)[..., :3]
-        return (pixels, False) if encoding in RED_FIRST else (pixels[..., ::-1], True)
+        return (pixels, False) if encoding in RED_FIRST_ENCODINGS else (pixels[..., ::-1], True)
 
-    def _unpacked(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
+    def _decompress(self, message: Any) -> tuple[npt.NDArray[np.uint8], bool]:
         import cv2
 
         data = np.frombuffer(message.data, dtype=np.uint8)
-        found = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if len(data) else None
-        if found is None or found.dtype != np.uint8:
+        image = cv2.imdecode(data, cv2.IMREAD_UNCHANGED) if len(data) else None
+        if image is None or image.dtype != np.uint8:
             raise AssetError(
-                f"{self.place} is compressed as {str(message.format)[:40]!r}, which is no image "
-                "of 8 bits that OpenCV reads."
+                f"{self.label} is compressed as {str(message.format)[:40]!r}; expected an image "
+                "of 8 bits that OpenCV can read."
             )
-        pixels = np.asarray(found, dtype=np.uint8)
+        pixels = np.asarray(image, dtype=np.uint8)
         return (pixels, False) if pixels.ndim == 2 else (pixels[..., 2::-1], True)
 
 
@@ -125,47 +125,47 @@ class Recording:
         try:
             self._reader = AnyReader([path], default_typestore=get_typestore(Stores.ROS2_JAZZY))
             self._reader.open()
-        except Exception as error:  # a damaged bag fails as it likes
-            raise self._unreadable(error) from error
+        except Exception as error:  # a damaged bag may raise anything
+            raise self._read_error(error) from error
         try:
-            self._start = 0  # when the first image was recorded [ns]
-            self._images = self._connections(image_topic, (IMAGE, COMPRESSED))
-            self._infos = self._connections(info_topic, (INFO,))
+            self._start = 0  # time of the first image [ns]
+            self._images = self._connections(image_topic, (IMAGE, COMPRESSED_IMAGE))
+            self._infos = self._connections(info_topic, (CAMERA_INFO,))
             self._first_info = self._read_first_info(info_topic)
             frames = self.frames()
-            first = next(frames, None)
+            first_frame = next(frames, None)
             gap = next((frame.time for frame in frames if frame.time > 0), None)
-            if first is None or gap is None:
+            if first_frame is None or gap is None:
                 raise AssetError(
                     f"Topic {image_topic!r} of {self._name} has no two images at different "
-                    "times: there is no spacing to replay.",
+                    "times; replay needs their spacing.",
                     name=image_topic,
                 )
-            first.decode()
+            first_frame.decode()
         except BaseException:
             self.close()
             raise
-        self.first = first
+        self.first_frame = first_frame
         """The first image."""
         self.gap = gap
-        """Time from the first image to the next [ns]."""
+        """The time from the first image to the next [ns]."""
         self.length = max(self._reader.end_time - self._start, gap)
-        """Time from the first image to the last message of any topic [ns]."""
+        """The time from the first image to the last message of any topic [ns]."""
 
     def frames(self) -> Iterator[RecordedFrame]:
-        """Go through the images once, in the order recorded."""
+        """Yield the images once, in the order recorded."""
         start: int | None = None
         info, count = self._first_info, 0
         for connection, time, data in self._messages([*self._images, *self._infos]):
-            if connection.msgtype == INFO:
-                info = self._decoded(data, INFO)
+            if connection.msgtype == CAMERA_INFO:
+                info = self._decode(data, CAMERA_INFO)
                 continue
             count += 1
             if start is None:
                 start = self._start = time
-            place = f"Image {count} of {self._image_topic!r} in {self._name}"
+            label = f"Image {count} of {self._image_topic!r} in {self._name}"
             yield RecordedFrame(
-                time - start, info, place, partial(self._decoded, data, connection.msgtype)
+                time - start, info, label, partial(self._decode, data, connection.msgtype)
             )
 
     def close(self) -> None:
@@ -173,53 +173,53 @@ class Recording:
         self._reader.close()
 
     def _connections(self, topic: str, types: tuple[str, ...]) -> list[Connection]:
-        wanted = topic.strip("/")
-        found = [c for c in self._reader.connections if c.topic.strip("/") == wanted]
-        if not found:
+        topic_name = topic.strip("/")
+        connections = [c for c in self._reader.connections if c.topic.strip("/") == topic_name]
+        if not connections:
             raise UnknownName(
                 f"topic in {self._name}", topic, {c.topic for c in self._reader.connections}
             )
-        for connection in found:
+        for connection in connections:
             if connection.msgtype not in types:
                 raise AssetError(
                     f"Topic {topic!r} of {self._name} carries {connection.msgtype}; expected "
                     f"{' or '.join(types)}.",
                     name=topic,
                 )
-        return found
+        return connections
 
     def _read_first_info(self, topic: str) -> Any:
         for connection, _, data in self._messages(self._infos):
-            return self._decoded(data, connection.msgtype)
+            return self._decode(data, connection.msgtype)
         raise AssetError(f"Topic {topic!r} of {self._name} has no messages.", name=topic)
 
     def _messages(self, connections: list[Connection]) -> Iterator[tuple[Connection, int, bytes]]:
         messages = self._reader.messages(connections)
         while True:
             try:
-                found = next(messages, None)
-            except Exception as error:  # a damaged bag fails as it likes
-                raise self._unreadable(error) from error
-            if found is None:
+                message = next(messages, None)
+            except Exception as error:  # a damaged bag may raise anything
+                raise self._read_error(error) from error
+            if message is None:
                 return
-            yield found
+            yield message
 
-    def _decoded(self, data: bytes, msgtype: str) -> Any:
+    def _decode(self, data: bytes, msgtype: str) -> Any:
         try:
             return self._reader.deserialize(data, msgtype)
-        except Exception as error:  # a damaged bag fails as it likes
-            raise self._unreadable(error) from error
+        except Exception as error:  # a damaged bag may raise anything
+            raise self._read_error(error) from error
 
-    def _unreadable(self, error: Exception) -> AssetError:
+    def _read_error(self, error: Exception) -> AssetError:
         message = " ".join(str(error).split())[:200] or type(error).__name__
         return AssetError(f"{self._name} cannot be read as a recording: {message}")
 
 
 def _check_folder(bag: Path) -> None:
-    """See to it that a rosbag2 folder holds files of its own alone.
+    """Check that a rosbag2 folder contains files of its own only.
 
     Raises:
-        AssetError: a link leads out of it, or something in it is no regular file.
+        AssetError: a link leads out of it, or an entry is not a regular file.
     """
     for file in sorted(bag.iterdir()):
         if not is_inside(file, [bag]):
@@ -228,24 +228,24 @@ def _check_folder(bag: Path) -> None:
             raise AssetError(f"{bag.name}/{file.name} is not a regular file.")
 
 
-def camera_info(recorded: Any, *, stamp: Time, frame_id: str) -> CameraInfo:
-    """Return a recorded CameraInfo as of ``stamp``; ROS 1 calls d, k, r, p by capitals."""
+def camera_info(info: Any, *, stamp: Time, frame_id: str) -> CameraInfo:
+    """Convert a recorded CameraInfo, stamped ``stamp``; its d, k, r, p are capitals in ROS 1."""
     d, k, r, p = (
-        np.asarray(getattr(recorded, name if hasattr(recorded, name) else name.upper()), float)
+        np.asarray(getattr(info, name if hasattr(info, name) else name.upper()), float)
         for name in "dkrp"
     )
-    roi = recorded.roi
+    roi = info.roi
     return CameraInfo(
         header=Header(stamp=stamp, frame_id=frame_id),
-        height=recorded.height,
-        width=recorded.width,
-        distortion_model=recorded.distortion_model,
+        height=info.height,
+        width=info.width,
+        distortion_model=info.distortion_model,
         d=d,
         k=k,
         r=r,
         p=p,
-        binning_x=recorded.binning_x,
-        binning_y=recorded.binning_y,
+        binning_x=info.binning_x,
+        binning_y=info.binning_y,
         roi=RegionOfInterest(
             x_offset=roi.x_offset,
             y_offset=roi.y_offset,

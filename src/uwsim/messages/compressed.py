@@ -1,4 +1,4 @@
-"""Images as compressed images."""
+"""Compression of images as PNG and JPEG."""
 
 from __future__ import annotations
 
@@ -11,23 +11,25 @@ from .build import pixels_of
 from .sensor_msgs import CompressedImage, Image
 
 JPEG_QUALITY = 90
-"""Of JPEG, 0..100."""
+"""The quality of JPEG images, 0 to 100."""
 
 
 def as_png(image: Image) -> CompressedImage:
     """Return an ``rgb8`` or ``mono8`` image as PNG, without loss."""
-    return _compressed(image, "png", ())
+    return _compress(image, "png", ())
 
 
 def as_jpeg(image: Image) -> CompressedImage:
     """Return an ``rgb8`` or ``mono8`` image as JPEG."""
-    return _compressed(image, "jpeg", (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
+    return _compress(image, "jpeg", (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
 
 
-def _compressed(image: Image, name: str, options: Sequence[int]) -> CompressedImage:
+def _compress(image: Image, name: str, options: Sequence[int]) -> CompressedImage:
     pixels = pixels_of(image)
-    ordered = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
-    _, packed = cv2.imencode(f".{name}", ordered, options)
+    bgr_pixels = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
+    _, file_bytes = cv2.imencode(f".{name}", bgr_pixels, options)
     return CompressedImage(
-        header=image.header, format=f"{image.encoding}; {name} compressed", data=packed.reshape(-1)
+        header=image.header,
+        format=f"{image.encoding}; {name} compressed",
+        data=file_bytes.reshape(-1),
     )

@@ -15,7 +15,7 @@ _FLOAT64_36: Any = partial(np.zeros, 36, np.float64)
 
 @dataclass
 class Point:
-    """A place [m]."""
+    """A position [m]."""
 
     x: float = 0.0
     y: float = 0.0
@@ -46,7 +46,7 @@ class Quaternion:
 
 @dataclass
 class Pose:
-    """A place and a rotation."""
+    """A position and an orientation."""
 
     position: Point = field(default_factory=Point)
     orientation: Quaternion = field(default_factory=Quaternion)
@@ -122,7 +122,7 @@ class WrenchStamped:
 
 @dataclass
 class Transform:
-    """Where a frame is in another: its origin [m] and its rotation."""
+    """A transform between two frames: the origin [m] and the rotation."""
 
     translation: Vector3 = field(default_factory=Vector3)
     rotation: Quaternion = field(default_factory=Quaternion)
@@ -131,7 +131,7 @@ class Transform:
 
 @dataclass
 class TransformStamped:
-    """A transform with its time, the frame it is in and the frame it is of."""
+    """A transform from a child frame to the header's frame, with its time."""
 
     header: Header = field(default_factory=Header)
     child_frame_id: str = ""

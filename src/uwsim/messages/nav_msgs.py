@@ -22,7 +22,7 @@ class Odometry:
 
 @dataclass
 class Path:
-    """Poses, one after the other."""
+    """A sequence of poses."""
 
     header: Header = field(default_factory=Header)
     poses: list[PoseStamped] = field(default_factory=list)

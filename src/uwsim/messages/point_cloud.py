@@ -1,8 +1,8 @@
 """Conversion of sensor_msgs/PointCloud2 of any layout to and from arrays.
 
 A cloud is ``height`` rows of ``width`` points; a row takes ``row_step`` bytes, a point
-``point_step``, and its fields lie anywhere in it: padding, colours and other fields between them
-are stepped over. x, y, z may each be float32 or float64, in either byte order.
+``point_step``, and its fields have any offset in it: padding, colours and other fields are
+skipped. x, y, z may each be float32 or float64, in either byte order.
 """
 
 from __future__ import annotations
@@ -14,17 +14,17 @@ from ..errors import BadSetting
 from .build import header
 from .sensor_msgs import PointCloud2, PointField
 
-FLOATS = {7: "f4", 8: "f8"}
-"""PointField.FLOAT32 and FLOAT64 -> numpy's name of it, without the byte order."""
-KINDS = {1: "int8", 2: "uint8", 3: "int16", 4: "uint16", 5: "int32", 6: "uint32"}
-"""The other kinds of PointField -> what they are called."""
+FLOAT_TYPES = {7: "f4", 8: "f8"}
+"""The type of a PointField, FLOAT32 or FLOAT64 -> its name in NumPy, without the byte order."""
+OTHER_TYPES = {1: "int8", 2: "uint8", 3: "int16", 4: "uint16", 5: "int32", 6: "uint32"}
+"""The other types of a PointField -> their names in errors."""
 
 
 def points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
     """Return x, y, z of every point, row by row, (n, 3) [m]; NaN is kept.
 
     Raises:
-        BadSetting: it has no x, y, z, one of them is no float, or its bytes are not all there.
+        BadSetting: it has no x, y, z, one of them is not a float, or bytes are missing.
     """
     try:
         return _points(cloud)
@@ -37,62 +37,62 @@ def _points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
     height, width = int(cloud.height), int(cloud.width)
     step, row = int(cloud.point_step), int(cloud.row_step)
     order = ">" if cloud.is_bigendian else "<"
-    places = [_place(cloud, axis, step) for axis in "xyz"]
+    coordinates = [_find_coordinate(cloud, axis, step) for axis in "xyz"]
     if height <= 0 or width <= 0:
         return np.empty((0, 3))
     if height > 1 and row < width * step:
         raise BadSetting(f"its row_step is {row}, too short for {width} points of {step} bytes")
-    needed = (height - 1) * row + width * step  # [byte]; the padding of the last row may be missing
-    if data.size < needed:
-        raise BadSetting(f"it has {data.size} bytes, {height} x {width} points need {needed}")
+    n_bytes = (height - 1) * row + width * step  # the last row may have no padding
+    if data.size < n_bytes:
+        raise BadSetting(f"it has {data.size} bytes, {height} x {width} points need {n_bytes}")
     xyz = np.empty((height, width, 3))
-    for axis, (offset, kind) in enumerate(places):
+    for axis, (offset, kind) in enumerate(coordinates):
         xyz[..., axis] = np.ndarray(
             (height, width), np.dtype(order + kind), data, offset, (row, step)
         )
     return xyz.reshape(-1, 3)
 
 
-def _place(cloud: PointCloud2, axis: str, step: int) -> tuple[int, str]:
-    """Where a coordinate begins in a point [byte], and what kind of float it is."""
-    found = next((field for field in cloud.fields if field.name == axis), None)
-    if found is None:
+def _find_coordinate(cloud: PointCloud2, axis: str, step: int) -> tuple[int, str]:
+    """Return the offset of a coordinate in a point [byte], and its type in NumPy."""
+    coordinate = next((field for field in cloud.fields if field.name == axis), None)
+    if coordinate is None:
         names = ", ".join(repr(field.name[:20]) for field in list(cloud.fields)[:8]) or "none"
         raise BadSetting(f"it has no field {axis!r}; its fields: {names}")
-    kind = FLOATS.get(int(found.datatype))
+    kind = FLOAT_TYPES.get(int(coordinate.datatype))
     if kind is None:
-        what = KINDS.get(int(found.datatype), f"of type {int(found.datatype)}")
-        raise BadSetting(f"its field {axis!r} is {what}; expected float32 or float64")
-    offset = int(found.offset)
+        type_name = OTHER_TYPES.get(int(coordinate.datatype), f"of type {int(coordinate.datatype)}")
+        raise BadSetting(f"its field {axis!r} is {type_name}; expected float32 or float64")
+    offset = int(coordinate.offset)
     if offset < 0 or offset + int(kind[1]) > step:
         raise BadSetting(f"its field {axis!r} at byte {offset} lies outside a point of {step}")
     return offset, kind
 
 
-def packed_colours(cloud: PointCloud2) -> npt.NDArray[np.uint8]:
+def point_colours(cloud: PointCloud2) -> npt.NDArray[np.uint8]:
     """Return red, green, blue of every point from its field ``rgb`` or ``rgba``, (n, 3).
 
     Raises:
-        BadSetting: it has no such field, or its bytes are not all there.
+        BadSetting: it has no such field, or bytes are missing.
     """
-    found = next((field for field in cloud.fields if field.name in ("rgb", "rgba")), None)
-    if found is None:
-        raise BadSetting("it has four fields, and none is called 'rgb'")
-    offset, step = int(found.offset), int(cloud.point_step)
+    colours = next((field for field in cloud.fields if field.name in ("rgb", "rgba")), None)
+    if colours is None:
+        raise BadSetting("it has four fields, none of them 'rgb'")
+    offset, step = int(colours.offset), int(cloud.point_step)
     height, width, row = int(cloud.height), int(cloud.width), int(cloud.row_step)
     if offset < 0 or offset + 4 > step:
         raise BadSetting(
-            f"its field {found.name!r} at byte {offset} lies outside a point of {step}"
+            f"its field {colours.name!r} at byte {offset} lies outside a point of {step}"
         )
     data = np.ascontiguousarray(cloud.data, dtype=np.uint8).reshape(-1)
     if height <= 0 or width <= 0:
         return np.empty((0, 3), dtype=np.uint8)
     try:
-        word = np.ndarray((height, width, 4), np.uint8, data, offset, (row, step, 1))
+        colour_bytes = np.ndarray((height, width, 4), np.uint8, data, offset, (row, step, 1))
     except (TypeError, ValueError) as error:  # a message built by other code
         raise BadSetting(f"it cannot be read: {error}") from error
     order = [1, 2, 3] if cloud.is_bigendian else [2, 1, 0]
-    return word[..., order].reshape(-1, 3)
+    return colour_bytes[..., order].reshape(-1, 3)
 
 
 def point_cloud(

@@ -46,7 +46,7 @@ class RegionOfInterest:
 
 @dataclass
 class CameraInfo:
-    """What kind of camera it is: distortion d, intrinsics k, rectification r, projection p."""
+    """The calibration of a camera: distortion d, intrinsics k, rectification r, projection p."""
 
     header: Header = field(default_factory=Header)
     height: int = 0
@@ -126,7 +126,7 @@ class BatteryState:
 
 @dataclass
 class Range:
-    """The distance to what is nearest in a cone [m]."""
+    """The distance to the nearest object in a cone [m]."""
 
     ULTRASOUND: ClassVar[int] = 0
     INFRARED: ClassVar[int] = 1
@@ -226,7 +226,7 @@ class Imu:
 
 @dataclass
 class NavSatStatus:
-    """Whether a receiver of satellites knows its position."""
+    """The status of a satellite receiver: whether it has a fix."""
 
     STATUS_UNKNOWN: ClassVar[int] = -2
     STATUS_NO_FIX: ClassVar[int] = -1

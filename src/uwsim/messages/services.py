@@ -1,6 +1,6 @@
 """Service types, each a request and a response.
 
-A folder for each package holds their texts; a test holds the two together.
+A folder for each package has their texts; a test compares the two.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .visualization_msgs import Marker
 
 @dataclass(frozen=True)
 class Service:
-    """A service type: its ROS name and the classes of its two halves."""
+    """A service type: its ROS name and the classes of its request and response."""
 
     name: str
     request: type
@@ -25,37 +25,37 @@ class Service:
 
 @dataclass(frozen=True)
 class Empty:
-    """Request of ``std_srvs/srv/Empty``."""
+    """The request of ``std_srvs/srv/Empty``."""
 
     __msgtype__: ClassVar[str] = "std_srvs/srv/Empty_Request"
 
 
 @dataclass(frozen=True)
 class EmptyResponse:
-    """Response of ``std_srvs/srv/Empty``."""
+    """The response of ``std_srvs/srv/Empty``."""
 
     __msgtype__: ClassVar[str] = "std_srvs/srv/Empty_Response"
 
 
 @dataclass(frozen=True, eq=False)
 class GTpublish:
-    """Request of ``underwater_sensor_msgs/srv/GTpublish``: ground truth handed to an algorithm."""
+    """The request of ``underwater_sensor_msgs/srv/GTpublish``: ground truth for an algorithm."""
 
     groundTruth: npt.NDArray[np.float32]  # noqa: N815 - the field's name in ROS
-    """For corners: x, y of NW, NE, SE, SW [px], (8,)."""
+    """The values; for corners x, y of NW, NE, SE, SW [px], (8,)."""
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/GTpublish_Request"
 
 
 @dataclass(frozen=True)
 class GTpublishResponse:
-    """Response of ``underwater_sensor_msgs/srv/GTpublish``."""
+    """The response of ``underwater_sensor_msgs/srv/GTpublish``."""
 
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/GTpublish_Response"
 
 
 @dataclass(frozen=True, eq=False)
 class SpawnMarker:
-    """Request of ``underwater_sensor_msgs/srv/SpawnMarker``: adds, changes or deletes a marker."""
+    """The request of ``underwater_sensor_msgs/srv/SpawnMarker``: a marker to add or delete."""
 
     marker: Marker
     """The marker; its pose is in L, whatever frame its header names."""
@@ -64,18 +64,20 @@ class SpawnMarker:
 
 @dataclass(frozen=True)
 class SpawnMarkerResponse:
-    """Response of ``underwater_sensor_msgs/srv/SpawnMarker``."""
+    """The response of ``underwater_sensor_msgs/srv/SpawnMarker``."""
 
     success: bool
-    """Whether it was done."""
+    """A flag: the request succeeded."""
     status_message: str
-    """What was done, or why not."""
+    """The effect of the request, or the reason of its failure."""
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/SpawnMarker_Response"
 
 
-EMPTY = Service("std_srvs/srv/Empty", Empty, EmptyResponse)
+EMPTY_SERVICE = Service("std_srvs/srv/Empty", Empty, EmptyResponse)
 GT_PUBLISH = Service("underwater_sensor_msgs/srv/GTpublish", GTpublish, GTpublishResponse)
 SPAWN_MARKER = Service("underwater_sensor_msgs/srv/SpawnMarker", SpawnMarker, SpawnMarkerResponse)
 
-SERVICES: dict[str, Service] = {each.name: each for each in (EMPTY, GT_PUBLISH, SPAWN_MARKER)}
-"""Service types by their names in ROS 2; ``srv/`` has the text of each."""
+SERVICES: dict[str, Service] = {
+    service.name: service for service in (EMPTY_SERVICE, GT_PUBLISH, SPAWN_MARKER)
+}
+"""The service types by their names in ROS 2; ``srv/`` has the text of each."""

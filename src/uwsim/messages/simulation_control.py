@@ -12,7 +12,7 @@ from .simulation_interfaces import *  # noqa: F403
 
 PACKAGE = "simulation_interfaces"
 MAX_STEPS = 10_000_000
-"""Most steps of one ``StepSimulation``."""
+"""The maximum number of steps of one ``StepSimulation``."""
 MESSAGES: tuple[type, ...] = tuple(
     kind
     for kind in vars(simulation_interfaces).values()

@@ -64,7 +64,7 @@ class EntityState:
 
 @dataclass
 class Resource:
-    """A file, or what would be in it."""
+    """A file, or its content as text."""
 
     uri: str = ""
     resource_string: str = ""
@@ -73,7 +73,7 @@ class Resource:
 
 @dataclass
 class Result:
-    """How a call ended."""
+    """The result of a call."""
 
     FEATURE_UNSUPPORTED: ClassVar[int] = 0
     OK: ClassVar[int] = 1
@@ -87,7 +87,7 @@ class Result:
 
 @dataclass
 class SimulationState:
-    """Whether the simulation runs."""
+    """The state of the simulation: stopped, playing, paused or quitting."""
 
     STOPPED: ClassVar[int] = 0
     PLAYING: ClassVar[int] = 1
@@ -99,7 +99,7 @@ class SimulationState:
 
 @dataclass
 class SimulatorFeatures:
-    """What a simulator can do; the codes are below."""
+    """The features of a simulator; the codes are below."""
 
     SPAWNING: ClassVar[int] = 0
     DELETING: ClassVar[int] = 1
@@ -119,7 +119,7 @@ class SimulatorFeatures:
 
 @dataclass
 class DeleteEntity:
-    """Request of ``DeleteEntity``: take away what was spawned."""
+    """The request of ``DeleteEntity``: delete a spawned entity."""
 
     entity: str = ""
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/DeleteEntity_Request"
@@ -127,7 +127,7 @@ class DeleteEntity:
 
 @dataclass
 class GetEntityState:
-    """Request of ``GetEntityState``: where an entity is."""
+    """The request of ``GetEntityState``: return the pose and velocity of an entity."""
 
     entity: str = ""
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/GetEntityState_Request"
@@ -135,21 +135,21 @@ class GetEntityState:
 
 @dataclass
 class GetSimulationState:
-    """Request of ``GetSimulationState``: whether it runs."""
+    """The request of ``GetSimulationState``: return whether the simulation runs."""
 
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/GetSimulationState_Request"
 
 
 @dataclass
 class GetSimulatorFeatures:
-    """Request of ``GetSimulatorFeatures``: what the simulator can do."""
+    """The request of ``GetSimulatorFeatures``: return the features of the simulator."""
 
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/GetSimulatorFeatures_Request"
 
 
 @dataclass
 class ResetSimulation:
-    """Request of ``ResetSimulation``: begin anew."""
+    """The request of ``ResetSimulation``: start again from the initial state."""
 
     SCOPE_DEFAULT: ClassVar[int] = 0
     SCOPE_TIME: ClassVar[int] = 1
@@ -162,7 +162,7 @@ class ResetSimulation:
 
 @dataclass
 class StepSimulation:
-    """Request of ``StepSimulation``: take some steps while it is paused."""
+    """The request of ``StepSimulation``: take a number of steps while the simulation is paused."""
 
     steps: int = 0
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/StepSimulation_Request"
@@ -170,7 +170,7 @@ class StepSimulation:
 
 @dataclass
 class EntityFilters:
-    """Which entities."""
+    """The filters that select entities."""
 
     filter: str = ""
     categories: list[EntityCategory] = field(default_factory=list)
@@ -181,7 +181,7 @@ class EntityFilters:
 
 @dataclass
 class SetEntityState:
-    """Request of ``SetEntityState``: put an entity somewhere."""
+    """The request of ``SetEntityState``: set the pose and velocity of an entity."""
 
     entity: str = ""
     state: EntityState = field(default_factory=EntityState)
@@ -193,7 +193,7 @@ class SetEntityState:
 
 @dataclass
 class SpawnEntity:
-    """Request of ``SpawnEntity``: add an entity."""
+    """The request of ``SpawnEntity``: add an entity."""
 
     name: str = ""
     allow_renaming: bool = False
@@ -205,7 +205,7 @@ class SpawnEntity:
 
 @dataclass
 class DeleteEntityResponse:
-    """Response of ``DeleteEntity``."""
+    """The response of ``DeleteEntity``."""
 
     result: Result = field(default_factory=Result)
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/DeleteEntity_Response"
@@ -213,7 +213,7 @@ class DeleteEntityResponse:
 
 @dataclass
 class GetEntitiesResponse:
-    """Response of ``GetEntities``."""
+    """The response of ``GetEntities``."""
 
     result: Result = field(default_factory=Result)
     entities: list[str] = field(default_factory=list)
@@ -222,7 +222,7 @@ class GetEntitiesResponse:
 
 @dataclass
 class GetEntityStateResponse:
-    """Response of ``GetEntityState``."""
+    """The response of ``GetEntityState``."""
 
     result: Result = field(default_factory=Result)
     state: EntityState = field(default_factory=EntityState)
@@ -231,7 +231,7 @@ class GetEntityStateResponse:
 
 @dataclass
 class ResetSimulationResponse:
-    """Response of ``ResetSimulation``."""
+    """The response of ``ResetSimulation``."""
 
     result: Result = field(default_factory=Result)
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/ResetSimulation_Response"
@@ -239,7 +239,7 @@ class ResetSimulationResponse:
 
 @dataclass
 class SetEntityStateResponse:
-    """Response of ``SetEntityState``."""
+    """The response of ``SetEntityState``."""
 
     result: Result = field(default_factory=Result)
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/SetEntityState_Response"
@@ -247,7 +247,7 @@ class SetEntityStateResponse:
 
 @dataclass
 class SetSimulationStateResponse:
-    """Response of ``SetSimulationState``."""
+    """The response of ``SetSimulationState``."""
 
     ALREADY_IN_TARGET_STATE: ClassVar[int] = 101
     STATE_TRANSITION_ERROR: ClassVar[int] = 102
@@ -258,7 +258,7 @@ class SetSimulationStateResponse:
 
 @dataclass
 class SpawnEntityResponse:
-    """Response of ``SpawnEntity``."""
+    """The response of ``SpawnEntity``."""
 
     NAME_NOT_UNIQUE: ClassVar[int] = 101
     NAME_INVALID: ClassVar[int] = 102
@@ -276,7 +276,7 @@ class SpawnEntityResponse:
 
 @dataclass
 class StepSimulationResponse:
-    """Response of ``StepSimulation``."""
+    """The response of ``StepSimulation``."""
 
     result: Result = field(default_factory=Result)
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/StepSimulation_Response"
@@ -284,7 +284,7 @@ class StepSimulationResponse:
 
 @dataclass
 class GetSimulationStateResponse:
-    """Response of ``GetSimulationState``."""
+    """The response of ``GetSimulationState``."""
 
     state: SimulationState = field(default_factory=SimulationState)
     result: Result = field(default_factory=Result)
@@ -293,7 +293,7 @@ class GetSimulationStateResponse:
 
 @dataclass
 class SetSimulationState:
-    """Request of ``SetSimulationState``: play, pause, stop or quit."""
+    """The request of ``SetSimulationState``: play, pause, stop or quit."""
 
     state: SimulationState = field(default_factory=SimulationState)
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/SetSimulationState_Request"
@@ -301,7 +301,7 @@ class SetSimulationState:
 
 @dataclass
 class GetSimulatorFeaturesResponse:
-    """Response of ``GetSimulatorFeatures``."""
+    """The response of ``GetSimulatorFeatures``."""
 
     features: SimulatorFeatures = field(default_factory=SimulatorFeatures)
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/GetSimulatorFeatures_Response"
@@ -309,7 +309,7 @@ class GetSimulatorFeaturesResponse:
 
 @dataclass
 class GetEntities:
-    """Request of ``GetEntities``: names of vehicles, objects and what was spawned."""
+    """The request of ``GetEntities``: list the names of vehicles, objects and spawned entities."""
 
     filters: EntityFilters = field(default_factory=EntityFilters)
     __msgtype__: ClassVar[str] = "simulation_interfaces/srv/GetEntities_Request"

@@ -17,7 +17,7 @@ _UINT8_0: Any = partial(np.zeros, 0, np.uint8)
 
 @dataclass
 class PingInfo:
-    """Of a ping: frequency [Hz], speed of sound [m/s], widths of the beams [rad]."""
+    """The parameters of a ping: frequency [Hz], sound speed [m/s], widths of the beams [rad]."""
 
     frequency: float = 0.0
     sound_speed: float = 0.0
@@ -32,7 +32,7 @@ class PingInfo:
 
 @dataclass
 class SonarImageData:
-    """Numbers of a sonar image as bytes: ranges one after the other, each with all beams."""
+    """The values of a sonar image as bytes: ranges one after the other, each with all beams."""
 
     DTYPE_UINT8: ClassVar[int] = 0
     DTYPE_INT8: ClassVar[int] = 1

@@ -24,7 +24,7 @@ class Time:
 
 @dataclass
 class Header:
-    """When and in which frame."""
+    """The time and the frame of a message."""
 
     stamp: Time = field(default_factory=Time)
     frame_id: str = ""

@@ -66,7 +66,7 @@ class DVL:
 
 @dataclass
 class LedLight:
-    """How long a signal lamp is to shine from now on."""
+    """The duration for which a signal lamp shines from now on."""
 
     duration: Duration = field(default_factory=Duration)
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/msg/LedLight"
@@ -74,7 +74,7 @@ class LedLight:
 
 @dataclass
 class Pressure:
-    """One number: a depth [m] or a pressure [Pa], as the sensor is set."""
+    """One number: a depth [m] or a pressure [Pa], as the sensor is configured."""
 
     header: Header = field(default_factory=Header)
     pressure: float = 0.0

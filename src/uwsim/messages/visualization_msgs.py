@@ -26,7 +26,7 @@ class MeshFile:
 
 @dataclass
 class UVCoordinate:
-    """A place in a texture."""
+    """A position in a texture."""
 
     u: float = 0.0
     v: float = 0.0
@@ -35,7 +35,7 @@ class UVCoordinate:
 
 @dataclass
 class Marker:
-    """A shape to show: `ns` and `id` name it; type, pose, scale [m] and colour say what it is."""
+    """A shape to show: `ns` and `id` identify it; type, pose, scale [m] and colour define it."""
 
     ARROW: ClassVar[int] = 0
     CUBE: ClassVar[int] = 1

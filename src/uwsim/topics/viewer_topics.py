@@ -17,7 +17,7 @@ import numpy.typing as npt
 from ..base.record import Record
 from ..errors import BadSetting, UnknownName
 from ..messages import Image, PointCloud2, pixels_of, points
-from ..messages.point_cloud import packed_colours
+from ..messages.point_cloud import point_colours
 from ..schema import element
 from .interface import Interface, InterfaceSpec, TopicWorld
 
@@ -163,7 +163,7 @@ class PointClouds(Interface):
         is_finite = np.isfinite(own).all(axis=1)
         own = own[is_finite]
         is_coloured = len(message.fields) == 4
-        colours = packed_colours(message)[is_finite] if is_coloured else jet(own[:, 2])
+        colours = point_colours(message)[is_finite] if is_coloured else jet(own[:, 2])
         localized_from_world = self._world.world_from_localized.inverse()
         localized_from_frame = localized_from_world @ frame.world_from_body
         return ShownCloud(localized_from_frame.transform(own).astype(np.float32), colours)

@@ -216,7 +216,7 @@ def test_a_recording_that_breaks_in_the_middle_is_a_failed_run(tmp_path: Path) -
     Screen(stage)
     updater.ramp(0.0)
     updater.apply(0.0)
-    with pytest.raises(RunFailed, match=r"The recording broke off: Image 3 of .* holds 20 bytes"):
+    with pytest.raises(RunFailed, match=r"The recording broke off: Image 3 of .* and 20 bytes"):
         stage.advance(30)
     updater.close()
 

@@ -197,7 +197,7 @@ class BagFogUpdater(SceneUpdater):
         """Yield the first image over and over, each time with when it is due [ns]."""
         recording, n = self._open(), 0
         while True:
-            yield n * recording.gap, recording.first
+            yield n * recording.gap, recording.first_frame
             n += 1
 
     def _replay(self) -> Iterator[tuple[int, RecordedFrame]]:
