@@ -22,8 +22,8 @@ from uwsim.schema import (
     Original,
     TwoNumbers,
     element,
-    number,
     parse,
+    parse_number,
     read,
     write,
 )
@@ -47,11 +47,11 @@ class ThingSpec:
     """How thick [1/m]."""
     count: int = 3
     """How many [px]."""
-    flag: bool = element(default=False, original=Original(invalid=True))
+    flag: bool = element(default=False, original=Original(invalid_flag_value=True))
     """Whether."""
     mode: Literal["fast", "slow"] = "fast"
     """How."""
-    lean: float = element(default=0.0, original=Original(lenient=True))
+    lean: float = element(default=0.0, original=Original(allows_trailing_text=True))
     """Tilt [deg]."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Where [m]."""
@@ -76,9 +76,9 @@ def read_text(
 ) -> tuple[ThingSpec | None, list[str]]:
     file = folder / "thing.xml"
     file.write_text(text)
-    diagnostics = Diagnostics("thing.xml", strict=strict)
+    diagnostics = Diagnostics("thing.xml", is_strict=strict)
     spec = read(ThingSpec, parse(file).root, diagnostics)
-    return spec, [str(diagnostic) for diagnostic in diagnostics.all()]
+    return spec, [str(diagnostic) for diagnostic in diagnostics.to_list()]
 
 
 def refused(data: bytes, folder: Path) -> str:
@@ -142,7 +142,9 @@ def test_what_the_original_read_leniently_is_a_warning(tmp_path: Path) -> None:
 
 def test_an_element_that_may_stand_once_stands_once(tmp_path: Path) -> None:
     _, said = read_text("<thing><name>a</name>\n<name>b</name></thing>", tmp_path)
-    assert said == ["thing.xml:2: <name> is given twice in <thing> (first in line 1); only one may"]
+    assert said == [
+        "thing.xml:2: <name> is given twice in <thing> (first in line 1); only one is allowed"
+    ]
 
 
 def test_an_old_name_is_read_with_a_warning(tmp_path: Path) -> None:
@@ -219,8 +221,8 @@ def test_a_file_with_extensions_carries_no_doctype(tmp_path: Path) -> None:
     )
     diagnostics = Diagnostics("thing.xml")
     schema.check_head(parse(file), "thing", diagnostics)
-    assert [diagnostic.line for diagnostic in diagnostics.all()] == [3]
-    assert "drop the DOCTYPE" in diagnostics.all()[0].message
+    assert [diagnostic.line for diagnostic in diagnostics.to_list()] == [3]
+    assert "remove the DOCTYPE" in diagnostics.to_list()[0].message
 
 
 def test_lines_beyond_65535_are_right(tmp_path: Path) -> None:
@@ -236,7 +238,7 @@ def test_errors_beyond_a_hundred_are_counted(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(("token", "value"), sorted(schema.TOKENS.items()))
 def test_pi_may_stand_for_a_number(token: str, value: float) -> None:
-    assert number(token) == value
+    assert parse_number(token) == value
     assert abs(value) in (math.pi, math.pi / 2, math.pi / 4)
 
 
@@ -244,12 +246,12 @@ def test_pi_may_stand_for_a_number(token: str, value: float) -> None:
     "text", ["nan", "inf", "-inf", "1e999", "M_PI/2", "3.14f", "0x10", "1_0", "", "1 2", "٣"]
 )
 def test_what_is_no_finite_number_is_none(text: str) -> None:
-    assert number(text) is None
+    assert parse_number(text) is None
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
 def test_every_finite_float_is_read_as_it_was_written(value: float) -> None:
-    assert number(repr(value)) == value
+    assert parse_number(repr(value)) == value
 
 
 TEXT = st.text(st.characters(min_codepoint=33, max_codepoint=0x2FFF, categories=["L", "P", "N"]))
@@ -276,9 +278,9 @@ SPECS = st.builds(
 
 @given(SPECS)
 def test_reading_what_was_written_gives_the_same_spec(spec: ThingSpec) -> None:
-    diagnostics = Diagnostics("thing.xml", strict=True)
+    diagnostics = Diagnostics("thing.xml", is_strict=True)
     assert read(ThingSpec, write(spec, "thing"), diagnostics) == spec
-    assert diagnostics.all() == []
+    assert diagnostics.to_list() == []
 
 
 def test_a_field_documents_itself() -> None:
@@ -360,7 +362,7 @@ def test_a_file_that_was_cut_off_is_one_error_in_whole_words(tmp_path: Path) -> 
         with pytest.raises(FileError) as caught:
             parse(file)
         (diagnostic,) = caught.value.diagnostics
-        cut = "the file ends in the middle; it was cut off"
+        cut = "the file ends in the middle; its end is missing"
         if not whole[:n].rstrip().endswith(">"):
             assert diagnostic.message == f"not well-formed XML: {cut}"
 
@@ -380,12 +382,12 @@ class CurveSpec:
     [
         ("<terms>1 2, 3</terms> <ends>-1 M_PI</ends>", ((1.0, 2.0, 3.0), (-1.0, math.pi))),
         ("<terms/>", ((), None)),
-        ("<terms>1 x 3</terms>", "<terms> holds 'x'; expected numbers >= 0 [N]"),
-        ("<terms>1 -2</terms>", "<terms> holds '-2'; expected numbers >= 0 [N]"),
-        ("<terms>,</terms>", "<terms> holds ','; expected numbers >= 0 [N]"),
-        ("<terms>1e12</terms>", "<terms> holds '1e12'; no quantity is beyond 1e+09"),
+        ("<terms>1 x 3</terms>", "<terms> contains 'x'; expected numbers >= 0 [N]"),
+        ("<terms>1 -2</terms>", "<terms> contains '-2'; expected numbers >= 0 [N]"),
+        ("<terms>,</terms>", "<terms> contains ','; expected numbers >= 0 [N]"),
+        ("<terms>1e12</terms>", "<terms> contains '1e12'; no quantity is beyond 1e+09"),
         ("<ends>1 2 3</ends>", "<ends> has 3 numbers; expected 2"),
-        (f"<terms>{'1 ' * 37}</terms>", "<terms> holds 37 numbers; expected 36 at most"),
+        (f"<terms>{'1 ' * 37}</terms>", "<terms> has 37 numbers; expected 36 at most"),
     ],
 )
 def test_numbers_stand_in_one_text(text: str, expected: object) -> None:
@@ -394,7 +396,7 @@ def test_numbers_stand_in_one_text(text: str, expected: object) -> None:
     spec = read(CurveSpec, node, diagnostics)
     assert spec is not None
     if isinstance(expected, str):
-        assert [diagnostic.message for diagnostic in diagnostics.all()] == [expected]
+        assert [diagnostic.message for diagnostic in diagnostics.to_list()] == [expected]
         return
     assert (spec.terms, spec.ends) == expected
     assert read(CurveSpec, write(spec, "curve"), Diagnostics("curve.xml")) == spec

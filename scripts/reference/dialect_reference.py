@@ -16,7 +16,7 @@ from types import MappingProxyType
 
 from uwsim.cli.list import clark
 from uwsim.schema import Field, fields_of
-from uwsim.schema.names import local
+from uwsim.schema.names import prefixed_name
 
 from .relax_ng import benchmark_grammar, scene_grammar
 
@@ -126,7 +126,7 @@ def benchmark_page() -> str:
         for name, cls in table.items():
             parts.append(_section(name, cls, title=form.format(name)))
             parts += [
-                _section(field.shown, field.type, title=f"<{field.shown}>")
+                _section(field.label, field.type, title=f"<{field.label}>")
                 for field in fields_of(cls)
                 if field.kind == "spec"
             ]
@@ -149,10 +149,10 @@ def _specs(parent: str, name: str, cls: type) -> Iterator[tuple[str, str, type]]
     yield parent, name, cls
     for field in fields_of(cls):
         if field.kind == "spec":
-            yield from _specs(name, field.shown, field.type)
+            yield from _specs(name, field.label, field.type)
         elif field.kind == "choice":
             for child, spec in field.type.items():
-                yield from _specs(field.shown, local(child), spec)
+                yield from _specs(field.label, prefixed_name(child), spec)
 
 
 def _section(
@@ -188,9 +188,9 @@ def _section(
     lines += ["| element | content | default | meaning |", "|---|---|---|---|"]
     for field in fields_of(cls):
         mark = " (attribute)" if field.xml.attribute else ""
-        part = "" if title is not None else limit_of(name, clark(field.shown))
+        part = "" if title is not None else limit_of(name, clark(field.label))
         meaning = _markdown(field.doc) + (f" *({part})*" if part else "")
-        cells = (f"`{field.shown}`{mark}", _kind(field, homes), _default(field), meaning)
+        cells = (f"`{field.label}`{mark}", _kind(field, homes), _default(field), meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     return "\n".join(lines) + "\n"
 
@@ -198,9 +198,9 @@ def _section(
 def _kind(field: Field, homes: Mapping[type, str]) -> str:
     what = field.expected
     if field.kind == "spec":
-        what = f"[`<{field.shown}>`]({homes.get(field.type, f'#{_anchor(field.shown)}')})"
+        what = f"[`<{field.label}>`]({homes.get(field.type, f'#{_anchor(field.label)}')})"
     elif field.kind == "choice":
-        names = {local(child): cls for child, cls in field.type.items()}
+        names = {prefixed_name(child): cls for child, cls in field.type.items()}
         what = "any of " + ", ".join(
             f"[`{name}`]({homes.get(cls, f'#{_anchor(name)}')})" for name, cls in names.items()
         )
@@ -214,14 +214,14 @@ def _kind(field: Field, homes: Mapping[type, str]) -> str:
     elif field.xml.item:
         each = "a number" if field.kind == "list" else what
         what = f"`<{field.xml.item}>`, any number: {each}"
-    return f"{what}, any number" if field.repeated and field.kind in ("spec", "list") else what
+    return f"{what}, any number" if field.is_repeated and field.kind in ("spec", "list") else what
 
 
 def _family(field: Field) -> str:
     """The sections of a benchmark's families of elements."""
     kind = field.type.__name__.removesuffix("Spec")
     title = {"SceneUpdater": "Scene updaters", "GroundTruth": "Ground truths"}.get(kind, f"{kind}s")
-    which = "any of" if field.repeated else "one of"
+    which = "any of" if field.is_repeated else "one of"
     return f"{which} the [{title.lower()}](#{title.lower().replace(' ', '-')})"
 
 

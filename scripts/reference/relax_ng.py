@@ -134,7 +134,7 @@ def _field(content: etree._Element, field: Field) -> None:
     if field.kind == "spec":
         _ref(node, field.type)
     elif field.kind == "manual":
-        _ref(_sub(node, "zeroOrMore") if field.repeated else node, field.type)
+        _ref(_sub(node, "zeroOrMore") if field.is_repeated else node, field.type)
     elif field.kind == "choice":
         several = _sub(_sub(node, "zeroOrMore"), "choice")
         for child, spec in field.type.items():
@@ -160,7 +160,7 @@ def _stands_often(field: Field) -> bool:
     is_one_box = field.kind in ("choice", "manual") or (
         field.kind != "list" and bool(field.xml.item)
     )
-    return field.repeated and not is_one_box and not field.xml.attribute
+    return field.is_repeated and not is_one_box and not field.xml.attribute
 
 
 def _named(tag: str, *, within: Field | None = None) -> dict[str, str]:

@@ -14,7 +14,7 @@ from pathlib import Path
 from uwsim.checks.benchmark_tables import bundled_tables
 from uwsim.cli.list import clark, devices, limit_in, sensors
 from uwsim.schema import fields_of
-from uwsim.schema.names import local
+from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
 from uwsim.topics import INTERFACES
 
@@ -34,9 +34,9 @@ def _sensors(*, simulated: bool) -> str:
     for name, summary in sensors(bundled_tables()).items():
         if simulated is (limit_in("sensors", name) == ""):
             own = [
-                field.shown
+                field.label
                 for field in fields_of(SENSORS[clark(name)])
-                if field.shown not in COMMON
+                if field.label not in COMMON
             ]
             rows.append((_linked(name), summary, ", ".join(f"`{each}`" for each in own)))
     return _table(("element", "what it measures", "its elements"), rows)
@@ -55,9 +55,9 @@ def _topics(*, simulated: bool) -> str:
     """Interfaces that publish, with their default rates."""
     rows = []
     for tag, spec in INTERFACES.items():
-        name = local(tag)
+        name = prefixed_name(tag)
         summary = (spec.__doc__ or "").strip().split("\n")[0]
-        elements = {field.shown: field for field in fields_of(spec)}
+        elements = {field.label: field for field in fields_of(spec)}
         topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
         publishes = not spec.subscribes and (topics or spec.carries())
         if publishes and simulated is (limit_in("interfaces", name) == ""):

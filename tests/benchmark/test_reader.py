@@ -415,7 +415,7 @@ FACE = (
         (text(attributes='xmlns:u="urn:uwsim:1" u:compatibility="row"'), 1, "Did you mean rows"),
         (text(attributes='xmlns:u="urn:uwsim:1" u:scen="s.xml"'), 1, "Did you mean u:scene"),
         (text(head='<!DOCTYPE benchmark SYSTEM "b.dtd">',
-              attributes='xmlns:u="urn:uwsim:1" u:scene="s.xml"'), 1, "drop the DOCTYPE"),
+              attributes='xmlns:u="urn:uwsim:1" u:scene="s.xml"'), 1, "remove the DOCTYPE"),
         ("<UWSimScene/>", 1, "expected <benchmark>"),
         ("<benchmark><measures>", 1, "not well-formed XML"),
     ],

@@ -152,7 +152,9 @@ def test_pixels_that_do_not_fit_the_size_are_refused(tmp_path: Path) -> None:
     path = write_bag(
         tmp_path, "mcap", [(t, sample_pixels(0, "mono8")) for t in TIMES], encoding="rgb8"
     )
-    with pytest.raises(AssetError, match="header for 5x4 pixels of 3 bytes in rows of 5, and 20 bytes"):
+    with pytest.raises(
+        AssetError, match="header for 5x4 pixels of 3 bytes in rows of 5, and 20 bytes"
+    ):
         open_bag(path)
 
 

@@ -80,10 +80,10 @@ def test_the_page_names_every_element() -> None:
     for element in (BodyHydrodynamics, ThrusterSpec, VehicleHydrodynamics):
         for field in fields_of(element):
             assert (
-                f"`{field.shown}`" in text
-                or f"<{field.shown}" in text
-                or (f'{field.shown}="..."' in text)
-            ), field.shown
+                f"`{field.label}`" in text
+                or f"<{field.label}" in text
+                or (f'{field.label}="..."' in text)
+            ), field.label
 
 
 def test_a_vehicle_without_any_mass_is_an_error_of_its_scene(folder: Path) -> None:

@@ -33,7 +33,7 @@ def test_the_generated_pages_say_what_the_specs_say(name: str) -> None:
 
 def test_the_page_names_every_element_of_a_vehicle() -> None:
     page = dialect_reference.page()
-    assert [field.shown for field in fields_of(VehicleSpec) if f"`{field.shown}`" not in page] == []
+    assert [field.label for field in fields_of(VehicleSpec) if f"`{field.label}`" not in page] == []
 
 
 @pytest.mark.parametrize("family", [MEASURES, TRIGGERS, UPDATERS, GROUND_TRUTHS])
@@ -47,4 +47,4 @@ def test_the_benchmarks_page_names_every_part_and_all_that_stands_in_it(
         ]
         assert mine, name
         for field in fields_of(spec):
-            assert any(f"`{field.shown}`" in part for part in mine), (name, field.shown)
+            assert any(f"`{field.label}`" in part for part in mine), (name, field.label)

@@ -12,7 +12,7 @@ from uwsim import messages
 from uwsim.checks import check_file
 from uwsim.devices import DEVICES
 from uwsim.scene.unsupported import UNSUPPORTED, limit_of
-from uwsim.schema.names import local
+from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
 from uwsim.topics import INTERFACES
 from uwsim.topics.sensor_topic import SensorToROSSpec
@@ -41,8 +41,8 @@ def test_a_table_without_rows_is_a_word(monkeypatch: pytest.MonkeyPatch) -> None
 def test_every_sensor_and_device_is_in_the_half_that_is_true(name: str) -> None:
     part = REST if limit_of("vehicle", name) else SIMULATED
     other = SIMULATED if part is REST else REST
-    assert f"| [`<{local(name)}>`]" in part
-    assert f"| [`<{local(name)}>`]" not in other
+    assert f"| [`<{prefixed_name(name)}>`]" in part
+    assert f"| [`<{prefixed_name(name)}>`]" not in other
 
 
 def test_every_simulated_publisher_has_its_message_and_its_own_paragraph() -> None:
@@ -50,7 +50,7 @@ def test_every_simulated_publisher_has_its_message_and_its_own_paragraph() -> No
     for tag, spec in INTERFACES.items():
         summary = (spec.__doc__ or "").split("\n")[0]
         if summary.startswith("Publishes") and not limit_of("rosInterfaces", tag):
-            assert f"<{local(tag)}>" in prose, tag
+            assert f"<{prefixed_name(tag)}>" in prose, tag
             if spec is SensorToROSSpec:  # its message is that of the sensor that it names
                 continue
             (package, message) = re.findall(r"as (\w+)/(\w+)", summary)[0]

@@ -223,7 +223,7 @@ def test_the_recipes_of_the_conventions_page_look_where_they_say() -> None:
     for row in table:
         looks, top, *columns = (cell.strip() for cell in row.strip("|").split("|"))
         for column, stand in zip(columns, ("z down, L is NED", "z up"), strict=True):
-            r, p, y = (schema.number(word.strip()) for word in column.split(","))
+            r, p, y = (schema.parse_number(word.strip()) for word in column.split(","))
             spec = camera(None, orientation=(r, p, y), relative_to="base")
             ahead, up = STANDS[stand].looks(spec)
             words = STANDS[stand].directions

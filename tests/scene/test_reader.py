@@ -104,7 +104,7 @@ def test_no_value_of_the_scene_with_every_element_is_a_default() -> None:
             value = getattr(spec, field.name)
             place = f"{route}.{type(spec).__name__}.{field.name}"
             given[place] = given.get(place, False) or value != field.default
-            for part in value if field.repeated else (value,):
+            for part in value if field.is_repeated else (value,):
                 if dataclasses.is_dataclass(part):
                     check(part, place)
 
@@ -593,7 +593,7 @@ def test_objects_that_a_search_never_finds_and_topics_of_two_are_named(tmp_path:
         "searches find the first",
         f"{file}:6: warning: the object 'g' is called as a vehicle before it; "
         "searches find the first",
-        f"{file}:8: warning: the topic '/o' carries 'g' and 'g': who reads it gets both",
+        f"{file}:8: warning: the topic '/o' carries 'g' and 'g'; readers get both",
     ]
 
 
@@ -624,5 +624,5 @@ def test_no_mutation_of_a_scene_raises_anything_but_a_scene_error(data: st.DataO
 
 def test_an_error_never_shows_a_long_value_whole() -> None:
     diagnostics = Diagnostics("f")
-    diagnostics.unknown(etree.Element("a"), "what", "x" * 10_000, ["y"])
-    assert len(diagnostics.all()[0].message) < 100
+    diagnostics.report_unknown(etree.Element("a"), "what", "x" * 10_000, ["y"])
+    assert len(diagnostics.to_list()[0].message) < 100

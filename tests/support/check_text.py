@@ -27,4 +27,4 @@ def check_text(path: Path) -> list[Diagnostic]:
     for rule in SCENE_RULES:
         if rule.in_check and rule.needs is Need.SPEC and rule.find not in ABOUT_FILES:
             diagnostics.extend(rule.find(scene))
-    return diagnostics.all()
+    return diagnostics.to_list()

@@ -16,7 +16,7 @@ from uwsim.messages import Float64
 from uwsim.scene.reader import read_scene
 from uwsim.scene.unsupported import limit_of
 from uwsim.schema import fields_of
-from uwsim.schema.names import local
+from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
 from uwsim.sensors.sensor import Carrier, SensorSpec, measured_by
@@ -43,13 +43,13 @@ def test_what_has_no_bind_is_reported_as_read_only(name: str) -> None:
 def test_topics_are_fields_and_sources_are_elements(spec: type[InterfaceSpec]) -> None:
     fixed = {name for name, value in vars(spec).items() if isinstance(value, str)}
     assert set(spec.carries()) <= {field.name for field in fields_of(spec)} | fixed
-    assert set(spec.sources) <= {*map(local, {**SENSORS, **DEVICES}), "vehicle", "object"}
+    assert set(spec.sources) <= {*map(prefixed_name, {**SENSORS, **DEVICES}), "vehicle", "object"}
 
 
 def test_sensors_on_one_interface_measure_the_same() -> None:
     for spec in INTERFACES.values():
         if issubclass(spec, SensorTopicSpec) and spec is not SensorToROSSpec:
-            parts = {local(tag): part for tag, part in {**SENSORS, **DEVICES}.items()}
+            parts = {prefixed_name(tag): part for tag, part in {**SENSORS, **DEVICES}.items()}
             types = {measured_by(parts[source]) for source in spec.sources} - {None}
             assert len(types) <= 1
 

@@ -10,7 +10,7 @@ from tests.support.opened import open_scene
 from uwsim.checks import check_file
 from uwsim.middleware.recording import TopicRate, TopicRates
 from uwsim.scene.reader import read_scene
-from uwsim.schema.names import local
+from uwsim.schema.names import prefixed_name
 from uwsim.topics import INTERFACES
 
 SENSOR = "<name>{0}</name> <relativeTo>base_link</relativeTo>"
@@ -163,6 +163,6 @@ def test_type_direction_and_rate(element: str, rates: dict[str, TopicRate]) -> N
 
 def test_check_reports_none_of_those_that_are_simulated(scene: Path) -> None:
     warnings = [each.message for each in check_file(scene) if "not simulated" in each.message]
-    simulated = {local(name) for name, spec in INTERFACES.items() if spec.is_simulated()}
+    simulated = {prefixed_name(name) for name, spec in INTERFACES.items() if spec.is_simulated()}
     assert {"ROSImageToHUD", "ROSPointCloudLoader"} <= simulated
     assert [name for name in simulated for text in warnings if f": {name} (" in text] == []

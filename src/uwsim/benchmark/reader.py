@@ -34,10 +34,10 @@ from ..schema import (
     advice,
     check_head,
     fields_of,
+    format_tag,
     parse,
     read,
-    shown_tag,
-    text_of,
+    read_text,
 )
 from ..world import TIMESTEP
 from .element_names import name_of, place_of
@@ -110,7 +110,7 @@ def check_benchmark(
         spec = reader.benchmark(path, strict=strict)
     except BenchmarkError as error:
         return list(error.diagnostics), None
-    return diagnostics.all(), spec
+    return diagnostics.to_list(), spec
 
 
 @dataclass(frozen=True)
@@ -129,7 +129,9 @@ class _Reader:
         check_head(document, "benchmark", self.diagnostics)
         if root.tag != "benchmark":
             return None
-        self.diagnostics.lenient = document.has_doctype  # the original read its numbers with atof
+        self.diagnostics.allows_trailing_text = (
+            document.has_doctype
+        )  # the original read its numbers with atof
         if strict:
             check_order(root, self.diagnostics)
         given: dict[str, object] = {"path": str(path)}
@@ -150,7 +152,7 @@ class _Reader:
             warn_still_water(updater, self.diagnostics)
         given["compatibility"] = self.compatibility(root)
         given["plugin"] = tuple(str(root.get(f"{{{NAMESPACE}}}plugin", "")).split())
-        spec = read(BenchmarkSpec, root, self.diagnostics, given=given)
+        spec = read(BenchmarkSpec, root, self.diagnostics, known_fields=given)
         if spec is not None and updater is not None:
             check_variations(
                 spec,
@@ -168,7 +170,7 @@ class _Reader:
             self.diagnostics.error(place, message)
         if spec is not None and updater is not None:
             warn_endless(spec, self.diagnostics)
-        if spec is not None and not self.diagnostics.any:
+        if spec is not None and not self.diagnostics.has_errors:
             for place, message in never_started(spec):
                 self.diagnostics.warning(place, message)
         return spec
@@ -187,7 +189,7 @@ class _Reader:
         return found
 
     def measure(self, cls: type[MeasureSpec], node: etree._Element) -> MeasureSpec | None:
-        spec = read(cls, node, self.diagnostics, given=self.by_hand(cls, node))
+        spec = read(cls, node, self.diagnostics, known_fields=self.by_hand(cls, node))
         if spec is None:
             return None
         if isinstance(spec, PathFollowingSpec) and spec.topic is None and spec.reference is None:
@@ -224,7 +226,7 @@ class _Reader:
     def trigger(self, node: etree._Element) -> TriggerSpec:
         """Read ``<startOn>`` or ``<stopOn>``; what a type has no use for is ignored."""
         kinds = node.findall("type")
-        kind = text_of(kinds[0], self.diagnostics) if kinds else ""
+        kind = read_text(kinds[0], self.diagnostics) if kinds else ""
         if not kind:
             self.diagnostics.error(
                 node, f"<{node.tag}> lacks <type>: one of {', '.join(self.triggers)}"
@@ -289,7 +291,7 @@ class _Reader:
         if cls is None:
             self.unknown(node, box, self.updaters)
             return None
-        spec = read(cls, node, self.diagnostics, given=self.by_hand(cls, node))
+        spec = read(cls, node, self.diagnostics, known_fields=self.by_hand(cls, node))
         wrong = [] if spec is None else list(spec.errors())
         for message in wrong:
             self.diagnostics.error(place_of(node, message), message)
@@ -299,7 +301,9 @@ class _Reader:
         names = tuple(str(root.get(f"{{{NAMESPACE}}}compatibility", "")).replace(",", " ").split())
         known = [*COMPATIBILITY, "uwsim"]
         for name in [name for name in names if name not in known][:10]:
-            self.diagnostics.unknown(root, f"u:compatibility names {name[:60]!r}", name, known)
+            self.diagnostics.report_unknown(
+                root, f"u:compatibility names {name[:60]!r}", name, known
+            )
         return names
 
     def children(self, box: etree._Element) -> list[etree._Element]:
@@ -315,13 +319,13 @@ class _Reader:
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
         name = name_of(node)
         message = (
-            f"{shown_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
+            f"{format_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
         )
         if name.startswith(PREFIX):
             message += OF_A_PLUGIN
             if (plugin := node.getroottree().getroot().get(f"{{{NAMESPACE}}}plugin")) is not None:
                 message += f"; {str(plugin)[:100]!r} of u:plugin is not run by `uwsim check`"
-        self.diagnostics.unknown(node, message, name, known)
+        self.diagnostics.report_unknown(node, message, name, known)
 
 
 def _take_out(node: etree._Element) -> None:

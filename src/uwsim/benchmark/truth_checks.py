@@ -39,7 +39,7 @@ def truth_diagnostics(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic
                     f"<components> names {n_read} of the numbers on {reads.topic!r}; "
                     f"{Path(updater.truth.file).name} publishes {n}: {', '.join(truth.columns)}",
                 )
-    return diagnostics.all()
+    return diagnostics.to_list()
 
 
 def _readers(benchmark: BenchmarkSpec, truth: RecordedTruthSpec) -> Iterator[TopicTruthSpec]:

@@ -28,7 +28,7 @@ def unknown_names(
         wrong for part in _parts(benchmark) for wrong in errors_of(part, stage)
     ):
         diagnostics.error(line, message)
-    return diagnostics.all()
+    return diagnostics.to_list()
 
 
 def _parts(benchmark: BenchmarkSpec) -> Iterator[Part]:
@@ -46,7 +46,7 @@ def _line(spec: object, name: str) -> int | None:
 
 def _lines(spec: object, name: str) -> Iterator[int | None]:
     for field in fields_of(type(spec)):
-        value = field.of(spec)
+        value = field.value_in(spec)
         if value == name or (isinstance(value, str) and name in value.split()):
             yield line_of(spec, field.tag)
         elif isinstance(value, Spec) and not isinstance(value, Part):
@@ -68,7 +68,7 @@ def _wrong(part: Part, stage: Stage) -> Iterator[tuple[int | None, str]]:
 def _unknown(spec: object, stage: Stage) -> Iterator[tuple[int | None, str]]:
     """Look up what the fields of a spec, and of the specs in it, refer to."""
     for field in fields_of(type(spec)):
-        value = field.of(spec)
+        value = field.value_in(spec)
         if value is None or isinstance(value, Part):
             continue
         if field.xml.refers_to is not None:

@@ -34,7 +34,7 @@ def leads_to_updater(benchmark: BenchmarkSpec, path: str) -> bool:
 def check_begin(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, value: str) -> None:
     """Raise BadSetting if a path begins with nothing that can be set; names all that can."""
     first = path.partition(".")[0].partition("[")[0].removeprefix("u:")
-    known = [field.shown.removeprefix("u:") for field in fields_of(type(scene))]
+    known = [field.label.removeprefix("u:") for field in fields_of(type(scene))]
     known += map(element_of, chain(benchmark.scene_updater))
     known.append("algorithm")
     if first and first not in known:

@@ -53,7 +53,7 @@ def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
                 if held != value:
                     message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
                     diagnostics.warning(at, message)
-    return diagnostics.all()
+    return diagnostics.to_list()
 
 
 def recorded_truths(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from ..assets.bundled import scene_file
 from ..errors import Diagnostic, FileError, PluginError, SceneError, UwsimError
-from ..schema import Diagnostics, parse, shown_tag
+from ..schema import Diagnostics, format_tag, parse
 from ..world import TIMESTEP
 from .benchmark_tables import read_plugins
 from .rule import Need
@@ -69,7 +69,7 @@ def check_file(
     if root == "hydrodynamics":
         return _check_hydrodynamics(file)
     message = (
-        f"the root element is {shown_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
+        f"the root element is {format_tag(root)}; expected <{ROOT}>, <benchmark>, <robot> or "
         "<hydrodynamics>"
     )
     if root.startswith("{") and node.prefix is None:
@@ -85,14 +85,14 @@ def _check_scene(
     from ..scene.xacro import parse_expanded
     from .subjects import CheckedScene
 
-    diagnostics = Diagnostics(path, strict=strict)
+    diagnostics = Diagnostics(path, is_strict=strict)
     try:
         document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
     except SceneError as error:
         return list(error.diagnostics)
     spec = read_document(document, diagnostics)
     if spec is None:
-        return [*document.expansion.warnings, *diagnostics.all()]
+        return [*document.expansion.warnings, *diagnostics.to_list()]
     return _apply(CheckedScene(spec, data_path, document=document, diagnostics=diagnostics))
 
 
@@ -136,7 +136,7 @@ def _apply(scene: CheckedScene) -> list[Diagnostic]:
         reported = chain.from_iterable(rule.apply(scene) for rule in group)
         if need is Need.SPEC:
             scene.extend(reported)
-        listed = scene.diagnostics.all() if need is Need.SPEC else list(reported)
+        listed = scene.diagnostics.to_list() if need is Need.SPEC else list(reported)
         if _has_error(listed):
             wrong.add(need)
         found += listed
@@ -176,7 +176,7 @@ def _check_hydrodynamics(file: Path) -> list[Diagnostic]:
 
     diagnostics = Diagnostics(file)
     read_vehicle_into(file, None, diagnostics)
-    return diagnostics.all()
+    return diagnostics.to_list()
 
 
 def _check_benchmark(

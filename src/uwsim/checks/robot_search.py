@@ -69,7 +69,7 @@ class RobotSearch:
 
     def _lost(self, name: str) -> str:
         searched = searched_for(name, **self._where)
-        near = self._diagnostics.near(name.strip().rpartition("/")[2], bundled_robots())
+        near = self._diagnostics.suggest(name.strip().rpartition("/")[2], bundled_robots())
         return (
             f"robot file {name!r} is nowhere, and no bundled robot is called so.{near} "
             f"{searched[0].upper()}{searched[1:]}"

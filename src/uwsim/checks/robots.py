@@ -31,11 +31,11 @@ def check_robot(
     except SceneError as error:
         return list(error.diagnostics)
     if spec is None:
-        return diagnostics.all()
+        return diagnostics.to_list()
     robot = CheckedRobot(spec, diagnostics, data_path)
     for rule in rules:
         diagnostics.extend(rule.apply(robot))
-    return [*spec.expansion.warnings, *diagnostics.all()]
+    return [*spec.expansion.warnings, *diagnostics.to_list()]
 
 
 def mesh_files(robot: CheckedRobot) -> Iterator[Diagnostic]:
@@ -74,7 +74,7 @@ def robot_places(scene: CheckedScene) -> Iterable[Diagnostic]:
 def robot_files(scene: CheckedScene, rules: Iterable[Rule[CheckedRobot]]) -> Iterator[Diagnostic]:
     """Report what is wrong in the robot files, and else the arguments that no file has."""
     arguments = dict(scene.spec.expansion.arguments)
-    is_wrong = scene.diagnostics.any
+    is_wrong = scene.diagnostics.has_errors
     for path in scene.robot_search.files:
         found = check_robot(path, rules, data_path=scene.data_path, arguments=arguments)
         is_wrong = is_wrong or any(each.severity == "error" for each in found)
@@ -86,7 +86,7 @@ def robot_files(scene: CheckedScene, rules: Iterable[Rule[CheckedRobot]]) -> Ite
 def unused_arguments(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of each xacro argument from outside that no file of a scene has."""
     expansions = [scene.spec.expansion, *(robot.expansion for robot in scene.robots.values())]
-    known = [name for each in expansions for name in each.declared]
+    known = [name for each in expansions for name in each.declared_arguments]
     for name, _ in scene.spec.expansion.arguments:
         if name not in known:
             near = choices(name, sorted(set(known)), called="Arguments")

@@ -135,7 +135,7 @@ class CheckedScene(Subject):
         """Whether it has no errors and something is simulated; what is about to run is valid."""
         scene = self.spec
         return self.is_run or (
-            not self.diagnostics.any
+            not self.diagnostics.has_errors
             and (
                 bool(scene.ocean_state.currents or scene.vehicles or scene.has_uwsim_physics)
                 or stands_on_floor(scene)

@@ -119,29 +119,29 @@ def updaters(tables: Tables) -> dict[str, str]:
 
 def sensors(tables: Tables) -> dict[str, str]:
     """Sensors that a scene file may use."""
-    from ..schema.names import local
+    from ..schema.names import prefixed_name
     from ..sensors import SENSORS
 
-    return {local(name): line for name, line in family(SENSORS).items()}
+    return {prefixed_name(name): line for name, line in family(SENSORS).items()}
 
 
 def devices(tables: Tables) -> dict[str, str]:
     """Devices that a scene file may use, and what else it may give a vehicle."""
     from ..devices import DEVICES
-    from ..schema.names import local
+    from ..schema.names import prefixed_name
 
     return {
-        local(name): without_title(line) if name.startswith("{") else line
+        prefixed_name(name): without_title(line) if name.startswith("{") else line
         for name, line in family(DEVICES).items()
     }
 
 
 def interfaces(tables: Tables) -> dict[str, str]:
     """Elements of ``<rosInterfaces>``: topics in and out of a scene."""
-    from ..schema.names import local
+    from ..schema.names import prefixed_name
     from ..topics import INTERFACES
 
-    return {local(name): first_line(spec.__doc__) for name, spec in INTERFACES.items()}
+    return {prefixed_name(name): first_line(spec.__doc__) for name, spec in INTERFACES.items()}
 
 
 def clark(name: str) -> str:

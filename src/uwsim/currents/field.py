@@ -32,7 +32,7 @@ from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, floats, pointer
 from ..errors import AssetError
-from ..schema import MAX_NUMBER, element, number
+from ..schema import MAX_NUMBER, element, parse_number
 from .compiled import CompiledCurrent
 from .current import MAX_SPEED, CurrentSpec, Place
 from .flow_function import QUERY, FlowFunction, Record, fill
@@ -281,7 +281,7 @@ def _nodes(path: Path, axes: tuple[Array, ...], indices: tuple[Ints, ...]) -> In
 
 
 def _number(name: str, cell: str, where: str) -> float:
-    value = number(cell.strip())
+    value = parse_number(cell.strip())
     if value is None:
         raise AssetError(f"{where}: {cell.strip()[:40]!r}; expected a number.")
     most = MAX_SPEED if name in COMPONENTS else MAX_NUMBER

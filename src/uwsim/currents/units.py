@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from ..schema import cut
+from ..schema import quote
 
 LENGTHS: Mapping[str, float] = {
     name: factor
@@ -64,5 +64,5 @@ def unit(name: str, text: str) -> tuple[float, bool]:
         length, time = LENGTHS.get(parts[1]), TIMES.get(parts[2] or parts[3])
         factor = None if length is None or time is None else length / time
     if factor is None:
-        raise ValueError(f"{name} is in {cut(text.strip())}; expected {EXPECTED[kind]}")
+        raise ValueError(f"{name} is in {quote(text.strip())}; expected {EXPECTED[kind]}")
     return factor, bool(since)

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..base.record import Record
-from ..schema import REQUIRED, element
+from ..schema import REQUIRED_BY_DTD, element
 from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
@@ -33,9 +33,9 @@ class DredgeToolSpec(DeviceSpec):
     """Its name."""
     target: str
     """The link it belongs to."""
-    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
+    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
     """Read and not used, as in the original [m]."""
-    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
+    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
     """Read and not used, as in the original [rad]."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> DredgeTool:

@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from ..errors import UnknownName
 from ..messages import String
-from ..schema import REQUIRED, Spec, element
+from ..schema import REQUIRED_BY_DTD, Spec, element
 from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
@@ -26,7 +26,7 @@ class EchoSpec(DeviceSpec):
 
     name: str
     """Its name."""
-    info: str = element(default="", original=REQUIRED)
+    info: str = element(default="", original=REQUIRED_BY_DTD)
     """The text; an empty one switches the device off."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Echo:
@@ -51,7 +51,7 @@ class Echo(Device):
 class SimulatedDevicesSpec(Spec):
     """A ``<simulatedDevices>``: an optional wrapper around devices."""
 
-    STANDS_ONCE: ClassVar[bool] = True
+    OCCURS_ONCE: ClassVar[bool] = True
 
     echo: tuple[EchoSpec, ...] = ()
     """Echo devices."""

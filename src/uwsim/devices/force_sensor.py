@@ -26,7 +26,7 @@ from typing import ClassVar, Literal
 from ..base.geometry import Array
 from ..base.sampling import Sampler
 from ..messages import Vector3, Wrench, WrenchStamped, header
-from ..schema import REQUIRED, element
+from ..schema import REQUIRED_BY_DTD, element
 from ..sensors.sensor import CompiledSensor
 from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
@@ -47,9 +47,9 @@ class ForceSensorSpec(DeviceSpec):
     """Its name."""
     target: str
     """The link it belongs to."""
-    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
+    offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
     """Of the sensor on the link [m]."""
-    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
+    offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
     """Of the sensor on the link, about x, y, z: Rz Ry Rx [rad]."""
     measures: Literal["contacts", "joint"] = element(namespaced=True, default="contacts")
     """The wrench of the ``contacts`` on the link, or that of the link on the ``joint`` that carries

@@ -21,7 +21,7 @@ import numpy as np
 from ..base.geometry import Pose
 from ..base.record import Record
 from ..messages import LedLight
-from ..schema import REQUIRED, element
+from ..schema import REQUIRED_BY_DTD, element
 from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .lamp import LampSpec
@@ -39,17 +39,19 @@ class LedArraySpec(DeviceSpec):
     A lamp shines in all directions for the time that an ``underwater_sensor_msgs/LedLight`` says.
     """
 
-    STANDS_ONCE: ClassVar[bool] = True
+    OCCURS_ONCE: ClassVar[bool] = True
     is_left_out: ClassVar[bool] = True
 
     name: str
     """Its name, which begins its topics."""
     relative_to: str
     """The link it rides on."""
-    position: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED)
+    position: tuple[float, float, float] = element(
+        default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD
+    )
     """Position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(
-        default=(0.0, 0.0, 0.0), parts="rpy", original=REQUIRED
+        default=(0.0, 0.0, 0.0), parts="rpy", original=REQUIRED_BY_DTD
     )
     """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     radio: float = element(default=0.02, above=0)

@@ -102,7 +102,7 @@ class Search:
         except UnknownName as error:
             self._say(str(error), self._scene.vehicles[index], DYNAMICS)
         else:
-            self.found += diagnostics.all()
+            self.found += diagnostics.to_list()
             if dynamics is not None:
                 self._check_varied(index, dynamics)
                 dynamics = self._with_settings(index, dynamics)

@@ -64,4 +64,4 @@ def _found(name: str, benchmark: Path, data_path: Sequence[Path]) -> Path:
     diagnostics = Diagnostics(benchmark)
     root = parse(benchmark, error=BenchmarkError).root
     diagnostics.error(root, f"u:plugin names {name[:100]!r}: {why}")
-    raise BenchmarkError(diagnostics.all())
+    raise BenchmarkError(diagnostics.to_list())

@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from lxml import etree
 
-from ..schema import NAMESPACE, Diagnostics, number
+from ..schema import NAMESPACE, Diagnostics, parse_number
 
 U = f"{{{NAMESPACE}}}"
 BEAM_RANGE = "10"
@@ -59,7 +59,7 @@ def _visualize(node: etree._Element, parent: etree._Element, diagnostics: Diagno
 def _numpixels(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
     """``<numpixels>`` beams over ``<fieldOfView>`` degrees become first, last and step."""
     wide = parent.find("fieldOfView")
-    beams, angle = number(_text(node)), number(_text(wide))
+    beams, angle = parse_number(_text(node)), parse_number(_text(wide))
     if wide is None or beams is None or angle is None or beams < 2:
         diagnostics.error(node, "<numpixels> needs two beams or more and a <fieldOfView> [deg]")
         return
@@ -82,7 +82,7 @@ def _factor(kind: str) -> Rule:
     """An axis whose factor is 0 is locked: its limits are equal."""
 
     def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-        locked = [number(_text(node.find(axis))) == 0 for axis in "xyz"]
+        locked = [parse_number(_text(node.find(axis))) == 0 for axis in "xyz"]
         diagnostics.warning(node, f"<{node.tag}> is read as min{kind}Limit and max{kind}Limit")
         for name, free in ((f"min{kind}Limit", "1"), (f"max{kind}Limit", "0")):
             if parent.find(name) is None:
@@ -104,7 +104,7 @@ def _current(node: etree._Element, parent: etree._Element, diagnostics: Diagnost
     for old, new in SINUSOID.items():
         child = node.find(old)
         text = _text(child)
-        is_no_period = new.endswith("Period") and number(text) == 0
+        is_no_period = new.endswith("Period") and parse_number(text) == 0
         if child is not None and text and not is_no_period:  # a period of 0: nothing varies
             _new(sinusoid, U + new, text, line=child.sourceline)
     _remove(node)

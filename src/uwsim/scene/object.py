@@ -8,7 +8,7 @@ from typing import Literal
 from ..acoustics import MaterialName
 from ..base.geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
 from ..base.numerics.linear import product
-from ..schema import CLAMPED, MAX_DISTANCE, REQUIRED, Spec, element
+from ..schema import CLAMPED_NUMBER, MAX_DISTANCE, REQUIRED_BY_DTD, Spec, element
 from .accepted_warnings import ObjectWarning
 from .on_floor import OnFloorSpec
 
@@ -28,9 +28,9 @@ MAX_CONTACT_ERROR = 10.0
 class PhysicsSpec(Spec):
     """A ``<physics>`` block of an object."""
 
-    mass: float = element(default=1.0, minimum=0, original=CLAMPED)
+    mass: float = element(default=1.0, minimum=0, original=CLAMPED_NUMBER)
     """Its mass; 0 never moves [kg]."""
-    inertia: Triple = element(default=ZERO, original=CLAMPED)
+    inertia: Triple = element(default=ZERO, original=CLAMPED_NUMBER)
     """About its axes; all zero: that of the ball, or of the box around its shape [kg m2]."""
     collision_shape_type: ShapeType = "box"
     """What is made of its mesh for contacts."""
@@ -94,12 +94,12 @@ class ObjectSpec(Spec):
     file: str
     """Its mesh."""
     position: Triple = element(
-        default=ZERO, original=REQUIRED, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
+        default=ZERO, original=REQUIRED_BY_DTD, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
     """In the file's frame [m]."""
-    orientation: Triple = element(default=ZERO, parts="rpy", original=REQUIRED)
+    orientation: Triple = element(default=ZERO, parts="rpy", original=REQUIRED_BY_DTD)
     """In the file's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED)
+    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER)
     """Scale along x, y, z [1]."""
     offsetp: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Point of the mesh that becomes the origin of the object [m]."""

@@ -10,7 +10,7 @@ import numpy as np
 from ..acoustics import SeaWater
 from ..base.geometry import Triple
 from ..currents import CURRENTS, CurrentSpec
-from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED, Numbers, Original, Spec, element
+from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED_BY_DTD, Numbers, Original, Spec, element
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
@@ -22,9 +22,9 @@ MILD = 15.0
 class FogSpec(Spec):
     """A ``<fog>``: how visibility falls with distance."""
 
-    density: float = element(default=0.1, original=REQUIRED, minimum=0, maximum=1e6)
+    density: float = element(default=0.1, original=REQUIRED_BY_DTD, minimum=0, maximum=1e6)
     """At a distance d the share ``1 - exp(-(density d)^2)`` of what is there is lost [1/m]."""
-    color: Triple = element(default=NIGHT_BLUE, parts="rgb", original=REQUIRED)
+    color: Triple = element(default=NIGHT_BLUE, parts="rgb", original=REQUIRED_BY_DTD)
     """What replaces what cannot be seen [0..1]."""
 
 
@@ -74,23 +74,25 @@ class ProfileSpec(Spec):
 class OceanStateSpec(Spec):
     """An ``<oceanState>``: the surface and the water."""
 
-    windx: float = element(default=0.04, original=Original(of_window=True))
+    windx: float = element(default=0.04, original=Original(is_window_setting=True))
     """Wind along x; not normalised, its length scales the waves [1]."""
-    windy: float = element(default=0.04, original=Original(of_window=True))
+    windy: float = element(default=0.04, original=Original(is_window_setting=True))
     """Wind along y; not normalised, its length scales the waves [1]."""
-    wind_speed: float = element(default=12.0, original=Original(of_window=True))
+    wind_speed: float = element(default=12.0, original=Original(is_window_setting=True))
     """Wind speed of the wave spectrum [m/s]."""
-    depth: float = element(default=1000.0, original=Original(of_window=True))
+    depth: float = element(default=1000.0, original=Original(is_window_setting=True))
     """Depth of the water, for the speed of waves only: it is no floor [m]."""
-    reflection_damping: float = element(default=0.35, original=Original(of_window=True))
+    reflection_damping: float = element(default=0.35, original=Original(is_window_setting=True))
     """Factor on waves that run against the wind [1]."""
-    wave_scale: float = element(default=1e-7, original=Original(of_window=True))
+    wave_scale: float = element(default=1e-7, original=Original(is_window_setting=True))
     """Amplitude of the wave spectrum [1]."""
-    is_not_choppy: bool = element(default=False, original=Original(invalid=True, of_window=True))
+    is_not_choppy: bool = element(
+        default=False, original=Original(invalid_flag_value=True, is_window_setting=True)
+    )
     """Whether waves move points only up and down."""
-    choppy_factor: float = element(default=2.5, original=Original(of_window=True))
+    choppy_factor: float = element(default=2.5, original=Original(is_window_setting=True))
     """Horizontal displacement of points by waves [1]."""
-    crest_foam_height: float = element(default=2.2, original=Original(of_window=True))
+    crest_foam_height: float = element(default=2.2, original=Original(is_window_setting=True))
     """Height from which crests foam; read and not used, as in the original [m]."""
     ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Height of the water surface in the world, z up [m]."""

@@ -48,14 +48,14 @@ def read_document(document: Document, diagnostics: Diagnostics) -> SceneSpec | N
     if document.root.tag != ROOT:
         return None
     upgrade(document.root, diagnostics)
-    if diagnostics.strict:
+    if diagnostics.is_strict:
         for node in document.root.iter("ProfilingSonar", "ProfilingSonarROS"):
             diagnostics.error(node, f"<{node.tag}> is not in the original grammar")
     scene = read(
         SceneSpec,
         document.root,
         diagnostics,
-        given={
+        known_fields={
             "path": str(document.path),
             "is_original": document.has_doctype,
             "expansion": document.expansion,

@@ -49,12 +49,12 @@ class Place:
     def path(self) -> str:
         """The path in full: with every name, without ``u:``."""
         names = [step.name for step in self.steps if step.name]
-        return ".".join([*names, self.field.shown.removeprefix("u:"), *self.rest])
+        return ".".join([*names, self.field.label.removeprefix("u:"), *self.rest])
 
     @property
     def is_number(self) -> bool:
         """Whether it is one number."""
-        is_scalar = self.field.kind in ("float", "int") and not self.field.repeated
+        is_scalar = self.field.kind in ("float", "int") and not self.field.is_repeated
         return (is_scalar and not self.rest) or (self.has_parts and len(self.rest) == 1)
 
     @property
@@ -75,7 +75,7 @@ class Place:
         words = {"str": "text", "bool": "a flag", "word": "a word"}
         return (
             "a list"
-            if _is_list(self.field) or self.field.repeated
+            if _is_list(self.field) or self.field.is_repeated
             else words.get(self.field.kind, "a number")
         )
 
@@ -198,18 +198,18 @@ def locate(spec: Any, path: str) -> Place:
             kinds = {tag.rpartition("}")[2]: kind for tag, kind in field.type.items()}
             name = name.removeprefix("u:")
             if name not in kinds:
-                raise BadSetting(str(UnknownName(f"element of <{field.shown}>", name, kinds)))
+                raise BadSetting(str(UnknownName(f"element of <{field.label}>", name, kinds)))
             kind = kinds[name]
             index = _index(current, [isinstance(entry, kind) for entry in current], name, chosen)
-            name = f"{field.shown.removeprefix('u:')}.{name}"
-        elif field.kind == "spec" and (field.repeated or field.is_member):
-            name = field.shown.removeprefix("u:")
+            name = f"{field.label.removeprefix('u:')}.{name}"
+        elif field.kind == "spec" and (field.is_repeated or field.is_member):
+            name = field.label.removeprefix("u:")
             fits = [not field.is_member or isinstance(entry, field.type) for entry in current]
             index = _index(current, fits, name, chosen)
         elif chosen is not None:
             raise BadSetting(f"<{name}> stands once; leave [{chosen}] out.")
         elif field.kind == "spec":
-            name = field.shown.removeprefix("u:")
+            name = field.label.removeprefix("u:")
             if current is None:
                 raise BadSetting(f"the file has no <{name}> here.")
         else:
@@ -255,7 +255,7 @@ def _parts(path: str) -> list[tuple[str, str | None]]:
 
 
 def _field(cls: type, name: str) -> schema.Field:
-    fields = {field.shown.removeprefix("u:"): field for field in schema.fields_of(cls)}
+    fields = {field.label.removeprefix("u:"): field for field in schema.fields_of(cls)}
     field = fields.get(name.removeprefix("u:"))
     if field is None:
         raise BadSetting(
@@ -265,7 +265,7 @@ def _field(cls: type, name: str) -> schema.Field:
 
 
 def _inside(name: str, cls: type) -> str:
-    names = ", ".join(field.shown for field in schema.fields_of(cls))
+    names = ", ".join(field.label for field in schema.fields_of(cls))
     return f"<{name}> is not a value; its parts are {names}."
 
 
@@ -305,7 +305,7 @@ def _key(entries: Sequence[Any], index: int) -> str:
 
 def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> Any:
     """Read the value by the schema, as if it were in a file."""
-    node = etree.Element(schema.camel(type(spec).__name__.removesuffix("Spec")))
+    node = etree.Element(schema.camel_case(type(spec).__name__.removesuffix("Spec")))
     if field.kind == "triple" and not rest and text in field.words:
         etree.SubElement(node, field.tag).text = text
     elif field.kind == "triple":
@@ -316,13 +316,13 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
         text, rest = _with_number(getattr(spec, field.name), field, rest, text), []
         _write_list(node, field, text)
     elif rest:
-        raise BadSetting(f"<{field.shown}> is a value; it has no elements.")
+        raise BadSetting(f"<{field.label}> is a value; it has no elements.")
     elif field.kind == "numbers":
         _write_list(node, field, text)
     elif field.kind not in ("str", "float", "int", "bool", "word"):
-        raise BadSetting(f"<{field.shown}> cannot be set from here; change the file.")
+        raise BadSetting(f"<{field.label}> cannot be set from here; change the file.")
     elif not text and field.kind != "str":
-        raise BadSetting(f"nothing behind the '='; expected {field.expected} for <{field.shown}>.")
+        raise BadSetting(f"nothing behind the '='; expected {field.expected} for <{field.label}>.")
     elif field.xml.attribute:
         node.set(field.tag, text)
     elif field.xml.text:
@@ -337,10 +337,10 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
         for each in dataclasses.fields(spec)
         if each.init and each.name != field.name
     }
-    changed = schema.read(type(spec), node, diagnostics, given=given)
-    if changed is None or diagnostics.all():
+    changed = schema.read(type(spec), node, diagnostics, known_fields=given)
+    if changed is None or diagnostics.to_list():
         raise BadSetting(
-            "; ".join(diagnostic.message for diagnostic in diagnostics.all()) or "no value."
+            "; ".join(diagnostic.message for diagnostic in diagnostics.to_list()) or "no value."
         )
     return changed
 
@@ -355,8 +355,8 @@ def _with_number(current: Any, field: schema.Field, rest: list[str], text: str) 
     numbers = [repr(float(number)) for number in current or ()]
     if len(rest) > 1 or not rest[0].isdecimal() or not 1 <= int(rest[0]) <= len(numbers):
         raise BadSetting(
-            f"<{field.shown}> has {len(numbers)} numbers; expected one of them, from 1, as in "
-            f"{field.shown}.1."
+            f"<{field.label}> has {len(numbers)} numbers; expected one of them, from 1, as in "
+            f"{field.label}.1."
         )
     numbers[int(rest[0]) - 1] = text
     return " ".join(numbers)
@@ -386,10 +386,10 @@ def _write_triple(
         if len(words) != len(letters):
             words_too = f", or one of {', '.join(field.words)}" if field.words else ""
             raise BadSetting(
-                f"<{field.shown}> wants {len(letters)} numbers, as in '1 2 3'{words_too}."
+                f"<{field.label}> wants {len(letters)} numbers, as in '1 2 3'{words_too}."
             )
     elif len(rest) > 1 or rest[0] not in letters or current is None or isinstance(current, str):
-        raise BadSetting(f"<{field.shown}> has {', '.join(f'<{letter}>' for letter in letters)}.")
+        raise BadSetting(f"<{field.label}> has {', '.join(f'<{letter}>' for letter in letters)}.")
     else:
         words = [
             text if letter == rest[0] else repr(float(number))

@@ -11,7 +11,7 @@ from ..schema import MAX_DISTANCE, Original, Spec, element
 Integrator = Literal["implicitfast", "RK4"]
 ContactMode = Literal["default", "precise"]
 Solver = Literal["Dantzig", "SolveProjectedGauss", "SequentialImpulse"]
-WINDOW_SIZE = Original(clamped=True, of_window=True)
+WINDOW_SIZE = Original(is_clamped=True, is_window_setting=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,7 +32,7 @@ class ShowTrajectorySpec(Spec):
 class SimParamsSpec(Spec):
     """A ``<simParams>``: frames, window, physics, light."""
 
-    disable_shaders: bool = element(default=False, original=Original(of_window=True))
+    disable_shaders: bool = element(default=False, original=Original(is_window_setting=True))
     """Whether water and sky are drawn without effects."""
     resw: int = element(default=800, minimum=1, maximum=7680, original=WINDOW_SIZE)
     """Width of the window [px]."""
@@ -46,14 +46,16 @@ class SimParamsSpec(Spec):
     """Whether contacts and gravity act on objects."""
     gravity: Triple = ZERO
     """In the world; all zero means (0, 0, -1) [m/s2]."""
-    physics_frequency: float = element(default=60.0, above=0, original=Original(of_window=True))
+    physics_frequency: float = element(
+        default=60.0, above=0, original=Original(is_window_setting=True)
+    )
     """Steps of the original's physics [Hz]."""
-    physics_sub_steps: int = element(default=0, original=Original(of_window=True))
+    physics_sub_steps: int = element(default=0, original=Original(is_window_setting=True))
     """Most steps per frame; 0 is automatic."""
-    physics_solver: Solver = element(default="Dantzig", original=Original(of_window=True))
+    physics_solver: Solver = element(default="Dantzig", original=Original(is_window_setting=True))
     """Of the original's contacts; read and not used."""
     show_trajectory: tuple[ShowTrajectorySpec, ...] = element(
-        default=(), original=Original(of_window=True)
+        default=(), original=Original(is_window_setting=True)
     )
     """Trails to draw in the viewer."""
     light_rate: float = element(default=1.0, minimum=0, maximum=1e6)
@@ -82,7 +84,7 @@ class SimParamsSpec(Spec):
 class ViewerCameraSpec(Spec):
     """A ``<camera>``: the viewer's, in the world (z up)."""
 
-    free_motion: bool = element(default=True, original=Original(invalid=True))
+    free_motion: bool = element(default=True, original=Original(invalid_flag_value=True))
     """1: the mouse moves it; 0: it follows ``objectToTrack``."""
     object_to_track: str = ""
     """Route of the node to follow."""

@@ -29,7 +29,7 @@ from ..base.geometry import Pose
 from ..devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
 from ..errors import BadSetting
 from ..forces import FORCES, ForceSpec
-from ..schema import NAMESPACE, REQUIRED, Expansion, Original, Spec, element
+from ..schema import NAMESPACE, REQUIRED_BY_DTD, Expansion, Original, Spec, element
 from ..topics import INTERFACES, InterfaceSpec
 from .object import ObjectSpec, PhysicsSpec
 from .ocean_state import OceanStateSpec
@@ -43,11 +43,17 @@ class NedOriginSpec(Spec):
     """A ``<nedOrigin>``: where on Earth the origin of W is, for ``<fdm>`` and GPS."""
 
     lat: float = element(
-        default=0.0, minimum=-90, maximum=90, original=Original(lenient=True, required=True)
+        default=0.0,
+        minimum=-90,
+        maximum=90,
+        original=Original(allows_trailing_text=True, is_required=True),
     )
     """Latitude [deg]."""
     lon: float = element(
-        default=0.0, minimum=-360, maximum=360, original=Original(lenient=True, required=True)
+        default=0.0,
+        minimum=-360,
+        maximum=360,
+        original=Original(allows_trailing_text=True, is_required=True),
     )
     """Longitude [deg]."""
 
@@ -64,7 +70,7 @@ class NetTracingScriptSpec(Spec):
     As std_msgs/String: time [s], device, what happens, sender and number of the packet, its size.
     """
 
-    class_name: str = element(default="", original=REQUIRED)
+    class_name: str = element(default="", original=REQUIRED_BY_DTD)
     """Name of a plug-in of the original: read and not used."""
     lib_path: str = ""
     """Library that holds it: read and not used."""
@@ -84,7 +90,9 @@ class SceneSpec(Spec):
     """The surface and the water."""
     sim_params: SimParamsSpec = element(default=SimParamsSpec())
     """Frames, window, physics, light."""
-    camera: ViewerCameraSpec | None = element(default=None, original=Original(of_window=True))
+    camera: ViewerCameraSpec | None = element(
+        default=None, original=Original(is_window_setting=True)
+    )
     """The viewer's camera."""
     ned_origin: NedOriginSpec | None = None
     """Where on Earth the scene lies."""

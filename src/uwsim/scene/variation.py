@@ -231,7 +231,7 @@ def check_variations(
 def _at_its_bounds(place: Place, variation: VariationSpec) -> list[Any]:
     """Return the whole with the value at either bound; BadSetting if it cannot vary so."""
     if place.rest and not place.has_parts:
-        raise BadSetting(f"<{place.field.shown}> is a value; it has no elements.")
+        raise BadSetting(f"<{place.field.label}> is a value; it has no elements.")
     if not place.is_number:
         raise BadSetting(f"it is {place.kind}; only a number can vary.")
     if wrong := variation.diagnostic():

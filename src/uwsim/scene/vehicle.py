@@ -23,8 +23,8 @@ from ..devices import DEVICES
 from ..devices.echo import SimulatedDevicesSpec
 from ..devices.fdm import FdmSpec
 from ..devices.tf import TfSpec
-from ..schema import CLAMPED, MAX_DISTANCE, Spec, element
-from ..schema.names import local
+from ..schema import CLAMPED_NUMBER, MAX_DISTANCE, Spec, element
+from ..schema.names import prefixed_name
 from ..sensors import SENSORS
 from .accepted_warnings import VehicleWarning
 from .on_floor import OnFloorSpec
@@ -66,7 +66,7 @@ class VehicleSpec(Spec):
     """Of its base in the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
-    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED)
+    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER)
     """Scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
     links, and what is mounted on them; a simulated vehicle has none [1]."""
     parts: tuple[object, ...] = element("", choice=PARTS, default=())
@@ -91,7 +91,10 @@ class VehicleSpec(Spec):
         if self.tf is not None:
             yield "tf", self.tf
         for part in self.parts:
-            yield next(local(tag) for tag, spec in PARTS.items() if isinstance(part, spec)), part
+            yield (
+                next(prefixed_name(tag) for tag, spec in PARTS.items() if isinstance(part, spec)),
+                part,
+            )
         for box in self.parts_of(SimulatedDevicesSpec):
             yield from (("echo", part) for part in box.echo)
 

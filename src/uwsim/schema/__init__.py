@@ -29,7 +29,7 @@ Elements may be in any order. Names without a namespace are those of the origina
 `Diagnostics` also reports elements that are not in the order of the fields.
 """
 
-from .declaration import CLAMPED, REQUIRED, Limits, Original, element
+from .declaration import CLAMPED_NUMBER, REQUIRED_BY_DTD, Limits, Original, element
 from .diagnostics import MAX_DIAGNOSTICS, Diagnostics, diagnostic_at
 from .document import MAX_BYTES, MAX_DEPTH, MAX_NODES, Document, Expansion, check_head, parse
 from .grammar import (
@@ -38,18 +38,18 @@ from .grammar import (
     Field,
     Numbers,
     TwoNumbers,
-    camel,
+    camel_case,
     field_docs,
     fields_of,
 )
-from .names import NAMESPACE, advice, cut, shown_tag
-from .reading import read, read_choice, text_of
+from .names import NAMESPACE, advice, format_tag, quote
+from .reading import read, read_choice, read_text
 from .source_line import SourceLine, Spec, line_of, source_line
-from .values import TOKENS, number
+from .values import TOKENS, parse_number
 from .writing import uses_extensions, write
 
 __all__ = [
-    "CLAMPED",
+    "CLAMPED_NUMBER",
     "MAX_BYTES",
     "MAX_DEPTH",
     "MAX_DIAGNOSTICS",
@@ -57,7 +57,7 @@ __all__ = [
     "MAX_NODES",
     "MAX_NUMBER",
     "NAMESPACE",
-    "REQUIRED",
+    "REQUIRED_BY_DTD",
     "TOKENS",
     "Diagnostics",
     "Document",
@@ -70,21 +70,21 @@ __all__ = [
     "Spec",
     "TwoNumbers",
     "advice",
-    "camel",
+    "camel_case",
     "check_head",
-    "cut",
     "diagnostic_at",
     "element",
     "field_docs",
     "fields_of",
+    "format_tag",
     "line_of",
-    "number",
     "parse",
+    "parse_number",
+    "quote",
     "read",
     "read_choice",
-    "shown_tag",
+    "read_text",
     "source_line",
-    "text_of",
     "uses_extensions",
     "write",
 ]

@@ -10,48 +10,48 @@ from typing import Any, Literal, TypedDict, Unpack, get_args
 
 @dataclass(frozen=True)
 class Original:
-    """How the original reads an element, where that differs from its name and type."""
+    """The way in which the original reads an element, where it differs from the name and type."""
 
     aliases: tuple[str, ...] = ()
-    """Old names, read with a warning."""
-    required: bool = False
-    """Its DTD requires the element although it has a default."""
-    lenient: bool = False
-    """Junk behind a number is a warning, not an error (the original uses atof)."""
-    invalid: bool | None = None
-    """What a flag that is neither 0 nor 1 is read as; the default when None."""
-    clamped: bool = False
-    """A number beyond the limits is clamped with a warning: the original has no limits."""
-    of_window: bool = False
-    """The element concerns the original's window alone: an error in it is a warning here."""
+    """The old names, read with a warning."""
+    is_required: bool = False
+    """A flag: the original's DTD requires the element although it has a default."""
+    allows_trailing_text: bool = False
+    """A flag: text after a number is a warning, not an error (the original uses atof)."""
+    invalid_flag_value: bool | None = None
+    """The value for a flag that is neither 0 nor 1; the default when None."""
+    is_clamped: bool = False
+    """A flag: a number beyond the limits is clamped with a warning. The original has no limits."""
+    is_window_setting: bool = False
+    """A flag: the element affects the original's window only; an error in it is a warning here."""
 
 
-CLAMPED = Original(clamped=True)
+CLAMPED_NUMBER = Original(is_clamped=True)
 """An element whose number is clamped to its limits: a mass, a size."""
-REQUIRED = Original(required=True)
+REQUIRED_BY_DTD = Original(is_required=True)
 """An element that the original's DTD requires although it has a default."""
 
 
 class Limits(TypedDict, total=False):
-    """The limits of a number, as `element` takes them."""
+    """The limits of a number, as keyword arguments of `element`."""
 
     minimum: float
-    """Smallest value allowed."""
+    """The smallest value allowed."""
     maximum: float
-    """Largest value allowed."""
+    """The largest value allowed."""
     above: float
-    """Values must be greater."""
+    """The limit that values must exceed."""
     below: float
-    """Values must be less."""
+    """The limit that values must be less than."""
 
 
-Named = Literal["actuators", "body", "camera", "contacts", "vehicle"]
-"""What of a scene a field may name."""
+ReferenceKind = Literal["actuators", "body", "camera", "contacts", "vehicle"]
+"""The kinds of parts of a scene that a field may name."""
 
 
 @dataclass(frozen=True)
-class Xml:
-    """What `element` keeps about a field."""
+class XmlOptions:
+    """The options of a field, from the arguments of `element`."""
 
     name: str | None = None
     attribute: bool = False
@@ -61,7 +61,7 @@ class Xml:
     item: str | None = None
     choice: Mapping[str, type] | None = None
     original: Original = Original()
-    refers_to: Named | None = None
+    refers_to: ReferenceKind | None = None
     limits: Limits = dataclasses.field(default_factory=Limits)
 
 
@@ -75,27 +75,32 @@ def element(
     parts: str = "xyz",
     item: str | None = None,
     choice: Mapping[str, type] | None = None,
-    original: Original = Xml.original,
-    refers_to: Named | None = None,
+    original: Original = XmlOptions.original,
+    refers_to: ReferenceKind | None = None,
     **limits: Unpack[Limits],
 ) -> Any:
     """Make a dataclass field whose XML form differs from what its name and type imply.
 
     Args:
-        name: of the element or attribute; the field's in camelCase when absent.
-        default: when the element is absent or, of the original's, empty.
-        attribute: it is an attribute of the element that the spec is read from.
-        text: it is the text of the element that the spec is read from.
-        namespaced: it is an extension, ``u:name``.
-        parts: names of a triple's elements, one letter each.
-        item: the element is a list; this is the name of its items.
+        name: the name of the element or attribute; the field's in camelCase when absent.
+        default: the value when the element is absent or, for the original's elements, empty.
+        attribute: the field is an attribute of the element that the spec is read from.
+        text: the field is the text of the element that the spec is read from.
+        namespaced: the element is an extension, ``u:name``.
+        parts: the names of a triple's elements, one letter each.
+        item: the name of the items of an element that is a list.
         choice: name -> spec of the children that the element may contain, in any number; with the
             name "" the element that the spec is read from contains them, each as a field.
-        original: how the original reads it.
-        refers_to: what of a scene it names (`uwsim.benchmark.unknown_names.LOOK_UP`): a ``body``.
+        original: the way in which the original reads the element.
+        refers_to: the kind of part of a scene that the field names, such as ``body``
+            (`uwsim.benchmark.unknown_names.LOOK_UP`).
         limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.
     """
-    if refers_to not in (None, *get_args(Named)):
-        raise ValueError(f"refers_to={refers_to!r}: expected one of {', '.join(get_args(Named))}")
-    xml = Xml(name, attribute, text, namespaced, parts, item, choice, original, refers_to, limits)
+    if refers_to not in (None, *get_args(ReferenceKind)):
+        raise ValueError(
+            f"refers_to={refers_to!r}: expected one of {', '.join(get_args(ReferenceKind))}"
+        )
+    xml = XmlOptions(
+        name, attribute, text, namespaced, parts, item, choice, original, refers_to, limits
+    )
     return dataclasses.field(default=default, metadata={"xml": xml})

@@ -14,77 +14,79 @@ from ..errors import Diagnostic, FileError, did_you_mean
 from .source_line import Spec, line_of
 
 MAX_DIAGNOSTICS = 100
-"""Greatest number of errors, and of warnings, that are listed."""
+"""The greatest number of errors, and of warnings, that are listed."""
 
 
 class Diagnostics:
-    """Errors and warnings of one file: `MAX_DIAGNOSTICS` of each in full, the others counted."""
+    """The errors and warnings of a file; beyond `MAX_DIAGNOSTICS` of each, only their count."""
 
-    def __init__(self, file: Path | str, *, strict: bool = False) -> None:
+    def __init__(self, file: Path | str, *, is_strict: bool = False) -> None:
         self.file = str(file)
-        self.strict = strict
-        self.lenient = False
-        """Whether junk behind a number is a warning, as where the original used atof."""
-        self._excuse = ""
-        self._found: list[Diagnostic] = []
-        self._uncounted = {"error": 0, "warning": 0}
+        self.is_strict = is_strict
+        self.allows_trailing_text = False
+        """A flag: text after a number is a warning, as where the original uses atof."""
+        self._reason = ""
+        self._entries: list[Diagnostic] = []
+        self._n_unlisted = {"error": 0, "warning": 0}
 
     def error(self, place: object, message: str) -> None:
-        """Add an error at an element, a spec or a line number; a warning if it is `excused`."""
-        if self._excuse:
-            self._append(place, f"{message.removesuffix('.')}; {self._excuse}", "warning")
+        """Add an error at an element, a spec or a line number; see `errors_as_warnings`."""
+        if self._reason:
+            self._append(place, f"{message.removesuffix('.')}; {self._reason}", "warning")
         else:
             self._append(place, message, "error")
 
     @contextmanager
-    def excused(self, why: str) -> Iterator[None]:
-        """Make warnings of the errors in this block, with the reason; with ``strict`` they stay."""
-        before, self._excuse = self._excuse, "" if self.strict else why
+    def errors_as_warnings(self, reason: str) -> Iterator[None]:
+        """Turn the errors in this block into warnings with the reason, unless strict."""
+        previous_reason, self._reason = self._reason, "" if self.is_strict else reason
         try:
             yield
         finally:
-            self._excuse = before
+            self._reason = previous_reason
 
     def warning(self, place: object, message: str) -> None:
         """Add a warning at an element, a spec or a line number; the file stays valid."""
         self._append(place, message, "warning")
 
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add errors and warnings as they are made, so that `near` knows whether one is listed."""
+        """Add existing errors and warnings."""
         for diagnostic in diagnostics:
             self._add(diagnostic)
 
-    def unknown(self, node: etree._Element, what: str, name: str, known: Iterable[str]) -> None:
-        """Say that ``name`` is not one of ``known``, with the nearest right one."""
-        self.error(node, f"{what}.{self.near(name, known)}")
+    def report_unknown(
+        self, node: etree._Element, message: str, name: str, valid_names: Iterable[str]
+    ) -> None:
+        """Report that ``name`` is not one of ``valid_names``, with the nearest of them."""
+        self.error(node, f"{message}.{self.suggest(name, valid_names)}")
 
-    def near(self, name: str, known: Iterable[str], severity: str = "error") -> str:
+    def suggest(self, name: str, valid_names: Iterable[str], severity: str = "error") -> str:
         """Return " Did you mean x?"; empty for long names and beyond the listed diagnostics."""
-        if len(name) > 80 or not self._has_room(severity):
+        if len(name) > 80 or not self._can_list(severity):
             return ""
-        return did_you_mean(name, itertools.islice(known, 1000)).replace("'", "")
+        return did_you_mean(name, itertools.islice(valid_names, 1000)).replace("'", "")
 
     @property
-    def any(self) -> bool:
-        """Whether the file is wrong (warnings do not count)."""
-        return any(diagnostic.severity == "error" for diagnostic in self._found)
+    def has_errors(self) -> bool:
+        """A flag: the file has errors (warnings do not count)."""
+        return any(diagnostic.severity == "error" for diagnostic in self._entries)
 
-    def all(self) -> list[Diagnostic]:
-        """Everything found, in the order of the file."""
-        found = sorted(self._found, key=lambda diagnostic: diagnostic.line or 0)
-        for severity, count in self._uncounted.items():
+    def to_list(self) -> list[Diagnostic]:
+        """Return the errors and warnings in the order of the file."""
+        diagnostics = sorted(self._entries, key=lambda diagnostic: diagnostic.line or 0)
+        for severity, count in self._n_unlisted.items():
             if count:
                 message = f"and {count} more {severity}s"
-                found.append(_diagnostic(self.file, None, message, severity))
-        return found
+                diagnostics.append(_diagnostic(self.file, None, message, severity))
+        return diagnostics
 
     def check(self, error: type[FileError] = FileError) -> None:
-        """Raise ``error`` with every error, if there is one."""
-        if self.any:
-            raise error([diagnostic for diagnostic in self.all() if diagnostic.severity == "error"])
+        """Raise ``error`` with all errors, if there are any."""
+        if self.has_errors:
+            raise error([item for item in self.to_list() if item.severity == "error"])
 
-    def _has_room(self, severity: str) -> bool:
-        return sum(diagnostic.severity == severity for diagnostic in self._found) < MAX_DIAGNOSTICS
+    def _can_list(self, severity: str) -> bool:
+        return sum(entry.severity == severity for entry in self._entries) < MAX_DIAGNOSTICS
 
     def _append(self, place: object, message: str, severity: str) -> None:
         line = line_of(place) if isinstance(place, Spec) else getattr(place, "sourceline", place)
@@ -92,10 +94,10 @@ class Diagnostics:
         self._add(_diagnostic(self.file, line, message, severity))
 
     def _add(self, diagnostic: Diagnostic) -> None:
-        if self._uncounted[diagnostic.severity] or not self._has_room(diagnostic.severity):
-            self._uncounted[diagnostic.severity] += 1
+        if self._n_unlisted[diagnostic.severity] or not self._can_list(diagnostic.severity):
+            self._n_unlisted[diagnostic.severity] += 1
         else:
-            self._found.append(diagnostic)
+            self._entries.append(diagnostic)
 
 
 def diagnostic_at(
@@ -109,11 +111,11 @@ def diagnostic_at(
     """Make an error or a warning at the first ``element`` in a spec, else at the spec.
 
     Args:
-        spec: what is wrong.
-        message: why.
-        element: qualified name of the element in it.
-        file: named where the spec was read from none.
-        severity: of the diagnostic.
+        spec: the spec that has the error.
+        message: the text of the diagnostic.
+        element: the qualified name of the element in the spec.
+        file: the name of the file, for a spec that was not read from one.
+        severity: the severity of the diagnostic.
     """
     source = spec.source_line if isinstance(spec, Spec) else None
     name = (file or "the scene") if source is None else source.file

@@ -1,4 +1,4 @@
-"""Parsing XML files: no DTD, no entities, no network, bounded in size, depth and number."""
+"""Parsing of XML files: no DTD, no entities, no network, bounded size, depth and counts."""
 
 from __future__ import annotations
 
@@ -12,40 +12,40 @@ from lxml import etree
 from ..base.files.input_files import read_bytes
 from ..errors import AssetError, Diagnostic, FileError
 from .diagnostics import Diagnostics
-from .names import NAMESPACE, shown_tag
+from .names import NAMESPACE, format_tag
 
 MAX_BYTES = 16 * 2**20
-"""Largest file that is read."""
+"""The size of the largest file that is read."""
 MAX_DEPTH = 256
-"""Deepest nesting that is read; the parser's own bound."""
+"""The deepest nesting that is read; the parser's own limit."""
 MAX_NODES = 50_000
-"""Most elements, attributes and character references that are read."""
+"""The greatest number of elements, attributes or character references that are read."""
 
 _VERSION = re.compile(rb"""^(\s*<\?xml\s+version\s*=\s*["'])(?!1\.)\d+\.\d+(?=["'])""")
-"""A version of XML that there is not, as robots of PyBullet have; their readers ignore it."""
+"""A version of XML that does not exist, as in robots of PyBullet; their readers ignore it."""
 _DECLARATION = re.compile(rb"<!(ENTITY|ATTLIST|ELEMENT|NOTATION)\b")
 _ENCODING = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
 _ENCODINGS = re.compile(r"utf-?8|us-ascii|ascii|iso-?8859-\d+|latin-?1|windows-125\d", re.I)
 
-STRAY = {
+CHARACTER_MESSAGES = {
     "xmlParseEntityRef: no name": "a bare '&'; write &amp;",
     "EntityRef: expecting ';'": "a bare '&'; write &amp;",
     "StartTag: invalid element name": "a '<' that begins no element; for 'less than' write &lt;",
 }
-"""Messages of the parser about signs of the score language, and their replacements."""
-_NICKNAME = re.compile(r"latin-?1", re.I)
+"""Messages of the parser about characters with a meaning in XML, and their replacements."""
+_LATIN_1 = re.compile(r"latin-?1", re.I)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Expansion:
-    """What is known of the xacro of a file, when it is expanded."""
+    """The arguments and warnings of the xacro expansion of a file."""
 
     arguments: tuple[tuple[str, str], ...] = ()
-    """Name and value of the arguments from outside, sorted by name."""
-    declared: tuple[str, ...] = ()
-    """Names of the arguments that the file and what it includes have, sorted."""
+    """The names and values of the arguments of the caller, sorted by name."""
+    declared_arguments: tuple[str, ...] = ()
+    """The names of the arguments that the file and its included files declare, sorted."""
     warnings: tuple[Diagnostic, ...] = ()
-    """Files that were found elsewhere than their names state."""
+    """Warnings about files that were found at other paths than their names state."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,21 +55,21 @@ class Document:
     path: Path
     """The file as the user named it."""
     root: etree._Element
-    """Its root element."""
+    """The root element."""
     has_doctype: bool
-    """Whether it names a DTD (which is never loaded)."""
+    """A flag: the file names a DTD (which is never loaded)."""
     expansion: Expansion = Expansion()
-    """What is known of its xacro."""
+    """The xacro expansion of the file."""
 
 
 def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
-    """Read a file as XML: no DTD, no entities, no network, bounded in size, depth and number.
+    """Read a file as XML: no DTD, no entities, no network, bounded size, depth and counts.
 
     Raises:
         FileError: (or the ``error`` asked for) it cannot be read or is not well-formed.
     """
     diagnostics = Diagnostics(path)
-    data = _bytes(path, diagnostics)
+    data = _read_valid_bytes(path, diagnostics)
     diagnostics.check(error)
     parser = etree.XMLParser(
         resolve_entities=False,
@@ -86,10 +86,10 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     except etree.XMLSyntaxError as problem:
         messages: dict[int, str] = {}  # of several in a line the others follow from the first
         for entry in parser.error_log:
-            messages.setdefault(entry.line, _message(entry, data))
+            messages.setdefault(entry.line, _syntax_message(entry, data))
         for line, message in list(messages.items())[:10]:
             diagnostics.error(line, f"not well-formed XML: {message}")
-        if not diagnostics.any:
+        if not diagnostics.has_errors:
             diagnostics.error(problem.lineno, f"not well-formed XML: {str(problem)[:200]}")
     except (ValueError, LookupError) as problem:
         diagnostics.error(None, f"not well-formed XML: {str(problem)[:200]}")
@@ -98,40 +98,39 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     return Document(path, root, root.getroottree().docinfo.internalDTD is not None)
 
 
-def _message(entry: etree._LogEntry, data: bytes) -> str:
-    """The parser's message, without abbreviations."""
+def _syntax_message(entry: etree._LogEntry, data: bytes) -> str:
+    """Return the parser's message without abbreviations."""
     text = data.rstrip()
     if (
         entry.line > text.count(b"\n")
         and not text.endswith(b">")
         and not entry.message.startswith(("Extra content", "Start tag expected"))
     ):
-        return "the file ends in the middle; it was cut off"
-    for found, meant in STRAY.items():
-        if found in entry.message:
-            return meant
+        return "the file ends in the middle; its end is missing"
+    for parser_message, replacement in CHARACTER_MESSAGES.items():
+        if parser_message in entry.message:
+            return replacement
     if entry.message.startswith("Namespace prefix u on "):
-        return f'{entry.message}; write <UWSimScene xmlns:u="{NAMESPACE}">, or so in another root'
+        return f'{entry.message}; write <UWSimScene xmlns:u="{NAMESPACE}">, also in another root'
     message = re.sub(r",? (use|try) XML_PARSE_HUGE( option)?", "", entry.message)
     return textwrap.shorten(message, 200, placeholder=" ...")
 
 
-def _not_there(path: Path) -> str:
-    """Why a path is not a file that can be read."""
+def _path_fault(path: Path) -> str:
     if path.is_dir():
         return "is a folder, not a file"
     return "is not a regular file" if path.exists() else "there is no such file"
 
 
-def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
-    """The bytes of a file, if they may be parsed; else errors."""
+def _read_valid_bytes(path: Path, diagnostics: Diagnostics) -> bytes:
+    """Return the bytes of a file, if they may be parsed; else add errors."""
     try:
         if not path.is_file():
-            diagnostics.error(None, _not_there(path))
+            diagnostics.error(None, _path_fault(path))
             return b""
         data = read_bytes(path, at_most=MAX_BYTES)
     except AssetError:
-        diagnostics.error(None, f"larger than {MAX_BYTES // 2**20} MB; no scene or benchmark is")
+        diagnostics.error(None, f"larger than {MAX_BYTES // 2**20} MB, the limit")
         return b""
     except (OSError, ValueError) as problem:
         diagnostics.error(None, f"cannot be read: {getattr(problem, 'strerror', None) or problem}")
@@ -142,31 +141,31 @@ def _bytes(path: Path, diagnostics: Diagnostics) -> bytes:
         data = data.decode("utf-16", errors="replace").encode("utf-8")
         data = re.sub(rb"^\s*<\?xml.*?\?>", b"", data, count=1, flags=re.S)
     data = _VERSION.sub(rb"\g<1>1.0", data, count=1)
-    declared = _ENCODING.match(data[:200])
-    if declared and not _ENCODINGS.fullmatch(declared[1].decode("ascii")):
-        name = declared[1].decode("ascii")
+    encoding = _ENCODING.match(data[:200])
+    if encoding and not _ENCODINGS.fullmatch(encoding[1].decode("ascii")):
+        name = encoding[1].decode("ascii")
         if name.lower() != "utf-16":
             diagnostics.error(1, f"the encoding {name!r} is not read; write the file as UTF-8")
-    if declared and _NICKNAME.fullmatch(declared[1].decode("ascii")):  # unknown to the parser
-        data = data[: declared.start(1)] + b"ISO-8859-1" + data[declared.end(1) :]
-    if declared is None:
+    if encoding and _LATIN_1.fullmatch(encoding[1].decode("ascii")):  # unknown to the parser
+        data = data[: encoding.start(1)] + b"ISO-8859-1" + data[encoding.end(1) :]
+    if encoding is None:
         _check_utf_8(data, diagnostics)
     if b"\0" in data:
-        diagnostics.error(None, "holds zero bytes; not a text file in UTF-8")
+        diagnostics.error(None, "contains zero bytes; expected a text file in UTF-8")
     if declaration := _DECLARATION.search(data):
         line = data.count(b"\n", 0, declaration.start()) + 1
         word = declaration[1].decode("ascii")
         diagnostics.error(
             line, f"<!{word}> declarations are not read; a DOCTYPE may only name the DTD"
         )
-    for mark, what in ((b"<", "elements"), (b"=", "attributes"), (b"&", "references")):
+    for mark, counted_parts in ((b"<", "elements"), (b"=", "attributes"), (b"&", "references")):
         if data.count(mark) > 2 * MAX_NODES:
-            diagnostics.error(None, f"has more than {MAX_NODES} {what}; no scene or benchmark has")
+            diagnostics.error(None, f"has more than {MAX_NODES} {counted_parts}, the limit")
     return data
 
 
 def _check_utf_8(data: bytes, diagnostics: Diagnostics) -> None:
-    """Report the first byte that is not UTF-8; so is what old editors wrote for an accent."""
+    """Report the first byte that is not UTF-8, such as an accented letter in Latin-1."""
     try:
         data.decode("utf-8")
     except UnicodeDecodeError as problem:
@@ -179,17 +178,17 @@ def _check_utf_8(data: bytes, diagnostics: Diagnostics) -> None:
 
 
 def check_head(document: Document, root: str, diagnostics: Diagnostics) -> None:
-    """Check the name of the root, and that a file with extensions carries no DOCTYPE."""
+    """Check the name of the root, and that a file with extensions has no DOCTYPE."""
     tag = document.root.tag
     if tag != root:
         diagnostics.error(
-            document.root, f"the root element is {shown_tag(str(tag))}; expected <{root}>"
+            document.root, f"the root element is {format_tag(str(tag))}; expected <{root}>"
         )
-    if document.has_doctype and (use := _first_extension(document.root)) is not None:
+    if document.has_doctype and (extension := _first_extension(document.root)) is not None:
         diagnostics.error(
-            use,
-            f"uses {NAMESPACE} and names a DOCTYPE; drop the DOCTYPE, so that the original "
-            "refuses the file instead of running something else",
+            extension,
+            f"uses {NAMESPACE} and names a DOCTYPE; remove the DOCTYPE, so that the original "
+            "rejects the file instead of running something else",
         )
 
 

@@ -17,21 +17,21 @@ from collections.abc import Callable, Hashable, Iterator, Mapping
 from dataclasses import MISSING, dataclass
 from typing import Annotated, Any, Literal, cast
 
-from .declaration import Xml
-from .names import NAMESPACE, local
+from .declaration import XmlOptions
+from .names import NAMESPACE, prefixed_name
 
 MAX_DISTANCE = 1e6
-"""Greatest length that a scene needs [m]."""
+"""The greatest length that a scene needs [m]."""
 MAX_NUMBER = 1e9
-"""Greatest number that any quantity needs, in whatever unit; larger ones are mistakes of units."""
+"""The greatest number of any quantity, in any unit; larger ones are mistakes of units."""
 
 QUANTITIES = ("float", "int", "triple", "numbers")
-"""Kinds of a `Field` that limits and a unit belong to."""
+"""The kinds of a `Field` that can have limits and a unit."""
 
 Numbers = Annotated[tuple[float, ...], "numbers"]
 """Numbers in the text of one element, separated by blanks."""
 TwoNumbers = Annotated[tuple[float, float], "numbers"]
-"""Two of them."""
+"""Two numbers in the text of one element, separated by blanks."""
 
 
 _SIGNS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
@@ -40,7 +40,7 @@ _SIGNS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "maximum": ("<=", operator.le),
     "below": ("<", operator.lt),
 }
-"""Text and comparison of each of `Limits`."""
+"""The sign and comparison of each limit in `Limits`."""
 
 
 @dataclass(frozen=True)
@@ -48,45 +48,45 @@ class Field:
     """One field of a spec, ready to be read, written and documented."""
 
     name: str
-    """Name of the dataclass field."""
+    """The name of the dataclass field."""
     tag: str
-    """Qualified name in the file."""
+    """The qualified name in the file."""
     kind: str
-    """str, float, int, bool, word, triple, numbers, list, spec, choice, or manual (left to the
-    caller)."""
+    """The kind: str, float, int, bool, word, triple, numbers, list, spec, choice, or manual (read
+    by the caller)."""
     type: Any
-    """The scalar's type, the spec, the words of a Literal, or how many numbers (0: any)."""
-    repeated: bool
-    """Whether it is a tuple of these."""
-    optional: bool
-    """Whether None is allowed."""
-    xml: Xml
+    """The scalar's type, the spec, the words of a Literal, or the count of numbers (0: any)."""
+    is_repeated: bool
+    """A flag: the field is a tuple of these."""
+    is_optional: bool
+    """A flag: None is allowed."""
+    xml: XmlOptions
     """The options of `element`."""
     default: Any
-    """Its default; MISSING when it required."""
+    """The default; MISSING for a required field."""
     owner: type
-    """The spec it belongs to."""
+    """The spec that the field belongs to."""
     words: tuple[str, ...] = ()
-    """Words that a triple may hold instead of its elements."""
+    """The words that a triple may have instead of its elements."""
     is_member: bool = False
-    """Whether it is a member of a choice without a name: those values that have its type."""
+    """A flag: the field is a member of an unnamed choice, the values of its type."""
 
     @property
-    def shown(self) -> str:
+    def label(self) -> str:
         """The name as a user writes it."""
-        return local(self.tag)
+        return prefixed_name(self.tag)
 
-    def of(self, spec: object) -> Any:
-        """Its value in a spec."""
+    def value_in(self, spec: object) -> Any:
+        """Return the value of the field in a spec."""
         value = getattr(spec, self.name)
         if not self.is_member:
             return value
-        members = tuple(each for each in value if isinstance(each, self.type))
-        return members if self.repeated else next(iter(members), None)
+        members = tuple(member for member in value if isinstance(member, self.type))
+        return members if self.is_repeated else next(iter(members), None)
 
     @property
     def doc(self) -> str:
-        """Its documentation string; of a member, what its spec or its module begins with."""
+        """The documentation string; for a member, the first line of its spec or its module."""
         if self.is_member:
             _, colon, meaning = (self.type.__doc__ or "").split("\n")[0].partition(": ")
             module = sys.modules[self.type.__module__].__doc__ or ""
@@ -96,7 +96,7 @@ class Field:
 
     @property
     def unit(self) -> str:
-        """Its unit, from the brackets of its documentation; may be empty."""
+        """The unit, from the brackets of the documentation string; may be empty."""
         brackets = re.search(r"\[([^\]]+)\]", self.doc)
         return brackets[1] if brackets and self.kind in QUANTITIES else ""
 
@@ -116,24 +116,24 @@ class Field:
         return f"{text} [{self.unit}]" if self.unit else text
 
     def allows(self, value: float) -> bool:
-        """Whether a number is within the limits."""
-        return all(holds(value, limit) for _, limit, holds in self._limits())
+        """Return whether a number is within the limits."""
+        return all(is_satisfied(value, limit) for _, limit, is_satisfied in self._limits())
 
     def _limits(self) -> Iterator[tuple[str, float, Callable[[float, float], bool]]]:
         limits = cast(Mapping[str, float], self.xml.limits)
-        for name, (sign, holds) in _SIGNS.items():
+        for name, (sign, is_satisfied) in _SIGNS.items():
             if name in limits:
-                yield sign, limits[name], holds
+                yield sign, limits[name], is_satisfied
 
 
-def camel(name: str) -> str:
-    """``relative_to`` -> ``relativeTo``."""
-    first, *others = name.split("_")
-    return first + "".join(word.capitalize() for word in others)
+def camel_case(name: str) -> str:
+    """Convert a name from snake case to camel case: ``relative_to`` to ``relativeTo``."""
+    first_word, *other_words = name.split("_")
+    return first_word + "".join(word.capitalize() for word in other_words)
 
 
 def fields_of(cls: type) -> tuple[Field, ...]:
-    """The fields of a spec in their order, which is the order of the original grammar."""
+    """Return the fields of a spec in their order, which is the order of the original grammar."""
     return _fields_of(cls)
 
 
@@ -150,50 +150,52 @@ def _fields_of(cls: Hashable) -> tuple[Field, ...]:
 
 
 def _members(field: Field) -> Iterator[Field]:
-    """The members of a choice without a name; any other field itself."""
+    """Yield the members of an unnamed choice, or any other field itself."""
     if field.kind != "choice" or field.xml.name != "":
         yield field
         return
     for tag, spec in field.type.items():
-        stands_once = getattr(spec, "STANDS_ONCE", False)
+        occurs_once = getattr(spec, "OCCURS_ONCE", False)
         yield dataclasses.replace(
             field,
             tag=tag,
             kind="spec",
             type=spec,
-            repeated=not stands_once,
-            optional=stands_once,
-            xml=Xml(namespaced=tag.startswith("{")),
-            default=None if stands_once else (),
+            is_repeated=not occurs_once,
+            is_optional=occurs_once,
+            xml=XmlOptions(namespaced=tag.startswith("{")),
+            default=None if occurs_once else (),
             is_member=True,
         )
 
 
 def _field(cls: type, field: dataclasses.Field[Any], hint: Any) -> Field:
-    xml: Xml = field.metadata.get("xml") or Xml()
-    tag = camel(field.name) if xml.name is None else xml.name
+    xml: XmlOptions = field.metadata.get("xml") or XmlOptions()
+    tag = camel_case(field.name) if xml.name is None else xml.name
     if xml.namespaced:
         tag = f"{{{NAMESPACE}}}{tag}"
     default: Any = field.default
     if field.default_factory is not MISSING:
         default = field.default_factory()
-    optional, repeated = False, False
+    is_optional, is_repeated = False, False
     words: tuple[str, ...] = ()
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
-        inner = [arg for arg in typing.get_args(hint) if arg is not type(None)]
-        optional, hint = len(inner) < len(typing.get_args(hint)), inner[0]
-        words = tuple(word for other in inner[1:] for word in typing.get_args(other))
+        alternatives = [arg for arg in typing.get_args(hint) if arg is not type(None)]
+        is_optional, hint = len(alternatives) < len(typing.get_args(hint)), alternatives[0]
+        words = tuple(
+            word for alternative in alternatives[1:] for word in typing.get_args(alternative)
+        )
     if _is_variadic(hint):
-        repeated, hint = True, typing.get_args(hint)[0]
+        is_repeated, hint = True, typing.get_args(hint)[0]
     kind, type_ = _kind(hint, xml)
-    return Field(field.name, tag, kind, type_, repeated, optional, xml, default, cls, words)
+    return Field(field.name, tag, kind, type_, is_repeated, is_optional, xml, default, cls, words)
 
 
 def _is_variadic(hint: Any) -> bool:
     return typing.get_origin(hint) is tuple and typing.get_args(hint)[-1] is Ellipsis
 
 
-def _kind(hint: Any, xml: Xml) -> tuple[str, Any]:
+def _kind(hint: Any, xml: XmlOptions) -> tuple[str, Any]:
     if xml.choice is not None:
         return "choice", xml.choice
     if typing.get_origin(hint) is Literal:
@@ -213,7 +215,7 @@ def _kind(hint: Any, xml: Xml) -> tuple[str, Any]:
 
 @functools.cache
 def field_docs(cls: type) -> dict[str, str]:
-    """The documentation string under each field of a spec, inherited ones included."""
+    """Return the documentation string under each field of a spec, inherited ones included."""
     docs: dict[str, str] = {}
     for base in reversed(cls.__mro__):
         if not dataclasses.is_dataclass(base):
@@ -223,12 +225,12 @@ def field_docs(cls: type) -> dict[str, str]:
         except (OSError, TypeError):
             continue
         body = cast(ast.ClassDef, ast.parse(source).body[0]).body
-        for here, after in itertools.pairwise(body):
+        for statement, next_statement in itertools.pairwise(body):
             if (
-                isinstance(here, ast.AnnAssign)
-                and isinstance(here.target, ast.Name)
-                and isinstance(after, ast.Expr)
-                and isinstance(after.value, ast.Constant)
+                isinstance(statement, ast.AnnAssign)
+                and isinstance(statement.target, ast.Name)
+                and isinstance(next_statement, ast.Expr)
+                and isinstance(next_statement.value, ast.Constant)
             ):
-                docs[here.target.id] = inspect.cleandoc(str(after.value.value))
+                docs[statement.target.id] = inspect.cleandoc(str(next_statement.value.value))
     return docs

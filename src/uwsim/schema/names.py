@@ -5,51 +5,55 @@ from __future__ import annotations
 from lxml import etree
 
 NAMESPACE = "urn:uwsim:1"
-"""Where extensions of both dialects live; its prefix is ``u``."""
+"""The namespace of extensions of both dialects; its prefix is ``u``."""
 
 
-def local(tag: str) -> str:
-    """A qualified name as a user writes it, ``u:`` in front of extensions."""
+def prefixed_name(tag: str) -> str:
+    """Return a qualified name as a user writes it, with ``u:`` before extensions."""
     return tag.replace(f"{{{NAMESPACE}}}", "u:")
 
 
-def shown(node: etree._Element) -> str:
-    """An element as it is written, ``<name>``, cut when it is long."""
-    return shown_tag(str(node.tag))
+def describe(node: etree._Element) -> str:
+    """Return an element as it is written, ``<name>``, shortened if it is long."""
+    return format_tag(str(node.tag))
 
 
-def shown_tag(tag: str) -> str:
-    """A qualified name as an element, with the namespace when it is unknown."""
+def format_tag(tag: str) -> str:
+    """Return a qualified name as an element, with its namespace if that is unknown."""
     if tag.startswith("{"):
-        space, _, name = tag[1:].partition("}")
-        return f"<u:{name[:60]}>" if space == NAMESPACE else f"<{name[:60]}> (in {space[:60]!r})"
+        namespace, _, name = tag[1:].partition("}")
+        return (
+            f"<u:{name[:60]}>"
+            if namespace == NAMESPACE
+            else f"<{name[:60]}> (in {namespace[:60]!r})"
+        )
     return f"<{tag[:60]}>"
 
 
-FOREIGN = {
+NAMESPACE_ADVICE = {
     "http://ros.org/wiki/xacro": "; expand the file with xacro first",
     "http://www.ros.org/wiki/xacro": "; expand the file with xacro first",
     "http://wiki.ros.org/xacro": "; expand the file with xacro first",
     "http://www.w3.org/2001/XInclude": "; nothing is included: write it here",
 }
-"""Namespaces that are met in such files, and what is to be done about them."""
+"""The advice about other namespaces that occur in such files."""
 
 
 def advice(tag: str) -> str:
-    """Advice about an element of another namespace; empty when there is none."""
+    """Return advice about an element of another namespace; empty if there is none."""
     if not tag.startswith("{"):
         return ""
-    space = tag[1:].partition("}")[0]
-    if space.startswith("urn:uwsim") and space != NAMESPACE:
+    namespace = tag[1:].partition("}")[0]
+    if namespace.startswith("urn:uwsim") and namespace != NAMESPACE:
         return f"; the namespace of extensions is xmlns:u={NAMESPACE!r}"
-    return FOREIGN.get(space, "")
+    return NAMESPACE_ADVICE.get(namespace, "")
 
 
-def shown_attribute(name: str) -> str:
-    """A qualified name as an attribute, with the namespace when it is unknown."""
-    return shown_tag(name).replace("<", "", 1).replace(">", "", 1)
+def format_attribute(name: str) -> str:
+    """Return a qualified name as an attribute, with its namespace if that is unknown."""
+    return format_tag(name).replace("<", "", 1).replace(">", "", 1)
 
 
-def cut(text: str) -> str:
-    """A value in quotes, cut when it is long."""
+def quote(text: str) -> str:
+    """Return a value in quotes, shortened if it is long."""
     return repr(text if len(text) <= 60 else text[:57] + "...")

@@ -12,13 +12,13 @@ from lxml import etree
 
 from .diagnostics import Diagnostics
 from .grammar import Field, fields_of
-from .names import advice, cut, local, shown, shown_attribute
+from .names import advice, describe, format_attribute, prefixed_name, quote
 from .source_line import Spec, source_line
-from .values import BAD, BLANKS, Bad, scalar
+from .values import BLANKS, NO_VALUE, NoValue, parse_scalar
 
 T = TypeVar("T")
-OF_WINDOW = "it concerns the original's window alone; the default counts"
-"""Why an error in an element of the window is a warning."""
+WINDOW_REASON = "it affects the original's window only; the default applies"
+"""The reason why an error in an element of the window is a warning."""
 
 
 def read(
@@ -26,31 +26,31 @@ def read(
     node: etree._Element,
     diagnostics: Diagnostics,
     *,
-    given: Mapping[str, object] | None = None,
+    known_fields: Mapping[str, object] | None = None,
 ) -> T | None:
-    """Fill a spec from an element; every error goes into ``diagnostics``.
+    """Fill a spec from an element; add every error to ``diagnostics``.
 
     Args:
         cls: a dataclass.
         node: the element.
         diagnostics: receives the errors.
-        given: fields that the caller has read already; their elements are skipped.
+        known_fields: fields that the caller has read already; their elements are skipped.
 
     Returns:
         The spec, with defaults where optional values were invalid; None when it cannot be made.
     """
     table = fields_of(cls)
-    values: dict[str, Any] = dict(given or {})
-    found = _children(cls, node, diagnostics)
+    values: dict[str, Any] = dict(known_fields or {})
+    children = _children(cls, node, diagnostics)
     _read_attributes(table, node, values, diagnostics)
     for field in table:
-        if field.name in (given or {}) or field.xml.attribute:
+        if field.name in (known_fields or {}) or field.xml.attribute:
             continue
-        value = _read_field(field, node, found.get(field.tag, []), diagnostics)
+        value = _read_field(field, node, children.get(field.tag, []), diagnostics)
         if field.is_member:
-            read_one = () if value is BAD else value if field.repeated else (value,)
-            values[field.name] = (*values.get(field.name, ()), *read_one)
-        elif value is not BAD:
+            members = () if value is NO_VALUE else value if field.is_repeated else (value,)
+            values[field.name] = (*values.get(field.name, ()), *members)
+        elif value is not NO_VALUE:
             values[field.name] = value
     for field in table:
         if field.name not in values:
@@ -69,124 +69,125 @@ def read_choice(
     *,
     read_one: Callable[[type[T], etree._Element, Diagnostics], T | None] = read,
 ) -> tuple[T, ...]:
-    """Read the children of an element, each by the spec that the table has under its name."""
+    """Read the children of an element, each with the spec that the table has for its name."""
     read_specs = []
     order = {tag: index for index, tag in enumerate(table)}
-    last: tuple[int, str] = (-1, "")
+    last_entry: tuple[int, str] = (-1, "")
     _refuse_text(node, diagnostics)
     for attribute in node.attrib:
-        _unknown_attribute(node, str(attribute), (), diagnostics)
+        _report_unknown_attribute(node, str(attribute), (), diagnostics)
     for child in _elements(node, diagnostics):
         tag = str(child.tag)
         if tag not in table:
-            _unknown_element(child, node, table, diagnostics)
+            _report_unknown_element(child, node, table, diagnostics)
             continue
         if not tag.startswith("{"):  # the original has no extensions
-            if diagnostics.strict and order[tag] < last[0]:
-                _misplaced(child, last[1], diagnostics)
-            last = max(last, (order[tag], tag))
+            if diagnostics.is_strict and order[tag] < last_entry[0]:
+                _report_misplaced(child, last_entry[1], diagnostics)
+            last_entry = max(last_entry, (order[tag], tag))
         if (spec := read_one(table[tag], child, diagnostics)) is not None:
             read_specs.append(spec)
     return tuple(read_specs)
 
 
-def text_of(node: etree._Element, diagnostics: Diagnostics) -> str:
-    """The text of a leaf, trimmed; where comments split it, the last piece that is not empty."""
-    pieces = [(piece or "").strip(BLANKS) for piece in (node.text, *(each.tail for each in node))]
-    read = [piece for piece in pieces if piece] or [""]
-    if len(read) > 1:
+def read_text(node: etree._Element, diagnostics: Diagnostics) -> str:
+    """Return the text of an element, trimmed; if comments split it, the last part with text."""
+    pieces = [(piece or "").strip(BLANKS) for piece in (node.text, *(part.tail for part in node))]
+    nonempty_pieces = [piece for piece in pieces if piece] or [""]
+    if len(nonempty_pieces) > 1:
         diagnostics.warning(
             node,
-            f"a comment splits the text of {shown(node)}; its last piece is read, "
-            f"{read[-1]!r:.60}, as the original does",
+            f"a comment splits the text of {describe(node)}; its last piece is read, "
+            f"{nonempty_pieces[-1]!r:.60}, as the original does",
         )
     for child in _elements(node, diagnostics):
-        diagnostics.error(child, f"{shown(child)} inside {shown(node)}, where only text is allowed")
-    return read[-1]
+        message = f"{describe(child)} inside {describe(node)}, where only text is allowed"
+        diagnostics.error(child, message)
+    return nonempty_pieces[-1]
 
 
 @functools.cache
-def _by_tag(
+def _tag_entries(
     cls: Hashable,
 ) -> tuple[dict[str, tuple[int, Field]], dict[str, tuple[int, Field]]]:
-    """Position and field of every element of a spec by its name, and by its old names."""
+    """Return the index and field of each element of a spec by its name, and by its old names."""
     assert isinstance(cls, type)
     table = fields_of(cls)
-    new = {
+    entries = {
         field.tag: (index, field) for index, field in enumerate(table) if not field.xml.attribute
     }
-    old = {alias: entry for entry in new.values() for alias in entry[1].xml.original.aliases}
-    return new, old
+    aliases = {name: entry for entry in entries.values() for name in entry[1].xml.original.aliases}
+    return entries, aliases
 
 
 def _children(
     cls: type, node: etree._Element, diagnostics: Diagnostics
 ) -> dict[str, list[etree._Element]]:
-    """The child elements by field; unknown, repeated and misplaced ones are errors."""
+    """Return the child elements by field; add errors for unknown, repeated and misplaced ones."""
     if any(field.xml.text for field in fields_of(cls)):
         return {}
-    by_tag, old = _by_tag(cls)
-    found: dict[str, list[etree._Element]] = {}
-    last: tuple[int, str] = (-1, "")
+    entries, old_entries = _tag_entries(cls)
+    children: dict[str, list[etree._Element]] = {}
+    last_entry: tuple[int, str] = (-1, "")
     _refuse_text(node, diagnostics)
     for child in _elements(node, diagnostics):
         tag = str(child.tag)
-        entry = by_tag.get(tag) or old.get(tag)
+        entry = entries.get(tag) or old_entries.get(tag)
         if entry is None:
-            _unknown_element(child, node, by_tag, diagnostics)
+            _report_unknown_element(child, node, entries, diagnostics)
             continue
         index, field = entry
-        if tag not in by_tag and not tag.startswith("{"):  # one of ours stays valid
-            diagnostics.warning(child, f"{shown(child)} is an old name of <{field.shown}>")
-        if diagnostics.strict and index < last[0] and not field.xml.namespaced:
-            _misplaced(child, last[1], diagnostics)
+        if tag not in entries and not tag.startswith("{"):  # one of ours stays valid
+            diagnostics.warning(child, f"{describe(child)} is an old name of <{field.label}>")
+        if diagnostics.is_strict and index < last_entry[0] and not field.xml.namespaced:
+            _report_misplaced(child, last_entry[1], diagnostics)
         if not field.xml.namespaced:
-            last = max(last, (index, field.shown))
-        here = found.setdefault(field.tag, [])
-        if here and not (field.repeated and field.kind != "choice" and _repeats(field)):
+            last_entry = max(last_entry, (index, field.label))
+        same_children = children.setdefault(field.tag, [])
+        if same_children and not (field.is_repeated and field.kind != "choice" and _repeats(field)):
             diagnostics.error(
                 child,
-                f"{shown(child)} is given twice in {shown(node)} (first in line "
-                f"{here[0].sourceline}); only one may",
+                f"{describe(child)} is given twice in {describe(node)} (first in line "
+                f"{same_children[0].sourceline}); only one is allowed",
             )
             continue
-        here.append(child)
-    return found
+        same_children.append(child)
+    return children
 
 
 def _repeats(field: Field) -> bool:
-    """Whether the element itself is repeated, not only the items in it."""
+    """Return whether the element itself is repeated, not only the items in it."""
     return field.kind == "list" or field.xml.item is None
 
 
 def _read_attributes(
     table: tuple[Field, ...], node: etree._Element, values: dict[str, Any], diagnostics: Diagnostics
 ) -> None:
-    known = {field.tag: field for field in table if field.xml.attribute}
+    attributes = {field.tag: field for field in table if field.xml.attribute}
     for name in node.attrib:
-        if name not in known:
-            _unknown_attribute(node, str(name), known, diagnostics)
-    for field in known.values():
+        if name not in attributes:
+            _report_unknown_attribute(node, str(name), attributes, diagnostics)
+    for field in attributes.values():
         text = node.get(field.tag)
         if field.name in values:
             continue
         if text is None:
             if field.default is MISSING:
-                diagnostics.error(node, f"{shown(node)} lacks the attribute {field.shown}")
+                diagnostics.error(node, f"{describe(node)} lacks the attribute {field.label}")
             continue
-        value = scalar(
-            field, text.strip(BLANKS), node, diagnostics, f"{field.shown}= of {shown(node)}"
+        value = parse_scalar(
+            field, text.strip(BLANKS), node, diagnostics, f"{field.label}= of {describe(node)}"
         )
-        if value is not BAD:
+        if value is not NO_VALUE:
             values[field.name] = value
 
 
 def _read_field(
     field: Field, parent: etree._Element, nodes: list[etree._Element], diagnostics: Diagnostics
 ) -> Any:
-    """Read a field that is not an attribute; BAD when it is absent or invalid."""
-    if field.xml.original.of_window and nodes:
-        with diagnostics.excused(OF_WINDOW):
+    """Read a field that is not an attribute; NO_VALUE if it is absent or invalid."""
+    if field.xml.original.is_window_setting and nodes:
+        with diagnostics.errors_as_warnings(WINDOW_REASON):
             return _read_present_field(field, parent, nodes, diagnostics)
     return _read_present_field(field, parent, nodes, diagnostics)
 
@@ -195,76 +196,74 @@ def _read_present_field(
     field: Field, parent: etree._Element, nodes: list[etree._Element], diagnostics: Diagnostics
 ) -> Any:
     if field.xml.text:
-        return _leaf(field, parent, diagnostics)
+        return _read_leaf(field, parent, diagnostics)
     if not nodes:
-        if (
-            field.default is MISSING
-            and field.repeated
-            and field.kind != "manual"
-            and _repeats(field)
-        ):
-            diagnostics.error(
-                parent, f"{shown(parent)} lacks <{field.shown}>: at least one is required"
-            )
-        elif field.default is MISSING or (diagnostics.strict and field.xml.original.required):
-            diagnostics.error(parent, f"{shown(parent)} lacks <{field.shown}>: {_purpose(field)}")
-        return BAD
+        is_element_repeated = field.is_repeated and field.kind != "manual" and _repeats(field)
+        message = f"{describe(parent)} lacks <{field.label}>"
+        if field.default is MISSING and is_element_repeated:
+            diagnostics.error(parent, f"{message}: at least one is required")
+        elif field.default is MISSING or (diagnostics.is_strict and field.xml.original.is_required):
+            diagnostics.error(parent, f"{message}: {_purpose(field)}")
+        return NO_VALUE
     if field.kind == "choice":
         return read_choice(field.type, nodes[0], diagnostics)
-    if field.repeated and field.kind == "list":
+    if field.is_repeated and field.kind == "list":
         return tuple(_read_list(field, node, diagnostics) for node in nodes)
-    if field.repeated and field.xml.item:
+    if field.is_repeated and field.xml.item:
         return _read_list(field, nodes[0], diagnostics)
-    if field.repeated:
-        many = [_read_one(field, node, diagnostics) for node in nodes]
-        return tuple(value for value in many if value is not BAD)
+    if field.is_repeated:
+        items = [_read_one(field, node, diagnostics) for node in nodes]
+        return tuple(value for value in items if value is not NO_VALUE)
     return _read_one(field, nodes[0], diagnostics)
 
 
 def _read_one(field: Field, node: etree._Element, diagnostics: Diagnostics) -> Any:
     if field.kind == "spec":
         spec = read(field.type, node, diagnostics)
-        return BAD if spec is None else spec
+        return NO_VALUE if spec is None else spec
     for name in node.attrib:
-        _unknown_attribute(node, str(name), (), diagnostics)
+        _report_unknown_attribute(node, str(name), (), diagnostics)
     if field.kind == "triple":
         return _read_triple(field, node, diagnostics)
-    return _leaf(field, node, diagnostics)
+    return _read_leaf(field, node, diagnostics)
 
 
-def _leaf(field: Field, node: etree._Element, diagnostics: Diagnostics) -> Any:
-    text = text_of(node, diagnostics)
+def _read_leaf(field: Field, node: etree._Element, diagnostics: Diagnostics) -> Any:
+    text = read_text(node, diagnostics)
     if not text:
         # An empty element keeps its default in the original, which has no extensions.
         if field.default is MISSING or field.xml.namespaced:
-            diagnostics.error(node, f"{shown(node)} is empty; expected {field.expected}")
-        return BAD
-    return scalar(field, text, node, diagnostics, shown(node))
+            diagnostics.error(node, f"{describe(node)} is empty; expected {field.expected}")
+        return NO_VALUE
+    return parse_scalar(field, text, node, diagnostics, describe(node))
 
 
 def _read_triple(field: Field, node: etree._Element, diagnostics: Diagnostics) -> Any:
     values: dict[str, float] = {}
-    seen: set[str] = set()
+    read_tags: set[str] = set()
     if field.words and not any(True for _ in _elements(node, diagnostics)):
-        return _leaf(dataclasses.replace(field, kind="word", type=field.words), node, diagnostics)
+        word_field = dataclasses.replace(field, kind="word", type=field.words)
+        return _read_leaf(word_field, node, diagnostics)
     _refuse_text(node, diagnostics)
     for child in _elements(node, diagnostics):
         tag = str(child.tag)
         if tag not in tuple(field.xml.parts):
-            _unknown_element(child, node, tuple(field.xml.parts), diagnostics)
-        elif tag in seen:
-            diagnostics.error(child, f"<{tag}> is given twice in {shown(node)}; only one may")
+            _report_unknown_element(child, node, tuple(field.xml.parts), diagnostics)
+        elif tag in read_tags:
+            diagnostics.error(
+                child, f"<{tag}> is given twice in {describe(node)}; only one is allowed"
+            )
         else:
-            seen.add(tag)
-            text = text_of(child, diagnostics)
-            named = f"<{tag}> of {shown(node)}"
-            value = scalar(field, text, child, diagnostics, named) if text else 0.0
-            if not isinstance(value, Bad):
+            read_tags.add(tag)
+            text = read_text(child, diagnostics)
+            part_name = f"<{tag}> of {describe(node)}"
+            value = parse_scalar(field, text, child, diagnostics, part_name) if text else 0.0
+            if not isinstance(value, NoValue):
                 values[tag] = value
-    if lacking := [f"<{part}>" for part in field.xml.parts if part not in seen]:
-        diagnostics.error(node, f"{shown(node)} lacks {', '.join(lacking)}")
+    if missing_parts := [f"<{part}>" for part in field.xml.parts if part not in read_tags]:
+        diagnostics.error(node, f"{describe(node)} lacks {', '.join(missing_parts)}")
     if len(values) < len(field.xml.parts):
-        return BAD
+        return NO_VALUE
     return tuple(values[part] for part in field.xml.parts)
 
 
@@ -276,57 +275,52 @@ def _read_list(field: Field, node: etree._Element, diagnostics: Diagnostics) -> 
     entry = dataclasses.replace(field, kind=kind, type=type_, default=MISSING)
     for child in _elements(node, diagnostics):
         if child.tag != field.xml.item:
-            _unknown_element(child, node, (field.xml.item,), diagnostics)
-        elif (value := _read_one(entry, child, diagnostics)) is not BAD:
+            _report_unknown_element(child, node, (field.xml.item,), diagnostics)
+        elif (value := _read_one(entry, child, diagnostics)) is not NO_VALUE:
             values.append(value)
     return tuple(values)
 
 
 def _elements(node: etree._Element, diagnostics: Diagnostics) -> Iterator[etree._Element]:
-    """The child elements; comments and instructions are skipped, entities are errors."""
+    """Yield the child elements; skip comments and instructions, add errors for entities."""
     for child in node:
         if isinstance(child.tag, str):
             yield child
         elif isinstance(child, etree._Entity):
-            diagnostics.error(
-                node, f"{cut(child.text or '')} in {shown(node)}: entities are not read"
-            )
+            message = f"{quote(child.text or '')} in {describe(node)}: entities are not read"
+            diagnostics.error(node, message)
 
 
 def _refuse_text(node: etree._Element, diagnostics: Diagnostics) -> None:
     for piece in (node.text, *(child.tail for child in node)):
         if stray := (piece or "").strip(BLANKS):
-            diagnostics.error(node, f"stray text {cut(stray)} in {shown(node)}")
+            diagnostics.error(node, f"stray text {quote(stray)} in {describe(node)}")
             return
 
 
-def _unknown_element(
-    child: etree._Element, parent: etree._Element, known: Iterable[str], diagnostics: Diagnostics
+def _report_unknown_element(
+    child: etree._Element, parent: etree._Element, tags: Iterable[str], diagnostics: Diagnostics
 ) -> None:
-    names = [local(name) for name in known]
-    diagnostics.unknown(
-        child,
-        f"{shown(child)} is not an element of {shown(parent)}{advice(str(child.tag))}",
-        local(str(child.tag)),
-        names,
-    )  # fmt: skip
+    tag, names = str(child.tag), [prefixed_name(tag) for tag in tags]
+    message = f"{describe(child)} is not an element of {describe(parent)}{advice(tag)}"
+    diagnostics.report_unknown(child, message, prefixed_name(tag), names)
 
 
-def _unknown_attribute(
-    node: etree._Element, name: str, known: Iterable[str], diagnostics: Diagnostics
+def _report_unknown_attribute(
+    node: etree._Element, name: str, valid_attributes: Iterable[str], diagnostics: Diagnostics
 ) -> None:
-    names = [local(each) for each in known]
-    message = shown_attribute(name)
-    diagnostics.unknown(node, f"{message} is not an attribute of {shown(node)}", local(name), names)
+    names = [prefixed_name(attribute) for attribute in valid_attributes]
+    message = f"{format_attribute(name)} is not an attribute of {describe(node)}"
+    diagnostics.report_unknown(node, message, prefixed_name(name), names)
 
 
-def _misplaced(child: etree._Element, after: str, diagnostics: Diagnostics) -> None:
+def _report_misplaced(child: etree._Element, previous_name: str, diagnostics: Diagnostics) -> None:
     diagnostics.error(
-        child, f"{shown(child)} comes after <{after}>; the original expects it before"
+        child, f"{describe(child)} comes after <{previous_name}>; the original expects it before"
     )
 
 
 def _purpose(field: Field) -> str:
-    """The purpose of a missing element: the first sentence of its documentation."""
+    """Return the purpose of a missing element: the first sentence of its documentation."""
     message = field.doc.split(". ")[0].replace("\n", " ").replace("``", "`").rstrip(".")
     return message[:1].lower() + message[1:] or field.expected

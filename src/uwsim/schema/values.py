@@ -1,4 +1,4 @@
-"""Parsing scalars: numbers, flags and words."""
+"""Parsing of scalars: numbers, flags and words."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lxml import etree
 from ..errors import did_you_mean
 from .diagnostics import Diagnostics
 from .grammar import MAX_NUMBER, Field
-from .names import cut
+from .names import quote
 
 TOKENS = {
     "M_PI": math.pi,
@@ -21,10 +21,10 @@ TOKENS = {
     "-M_PI_2": -math.pi / 2,
     "-M_PI_4": -math.pi / 4,
 }
-"""Constants that are read as numbers."""
+"""The constants that are read as numbers."""
 
 MAX_NUMBERS = 36
-"""In one element: a full matrix of six rows."""
+"""The greatest count of numbers in one element: a full matrix of six rows."""
 BLANKS = " \t\n\r"
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
@@ -32,136 +32,137 @@ _SEPARATORS = re.compile(r"[\s_-]+")
 _LEADING_INT = re.compile(r"[+-]?\d+", re.ASCII)
 
 
-class Bad:
-    """What a value that cannot be read is read as."""
+class NoValue:
+    """The type of `NO_VALUE`, which replaces a value that cannot be read."""
 
 
-BAD = Bad()
+NO_VALUE = NoValue()
 
 
-def scalar(
-    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, shown: str
+def parse_scalar(
+    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, label: str
 ) -> Any:
-    """A scalar from its text."""
-    value: Any = BAD
+    """Parse a scalar; add an error and return NO_VALUE if it is invalid."""
+    value: Any = NO_VALUE
     if field.kind == "numbers":
-        return numbers(field, text, node, diagnostics, shown)
+        return parse_numbers(field, text, node, diagnostics, label)
     if field.kind == "str":
         value = text
     elif field.kind in ("float", "triple"):
-        value = number(text)
-        is_lenient = (field.xml.original.lenient or diagnostics.lenient) and not _COMMA.fullmatch(
-            text
-        )
-        if value is None and is_lenient and (leading := _NUMBER.match(text)):
-            value = number(leading[0])
+        value = parse_number(text)
+        original = field.xml.original
+        is_lenient = original.allows_trailing_text or diagnostics.allows_trailing_text
+        is_lenient = is_lenient and not _COMMA.fullmatch(text)
+        if value is None and is_lenient and (prefix := _NUMBER.match(text)):
+            value = parse_number(prefix[0])
             if value is not None:
-                message = f"{shown} is {cut(text)}; read as {value:g}, as the original does"
+                message = f"{label} is {quote(text)}; read as {value:g}, as the original does"
                 diagnostics.warning(node, message)
-        value = BAD if value is None else value
+        value = NO_VALUE if value is None else value
     elif field.kind == "int":
-        leading = _LEADING_INT.match(text)
-        if leading and len(leading[0]) < 12 and abs(int(leading[0])) < 2**31:
-            value = int(leading[0])
-            if leading[0] != text:
+        prefix = _LEADING_INT.match(text)
+        if prefix and len(prefix[0]) < 12 and abs(int(prefix[0])) < 2**31:
+            value = int(prefix[0])
+            if prefix[0] != text:
                 diagnostics.warning(
-                    node, f"{shown} is {cut(text)}; read as {value}, as the original does"
+                    node, f"{label} is {quote(text)}; read as {value}, as the original does"
                 )
     elif field.kind == "bool":
-        value = {"0": False, "1": True}.get(text, BAD)
-        if field.xml.attribute and value is BAD:
-            value = {"false": False, "true": True}.get(text, BAD)
-        if value is BAD and not field.xml.attribute and not field.xml.namespaced:
-            value = field.default if (invalid := field.xml.original.invalid) is None else invalid
-            diagnostics.warning(
-                node,
-                f"{shown} is {cut(text)}; expected 0 or 1; read as {value:d}, as the original does",
-            )
+        value = {"0": False, "1": True}.get(text, NO_VALUE)
+        if field.xml.attribute and value is NO_VALUE:
+            value = {"false": False, "true": True}.get(text, NO_VALUE)
+        if value is NO_VALUE and not field.xml.attribute and not field.xml.namespaced:
+            substitute = field.xml.original.invalid_flag_value
+            value = field.default if substitute is None else substitute
+            message = f"{label} is {quote(text)}; expected 0 or 1; read as {value:d}"
+            diagnostics.warning(node, f"{message}, as the original does")
     elif field.kind == "word":
-        value = _word(field, text, node, diagnostics, shown)
-    if field.xml.original.clamped and value is not BAD:
-        value = _clamped(field, value, node, diagnostics, shown)
-    if value is not BAD and field.kind in ("float", "int", "triple") and not field.allows(value):
-        value = BAD
-    if field.kind in ("float", "triple") and value is not BAD and abs(value) > MAX_NUMBER:
-        diagnostics.error(node, f"{shown} is {cut(text)}; no quantity is beyond {MAX_NUMBER:g}")
-        return BAD
-    if value is BAD:
-        near = did_you_mean(text, field.type) if field.kind == "word" and len(text) < 80 else ""
-        if field.kind in ("float", "triple") and len(text) < 80 and _COMMA.fullmatch(text):
-            near = f" Did you mean {text.replace(',', '.')}?"
+        value = _parse_word(field, text, node, diagnostics, label)
+    if field.xml.original.is_clamped and value is not NO_VALUE:
+        value = _clamp(field, value, node, diagnostics, label)
+    has_limits = value is not NO_VALUE and field.kind in ("float", "int", "triple")
+    if has_limits and not field.allows(value):
+        value = NO_VALUE
+    if field.kind in ("float", "triple") and value is not NO_VALUE and abs(value) > MAX_NUMBER:
+        diagnostics.error(node, f"{label} is {quote(text)}; no quantity is beyond {MAX_NUMBER:g}")
+        return NO_VALUE
+    if value is NO_VALUE:
+        is_short = len(text) < 80
+        suggestion = did_you_mean(text, field.type) if field.kind == "word" and is_short else ""
+        if field.kind in ("float", "triple") and is_short and _COMMA.fullmatch(text):
+            suggestion = f" Did you mean {text.replace(',', '.')}?"
         diagnostics.error(
-            node, f"{shown} is {cut(text)}; expected {field.expected}.{near}".rstrip(".")
+            node, f"{label} is {quote(text)}; expected {field.expected}.{suggestion}".rstrip(".")
         )
     return value
 
 
-def _word(
-    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, shown: str
+def _parse_word(
+    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, label: str
 ) -> Any:
-    """One of a few words; of the original's also in another spelling, as ``CompoundBox``."""
+    """Parse one of a few words; the original's also in another spelling, as ``CompoundBox``."""
     if text in field.type:
         return text
     if field.xml.namespaced:
-        return BAD
-    words = {_folded(word): word for word in field.type}
-    word = words.get(_folded(text))
+        return NO_VALUE
+    words = {_normalize_word(word): word for word in field.type}
+    word = words.get(_normalize_word(text))
     if word is None:
-        return BAD
-    diagnostics.warning(node, f"{shown} is {cut(text)}; read as {word!r}")
+        return NO_VALUE
+    diagnostics.warning(node, f"{label} is {quote(text)}; read as {word!r}")
     return word
 
 
-def _folded(word: str) -> str:
-    """A word in small letters, without blanks, hyphens and underscores."""
+def _normalize_word(word: str) -> str:
+    """Return a word in lower case, without blanks, hyphens and underscores."""
     return _SEPARATORS.sub("", word).lower()
 
 
-def _clamped(
-    field: Field, value: float, node: etree._Element, diagnostics: Diagnostics, shown: str
+def _clamp(
+    field: Field, value: float, node: etree._Element, diagnostics: Diagnostics, label: str
 ) -> float:
-    """A number within the limits of its field; not one of the wrong sign, nor no pixels."""
-    lowest = field.xml.limits.get("minimum", -MAX_NUMBER)
-    highest = field.xml.limits.get("maximum", MAX_NUMBER)
-    limited = min(max(value, lowest), highest)
-    has_no_size = value < lowest and (value < 0.0 < lowest or field.kind == "int")
-    if limited == value or has_no_size:
+    """Clamp a number to the limits of its field, except one of the wrong sign or no pixels."""
+    minimum = field.xml.limits.get("minimum", -MAX_NUMBER)
+    maximum = field.xml.limits.get("maximum", MAX_NUMBER)
+    clamped_value = min(max(value, minimum), maximum)
+    has_no_size = value < minimum and (value < 0.0 < minimum or field.kind == "int")
+    if clamped_value == value or has_no_size:
         return value
     is_allowed = field.allows(value)
-    why = f"no quantity is beyond {MAX_NUMBER:g}" if is_allowed else f"expected {field.expected}"
-    diagnostics.warning(node, f"{shown} is {value:g}; {why}; clamped to {limited:g}")
-    return limited if field.kind != "int" else int(limited)
+    reason = f"no quantity is beyond {MAX_NUMBER:g}" if is_allowed else f"expected {field.expected}"
+    diagnostics.warning(node, f"{label} is {value:g}; {reason}; clamped to {clamped_value:g}")
+    return clamped_value if field.kind != "int" else int(clamped_value)
 
 
-def numbers(
-    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, shown: str
+def parse_numbers(
+    field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, label: str
 ) -> Any:
-    """Several numbers from their text, separated by blanks or commas."""
+    """Parse numbers that are separated by blanks or commas."""
     words = text.replace(",", " ").split()
-    values = [number(word) for word in words]
-    beyond = [
+    values = [parse_number(word) for word in words]
+    excessive_words = [
         word for word, value in zip(words, values, strict=True) if abs(value or 0) > MAX_NUMBER
     ]
-    wrong = [
+    invalid_words = [
         word for word, value in zip(words, values, strict=True)
         if value is None or not field.allows(value)
     ]  # fmt: skip
     if len(words) > MAX_NUMBERS:
-        message = f"holds {len(words)} numbers; expected {MAX_NUMBERS} at most"
-    elif wrong or not words:
-        message = f"holds {cut(wrong[0] if wrong else text)}; expected {field.expected}"
-    elif beyond:
-        message = f"holds {cut(beyond[0])}; no quantity is beyond {MAX_NUMBER:g}"
+        message = f"has {len(words)} numbers; expected {MAX_NUMBERS} at most"
+    elif invalid_words or not words:
+        message = f"contains {quote((invalid_words or [text])[0])}; expected {field.expected}"
+    elif excessive_words:
+        message = f"contains {quote(excessive_words[0])}; no quantity is beyond {MAX_NUMBER:g}"
     elif field.type and len(words) != field.type:
         message = f"has {len(words)} numbers; expected {field.type}"
     else:
         return tuple(values)
-    diagnostics.error(node, f"{shown} {message}")
-    return BAD
+    diagnostics.error(node, f"{label} {message}")
+    return NO_VALUE
 
 
-def number(text: str) -> float | None:
-    """A number or an ``M_PI`` token; None when it is neither, or not finite."""
+def parse_number(text: str) -> float | None:
+    """Parse a number or an ``M_PI`` token; return None if it is neither, or not finite."""
     if text in TOKENS:
         return TOKENS[text]
     if len(text) > 400 or not _NUMBER.fullmatch(text):

@@ -1,4 +1,4 @@
-"""Writing specs as XML elements."""
+"""Writing of specs as XML elements."""
 
 from __future__ import annotations
 
@@ -13,46 +13,46 @@ from .names import NAMESPACE
 
 
 def write(spec: object, tag: str) -> etree._Element:
-    """Write a spec as an element; what equals its default is left out (``read`` brings it back)."""
+    """Write a spec as an element; leave out what equals its default (``read`` restores it)."""
     node = etree.Element(tag, nsmap={"u": NAMESPACE} if uses_extensions(spec) else None)
     _fill(node, spec)
     return node
 
 
 def uses_extensions(spec: object) -> bool:
-    """Whether any field of the namespace ``u`` of a spec, at any depth, is not its default."""
+    """Return whether a spec, at any depth, has a non-default field of the namespace ``u``."""
     if isinstance(spec, tuple):
         return any(uses_extensions(item) for item in spec)
     if not dataclasses.is_dataclass(spec) or isinstance(spec, type):
         return False
     return any(
-        (field.xml.namespaced and field.of(spec) != field.default)
-        or uses_extensions(field.of(spec))
+        (field.xml.namespaced and field.value_in(spec) != field.default)
+        or uses_extensions(field.value_in(spec))
         for field in fields_of(type(spec))
     )  # fmt: skip
 
 
 def _fill(node: etree._Element, spec: object) -> None:
     for field in fields_of(type(spec)):
-        value = field.of(spec)
-        if value is None or (value == field.default and not field.xml.original.required):
+        value = field.value_in(spec)
+        if value is None or (value == field.default and not field.xml.original.is_required):
             continue
         if field.xml.attribute:
             node.set(field.tag, _text(value, attribute=True))
         elif field.xml.text:
             node.text = _text(value)
         elif field.kind == "choice":
-            box = etree.SubElement(node, field.tag)
+            parent = etree.SubElement(node, field.tag)
             names = {cls: name for name, cls in field.type.items()}
             for item in value:
-                _fill(etree.SubElement(box, names[type(item)]), item)
+                _fill(etree.SubElement(parent, names[type(item)]), item)
         elif field.kind == "list":
             for items in value:
                 _write_items(etree.SubElement(node, field.tag), field, items)
-        elif field.repeated and field.xml.item:
+        elif field.is_repeated and field.xml.item:
             _write_items(etree.SubElement(node, field.tag), field, value)
         else:
-            for item in value if field.repeated else (value,):
+            for item in value if field.is_repeated else (value,):
                 _write_one(etree.SubElement(node, field.tag), field, item)
 
 
@@ -66,8 +66,8 @@ def _write_one(node: etree._Element, field: Field, value: Any) -> None:
     if field.kind == "spec":
         _fill(node, value)
     elif field.kind == "triple" and not isinstance(value, str):
-        for part, number_ in zip(field.xml.parts, value, strict=True):
-            etree.SubElement(node, part).text = _text(number_)
+        for part, part_value in zip(field.xml.parts, value, strict=True):
+            etree.SubElement(node, part).text = _text(part_value)
     else:
         node.text = _text(value)
 

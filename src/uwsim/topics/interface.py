@@ -127,7 +127,7 @@ class TopicWorld(TimedWorld, Protocol):
 
 def rate_element() -> Any:
     """Declare the field of a rate."""
-    lenient = Original(lenient=True)
+    lenient = Original(allows_trailing_text=True)
     return element(default=10.0, minimum=MIN_RATE, maximum=MAX_RATE, original=lenient)
 
 

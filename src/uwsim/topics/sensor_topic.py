@@ -19,7 +19,7 @@ from typing import Any, ClassVar
 
 from ..devices import DEVICES
 from ..errors import UnknownName
-from ..schema.names import local
+from ..schema.names import prefixed_name
 from ..sensors import SENSORS
 from ..sensors.sensor import CompiledSensor, Sensor, measured_by
 from .interface import (
@@ -83,7 +83,7 @@ class SensorTopicSpec(InterfaceSpec):
 
 def _parts() -> dict[str, type[Any]]:
     """Return the specs of all sensors and devices by their elements."""
-    return {local(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
+    return {prefixed_name(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -136,7 +136,7 @@ def test_every_element_and_every_detail_stands_in_the_page_of_measures(
 ) -> None:
     section = PAGE.read_text().split(f"\n## {name}\n")[1].split("\n## ")[0]
     of_all = {field.name for field in fields_of(MeasureSpec)}
-    elements = [field.shown for field in fields_of(spec) if field.name not in of_all]
+    elements = [field.label for field in fields_of(spec) if field.name not in of_all]
     world = FakeWorld({"v": FakeBody()})
     world.driven["v"] = FakeActuators()
     place = {"topic": "u", "position": (1.0, 0.0, 0.0)} if spec is ControlSpec else {}

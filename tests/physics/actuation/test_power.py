@@ -120,7 +120,7 @@ def test_a_file_says_what_its_actuators_draw(tmp_path: Path) -> None:
             "<efficiency> is '0'; expected a number > 0 and <= 1.41 [1]",
         ),
         ("<efficiency>1.5</efficiency>", "<efficiency> is '1.5'; expected a number"),
-        ("<power>1 x</power>", "<power> holds 'x'; expected numbers"),
+        ("<power>1 x</power>", "<power> contains 'x'; expected numbers"),
         ("<power>1 1 1 1 1 1 1 1 1 1</power>", "power has 10 coefficients; expected 1 to 9"),
         ("<power>-3 0.1</power>", "power is -22.5 W at 15 N; expected none below 0"),
         ("<powerBackward>1</powerBackward>", "power backward is given without power"),

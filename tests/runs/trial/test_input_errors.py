@@ -317,8 +317,8 @@ DAMAGED: dict[str, tuple[str | bytes, str]] = {
     "cut off": (BASE[: len(BASE) // 2], "the file ends in the middle"),
     "cut off in a tag": (BASE[: BASE.index("<finalValue") + 6], "the file ends in the middle"),
     "empty": ("", "the file is empty"),
-    "zero bytes": (b"\0" * 100, "holds zero bytes"),
-    "UTF-32": (BASE.encode("utf-32"), "holds zero bytes"),
+    "zero bytes": (b"\0" * 100, "contains zero bytes"),
+    "UTF-32": (BASE.encode("utf-32"), "contains zero bytes"),
     "Latin-1 that is not declared": (
         changed("<!--", "<!-- \xe9").encode("latin-1"), "the byte 0xe9 is not UTF-8; save the file",
     ),

@@ -136,7 +136,7 @@ def test_a_joint_that_mimics_nobody_is_free_and_that_is_reported(tmp_path: Path)
     robot = read_robot(file, diagnostics)
     assert robot is not None
     assert [joint.name for joint in robot.movable] == ["jaw_1", "jaw_2"]
-    (said,) = diagnostics.all()
+    (said,) = diagnostics.to_list()
     assert said.severity == "warning"
     assert "'jaw1', which is no joint. Did you mean jaw_1?" in said.message
 
@@ -200,7 +200,7 @@ def test_a_material_that_nothing_defines_is_warned_of_once(tmp_path: Path) -> No
     )
     diagnostics = Diagnostics(file)
     assert read_robot(file, diagnostics) is not None
-    assert [each.message for each in diagnostics.all()] == [
+    assert [each.message for each in diagnostics.to_list()] == [
         "no material is called 'Gazebo/Grey': it gives no colour.",
         "no material is called 'hul': it gives no colour. Did you mean hull?",
     ]
@@ -370,6 +370,6 @@ def test_joints_that_cannot_move_are_warned_of_with_their_line(
     file.write_text(f'<robot name="r">\n{pair}\n{joint("j", inside, kind="revolute")}</robot>')
     diagnostics = Diagnostics(file)
     read_robot(file, diagnostics)
-    (warning,) = diagnostics.all()
+    (warning,) = diagnostics.to_list()
     assert (warning.line, warning.severity) == (3, "warning")
     assert said in warning.message

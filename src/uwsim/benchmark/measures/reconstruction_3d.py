@@ -19,7 +19,7 @@ from ...base.geometry import Array, Pose
 from ...base.numerics.linear import product
 from ...errors import BadSetting
 from ...messages import PointCloud2, points
-from ...schema import REQUIRED, element
+from ...schema import REQUIRED_BY_DTD, element
 from ...world import Body, Box, World
 from ..metrics.coverage import Coverage
 from ..metrics.reconstruction import Reconstruction, turned_box, upright
@@ -44,7 +44,7 @@ class Reconstruction3DSpec(MeasureSpec):
     """Route of the body that is rebuilt."""
     topic: str
     """Topic of the clouds (sensor_msgs/PointCloud2)."""
-    from_: str | None = element("from", default=None, original=REQUIRED, refers_to="body")
+    from_: str | None = element("from", default=None, original=REQUIRED_BY_DTD, refers_to="body")
     """Route of the body in whose frame the clouds are given; without one they are in W, not L."""
     level_of_detail: float = element(default=0.003, above=0.0)
     """Cell size of the coverage [m]."""

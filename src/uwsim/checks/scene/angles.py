@@ -20,10 +20,10 @@ def angles_in_degrees(scene: CheckedScene) -> Iterator[Diagnostic]:
 def _angles_beyond_a_turn(spec: object) -> Iterator[tuple[int | None, str]]:
     kind: type = type(spec)
     for field in _angles(kind):
-        value = field.of(spec)
+        value = field.value_in(spec)
         message = degrees_for_radians(value if isinstance(value, tuple) else (value,))
         if message:
-            yield line_of(spec, field.tag), f"<{field.shown}> is {message}"
+            yield line_of(spec, field.tag), f"<{field.label}> is {message}"
     for part in _parts(spec):
         yield from _angles_beyond_a_turn(part)
 
@@ -35,7 +35,7 @@ def _angles(cls: Hashable) -> tuple[Field, ...]:
     return tuple(
         field
         for field in fields_of(cls)
-        if field.unit == "rad" and not field.repeated and "phase" not in field.name
+        if field.unit == "rad" and not field.is_repeated and "phase" not in field.name
     )
 
 

@@ -39,7 +39,7 @@ def forces_on_bodies(scene: CheckedScene) -> Iterator[Diagnostic]:
 def _names(spec: Spec) -> Iterator[tuple[int | None, str]]:
     """The bodies that a spec names, those in it included, with their lines."""
     for field in fields_of(type(spec)):
-        value = field.of(spec)
+        value = field.value_in(spec)
         if field.xml.refers_to == "body" and isinstance(value, str):
             yield line_of(spec, field.tag), value
         for inner in value if isinstance(value, tuple) else (value,):

@@ -16,7 +16,7 @@ from ...errors import Diagnostic
 from ...scene.angles import MORE_THAN_A_TURN
 from ...scene.object import ObjectSpec
 from ...scene.spec import SceneSpec
-from ...schema import line_of, shown_tag
+from ...schema import format_tag, line_of
 from ...topics import element_of
 from ...topics.sensor_topic import SensorToROSSpec
 from ...topics.simulated_device_ros import unwrapped
@@ -40,8 +40,8 @@ def unknown_links(scene: CheckedScene) -> Iterator[Diagnostic]:
             if link not in links:
                 is_error = isinstance(part, ForceSensorSpec | LampSpec)
                 severity = "error" if is_error else "warning"
-                near = scene.diagnostics.near(link, links, severity)
-                message = f"{shown_tag(element)}: {link!r} is no link of {vehicle.file}.{near}"
+                near = scene.diagnostics.suggest(link, links, severity)
+                message = f"{format_tag(element)}: {link!r} is no link of {vehicle.file}.{near}"
                 if is_error:
                     yield scene.error(part, message)
                 else:
@@ -50,7 +50,7 @@ def unknown_links(scene: CheckedScene) -> Iterator[Diagnostic]:
                 mass = next(each.mass for each in robot.links if each.name == link)
                 if mass <= 0 and not scene.has_stand_in(index):
                     yield scene.warning(
-                        part, f"{shown_tag(element)}: its link {link!r} has no mass"
+                        part, f"{format_tag(element)}: its link {link!r} has no mass"
                     )
 
 
@@ -101,10 +101,10 @@ def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
         kinds = interface.sources
         if not any(wanted in known.get(kind, {}) for kind in kinds):
             names = chain(*(known.get(kind, {}) for kind in kinds))
-            near = scene.diagnostics.near(wanted, names, "warning")
+            near = scene.diagnostics.suggest(wanted, names, "warning")
             yield scene.warning(
                 interface,
-                f"{shown_tag(element)}: no {' or '.join(kinds)} is called {wanted!r}.{near} "
+                f"{format_tag(element)}: no {' or '.join(kinds)} is called {wanted!r}.{near} "
                 "The interface is left out, as in the original",
             )
         elif (
@@ -114,7 +114,7 @@ def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
         ):
             yield scene.error(
                 interface,
-                f"{shown_tag(element)}: <depth> 1 needs a virtualRangeImage; {wanted!r} is none",
+                f"{format_tag(element)}: <depth> 1 needs a virtualRangeImage; {wanted!r} is none",
             )
 
 

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 
 from ...errors import Diagnostic
-from ...schema import shown_tag
+from ...schema import format_tag
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...topics import InterfaceSpec, element_of
 from ...topics.interface import VehiclePublisherSpec
@@ -51,7 +51,7 @@ def shared_part_names(scene: CheckedScene) -> Iterator[Diagnostic]:
             else:
                 why = ""
             if why:
-                yield scene.warning(part, f"{shown_tag(element)}: {why}")
+                yield scene.warning(part, f"{format_tag(element)}: {why}")
             of_kind.add((element, name))
             of_vehicle.setdefault(name, element)
 
@@ -66,20 +66,20 @@ def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
             key = topic.strip("/")
             if not NAME.fullmatch(key):
                 why = "is no name of a topic in ROS"
-                yield scene.warning(interface, f"{shown_tag(element)}: the topic {topic!r} {why}")
+                yield scene.warning(interface, f"{format_tag(element)}: the topic {topic!r} {why}")
             if interface.subscribes:
                 continue
             other = writers.get(key)
             if other is not None and isinstance(interface, VehiclePublisherSpec):
                 yield scene.warning(
                     interface,
-                    f"the topic {topic!r} carries {own!r} and {other[1]!r}: who reads it gets both",
+                    f"the topic {topic!r} carries {own!r} and {other[1]!r}; readers get both",
                 )
             elif other is not None:
                 yield scene.warning(
                     interface,
-                    f"{shown_tag(element)}: the topic {topic!r} of {own!r} carries {other[1]!r} of "
-                    f"{shown_tag(other[0])}, too: who reads it gets both",
+                    f"{format_tag(element)}: the topic {topic!r} of {own!r} carries {other[1]!r} "
+                    f"of {format_tag(other[0])}, too; readers get both",
                 )
             writers.setdefault(key, (element, own))
 

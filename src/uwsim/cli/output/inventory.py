@@ -25,7 +25,7 @@ from ...scene.unsupported import READ_ONLY
 from ...scene.urdf.robot import JointSpec, RobotSpec
 from ...scene.variation import draw
 from ...scene.vehicle import VehicleSpec
-from ...schema import shown_tag
+from ...schema import format_tag
 from ...sensors import SENSORS
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
@@ -219,7 +219,7 @@ def _sensors(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
         found += [
             {
                 "name": str(getattr(spec, "name", "")),
-                "kind": shown_tag(elements[type(spec)]).strip("<>"),
+                "kind": format_tag(elements[type(spec)]).strip("<>"),
                 "vehicle": vehicle.name,
                 "link": spec.relative_to,
                 "points": describe_direction(spec, frames),

@@ -8,7 +8,7 @@ from typing import Any
 from ...devices.device import DeviceSpec
 from ...scene.spec import SceneSpec
 from ...scene.unsupported import limit_of
-from ...schema.names import local
+from ...schema.names import prefixed_name
 from ...simulation import Simulation
 from ...topics import InterfaceSpec, element_of
 from ...topics.simulated_device_ros import unwrapped
@@ -37,7 +37,7 @@ def topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
                     "direction": "listens" if is_heard else "publishes",
                     "rate_hz": None if is_heard else getattr(interface, "rate", None),
                     "of": _of(interface),
-                    "interface": local(name),
+                    "interface": prefixed_name(name),
                     "limit": limit_of("rosInterfaces", name),
                 }
             )

@@ -20,7 +20,7 @@ from typing import ClassVar
 
 from ...messages import Pose
 from ...network import BitErrors, EnergyModel, LinkBudget, ModemSettings, WaterChannel
-from ...schema import REQUIRED, Spec, element
+from ...schema import REQUIRED_BY_DTD, Spec, element
 from ...world import DeviceWorld
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import acoustic_channel
@@ -39,17 +39,17 @@ class EnergyModelSpec(Spec):
 
     energy_level: float = element(minimum=0)
     """Energy at the start [J]."""
-    turn_on_energy: float = element(default=0.0, original=REQUIRED, minimum=0)
+    turn_on_energy: float = element(default=0.0, original=REQUIRED_BY_DTD, minimum=0)
     """Energy to switch on, once at the start [J]."""
-    turn_off_energy: float = element(default=0.0, original=REQUIRED, minimum=0)
+    turn_off_energy: float = element(default=0.0, original=REQUIRED_BY_DTD, minimum=0)
     """Read and not used: nothing is switched off [J]."""
-    p_t_consume: float = element("pTConsume", default=0.660, original=REQUIRED, minimum=0)
+    p_t_consume: float = element("pTConsume", default=0.660, original=REQUIRED_BY_DTD, minimum=0)
     """Power while sending [W]."""
-    p_r_consume: float = element("pRConsume", default=0.395, original=REQUIRED, minimum=0)
+    p_r_consume: float = element("pRConsume", default=0.395, original=REQUIRED_BY_DTD, minimum=0)
     """Power while receiving [W]."""
-    p_idle: float = element("pIdle", default=0.0, original=REQUIRED, minimum=0)
+    p_idle: float = element("pIdle", default=0.0, original=REQUIRED_BY_DTD, minimum=0)
     """Power the rest of the time [W]."""
-    p_t: float = element("pT", default=0.2818, original=REQUIRED, minimum=0)
+    p_t: float = element("pT", default=0.2818, original=REQUIRED_BY_DTD, minimum=0)
     """Power into the water: read and not used; ``u:sourceLevel`` gives the source level [W]."""
 
     def bind(self) -> EnergyModel:
@@ -110,9 +110,9 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     """Length of the preamble of each packet [s]."""
     mac_protocol: MacProtocolSpec | None = None
     """Medium access protocol."""
-    tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
+    tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
     """Packs what is sent."""
-    rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
+    rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
     """Unpacks what is received."""
     log_level: str = "off"
     """Read and not used."""

@@ -30,7 +30,7 @@ from ...network import (
     mac_kind,
     nanoseconds,
 )
-from ...schema import MAX_DISTANCE, REQUIRED, Original, Spec, element
+from ...schema import MAX_DISTANCE, REQUIRED_BY_DTD, Original, Spec, element
 from ...sensors.sensor import Mounted
 from ...world import Body, DeviceWorld
 from ..device import Device, DeviceTopic, DeviceVehicle
@@ -47,10 +47,10 @@ ENERGY_RATE = 1.0
 class MacProtocolSpec(Spec):
     """A ``<macProtocol>``: who may send when."""
 
-    name: str = element(default="", original=REQUIRED)
+    name: str = element(default="", original=REQUIRED_BY_DTD)
     """ALOHA, slottedALOHA or CSMA; empty: ALOHA."""
     max_distance: float = element(
-        default=0.0, original=Original(lenient=True), minimum=0, maximum=MAX_DISTANCE
+        default=0.0, original=Original(allows_trailing_text=True), minimum=0, maximum=MAX_DISTANCE
     )
     """Longest distance between two devices, for the length of a slot [m]."""
     max_backoff_slots: int = element(default=4, minimum=0, maximum=1_000_000)

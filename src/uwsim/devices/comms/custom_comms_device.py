@@ -22,7 +22,7 @@ from typing import ClassVar
 from ...base import expression
 from ...messages import Pose
 from ...network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateErrors, Unit
-from ...schema import REQUIRED, Spec, element
+from ...schema import REQUIRED_BY_DTD, Spec, element
 from ...world import DeviceWorld
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import MAX_MS, custom_channel
@@ -41,7 +41,7 @@ class JitterSpec(Spec):
 
     tx: float = element(default=0.0, minimum=0, maximum=MAX_MS)
     """Largest delay when sending [ms]."""
-    rx: float = element(default=0.0, original=REQUIRED, minimum=0, maximum=MAX_MS)
+    rx: float = element(default=0.0, original=REQUIRED_BY_DTD, minimum=0, maximum=MAX_MS)
     """Largest delay when receiving [ms]."""
 
 
@@ -49,9 +49,9 @@ class JitterSpec(Spec):
 class RateErrorModelSpec(Spec):
     """A ``<rateErrorModel>``: how likely a part of a packet, and so the packet, is damaged."""
 
-    error_unit: Unit = element(default="bit", original=REQUIRED)
+    error_unit: Unit = element(default="bit", original=REQUIRED_BY_DTD)
     """What the rate is of."""
-    error_rate_expr: str = element(default="0.01*m", original=REQUIRED)
+    error_rate_expr: str = element(default="0.01*m", original=REQUIRED_BY_DTD)
     """Its probability as a formula in the distance m [m], in the language of scores."""
 
     def parse(self) -> Callable[[float], float]:
@@ -92,7 +92,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     """Its address."""
     mac_protocol: MacProtocolSpec | None = None
     """Medium access protocol."""
-    bitrate: float = element(default=1000.0, original=REQUIRED, minimum=1e-3, maximum=1e12)
+    bitrate: float = element(default=1000.0, original=REQUIRED_BY_DTD, minimum=1e-3, maximum=1e12)
     """How fast it sends [bit/s]."""
     tx_fifo_size: int = element(default=500000, minimum=0)
     """Size of the transmission queue [byte]."""
@@ -118,9 +118,9 @@ class CustomCommsDeviceSpec(DeviceSpec):
     """Shortest distance it reaches [m]."""
     rate_error_model: RateErrorModelSpec | None = None
     """How likely a piece is damaged; without it nothing is."""
-    tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
+    tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
     """Packs what is sent."""
-    rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED)
+    rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
     """Unpacks what is received."""
     log_level: str = "off"
     """Read and not used."""

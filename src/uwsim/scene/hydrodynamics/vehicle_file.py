@@ -44,7 +44,7 @@ from lxml import etree
 from ...assets.find import roots
 from ...base.files.input_files import is_inside
 from ...errors import FileError, choices
-from ...schema import Diagnostics, Spec, cut, line_of, parse, read
+from ...schema import Diagnostics, Spec, line_of, parse, quote, read
 from .checks import body_errors, thruster_errors
 from .fin_checks import fin_errors
 from .power_checks import power_errors
@@ -150,13 +150,13 @@ def read_vehicle_into(
     """Read a hydrodynamics file into ``diagnostics``; None when it has some."""
     parts = _Parts(None if links is None else list(links), None if joints is None else list(joints))
     head = _read_file(path, diagnostics, parts, ())
-    if head is None or diagnostics.any:
+    if head is None or diagnostics.has_errors:
         return None
     if head.name != path.stem:
         diagnostics.warning(
             head,
-            f"the set is called {cut(head.name)}; scenes find it by the name of its file, "
-            f"{cut(path.stem)}",
+            f"the set is called {quote(head.name)}; scenes find it by the name of its file, "
+            f"{quote(path.stem)}",
         )
     return dataclasses.replace(
         head,
@@ -216,25 +216,25 @@ def _include(
         inner = Diagnostics(other)
         whole = other.resolve()
         if not is_inside(other, [*roots(named_by=path), bundled_folder()]):
-            diagnostics.error(node, f"<include> {cut(name)} is outside the folders of its file")
+            diagnostics.error(node, f"<include> {quote(name)} is outside the folders of its file")
             return
         if whole in (one.resolve() for one in (*above, path)):
-            diagnostics.error(node, f"<include> {cut(name)} includes itself")
+            diagnostics.error(node, f"<include> {quote(name)} includes itself")
             return
         if whole in (one.resolve() for one in parts.files):
-            diagnostics.error(node, f"<include> {cut(name)}: it is included already")
+            diagnostics.error(node, f"<include> {quote(name)}: it is included already")
             return
         _read_file(other, inner, parts, (*above, path))
     except (OSError, ValueError) as error:
         diagnostics.error(
-            node, f"<include> {cut(name)}: {getattr(error, 'strerror', None) or error}"
+            node, f"<include> {quote(name)}: {getattr(error, 'strerror', None) or error}"
         )
         return
     except VehicleError as error:
         for diagnostic in error.diagnostics:
-            diagnostics.error(node, f"<include> {cut(name)}: {diagnostic.message}")
+            diagnostics.error(node, f"<include> {quote(name)}: {diagnostic.message}")
         return
-    for diagnostic in inner.all():
+    for diagnostic in inner.to_list():
         say = diagnostics.error if diagnostic.severity == "error" else diagnostics.warning
         say(node, f"in {name}, line {diagnostic.line}: {diagnostic.message}")
 

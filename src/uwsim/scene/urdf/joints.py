@@ -31,7 +31,7 @@ def read_joint(
     """Read a joint; None when it joins no two links, or in no known way."""
     name, given = name_of(node), (node.get("type") or "").strip()
     if given not in (*MOVABLE, *STIFF, "fixed"):
-        diagnostics.unknown(
+        diagnostics.report_unknown(
             node,
             f"joint {name!r} has the type {given[:60]!r}; expected one of "
             f"{', '.join((*MOVABLE, 'fixed', *STIFF))}",
@@ -146,7 +146,7 @@ def with_leader(
     diagnostics.warning(
         joint,
         f"joint {joint.name!r} mimics {source[:60]!r}, which is no joint"
-        f".{diagnostics.near(source, joints, 'warning')} It moves by itself",
+        f".{diagnostics.suggest(source, joints, 'warning')} It moves by itself",
     )
     return dataclasses.replace(joint, mimic=None)
 
@@ -232,6 +232,6 @@ def _end(
         diagnostics.error(
             node,
             f"joint {name_of(node)!r}: its {end} {link[:60]!r} is no link."
-            f"{diagnostics.near(link, links)}",
+            f"{diagnostics.suggest(link, links)}",
         )
     return None

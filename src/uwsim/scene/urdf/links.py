@@ -65,7 +65,7 @@ def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, 
                 uses.setdefault(name_of(node), node)
     textured = {name_of(node) for node in root.iter("material") if node.find("texture") is not None}
     for name in [name for name in uses if name and name not in found and name not in textured]:
-        near = diagnostics.near(name, found, "warning")
+        near = diagnostics.suggest(name, found, "warning")
         diagnostics.warning(
             uses[name], f"no material is called {name!r}: it gives no colour.{near}"
         )
@@ -128,7 +128,7 @@ def _shape(
     else:
         kinds = ("mesh", "box", "cylinder", "sphere")
         given = str(kind)
-        diagnostics.unknown(shape, f"<{given[:60]}> is not a geometry", given, kinds)
+        diagnostics.report_unknown(shape, f"<{given[:60]}> is not a geometry", given, kinds)
         return None
     return VisualSpec(
         source_line=source_line(node, diagnostics.file),

@@ -83,10 +83,10 @@ def read_robot(
     check_mimics(joints, diagnostics)
     if not links:
         diagnostics.error(root, "the robot has no <link>")
-    if diagnostics.any:
+    if diagnostics.has_errors:
         return None
     joints = follow_chains(joints, diagnostics)
-    if diagnostics.any:
+    if diagnostics.has_errors:
         return None
     robot = _tree(root, path, links, joints, diagnostics)
     return None if robot is None else dataclasses.replace(robot, expansion=document.expansion)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from lxml import etree
 
 from ...base.geometry import ZERO, Triple
-from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, number
+from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, parse_number
 from ..angles import degrees_for_radians
 from .robot import Colour
 
@@ -103,7 +103,7 @@ def numbers_of(
         diagnostics.error(node, f"<{node.tag}> lacks the attribute {attribute}")
         return None
     words = text.split() if len(text) < 1000 else [text]
-    values = [number(word) for word in words if not word.lstrip("-").startswith("M_")]
+    values = [parse_number(word) for word in words if not word.lstrip("-").startswith("M_")]
     if len(words) == count and len(values) == count and None not in values:
         return [value for value in values if value is not None]
     hint = "; expand the file with xacro first" if "${" in text else ""

@@ -48,7 +48,7 @@ def parse_expanded(
     expander.check(error)
     _merge_interfaces(document.root)
     expansion = Expansion(
-        arguments=given, declared=expander.arguments.known, warnings=expander.warnings
+        arguments=given, declared_arguments=expander.arguments.known, warnings=expander.warnings
     )
     return replace(document, expansion=expansion)
 

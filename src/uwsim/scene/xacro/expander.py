@@ -125,14 +125,14 @@ class Expander:
 
     def check(self, error: type[FileError]) -> None:
         """Raise ``error`` with the errors of all files, if there are any."""
-        found = [each for file in self._diagnostics.values() for each in file.all()]
+        found = [each for file in self._diagnostics.values() for each in file.to_list()]
         if wrong := [each for each in found if each.severity == "error"]:
             raise error(wrong)
 
     @property
     def warnings(self) -> tuple[Diagnostic, ...]:
         """The warnings of all files."""
-        found = (each for file in self._diagnostics.values() for each in file.all())
+        found = (each for file in self._diagnostics.values() for each in file.to_list())
         return tuple(each for each in found if each.severity == "warning")
 
     def error(self, node: etree._Element, message: str) -> None:
