@@ -5,13 +5,13 @@ from __future__ import annotations
 import atexit
 import sys
 
-from .base.interrupts import end_at_once, ignore_from_now_on
+from .base.interrupts import exit_on_interrupt, ignore_interrupts
 
 
 def run() -> int:
     """Run ``uwsim`` as a process of its own; returns its exit status."""
-    end_at_once()
-    atexit.register(ignore_from_now_on)  # the first registered is the last called
+    exit_on_interrupt()
+    atexit.register(ignore_interrupts)  # the first registered is the last called
     from .cli import main
     from .cli.app import say
 
@@ -20,7 +20,7 @@ def run() -> int:
     except KeyboardInterrupt as error:  # a second one, while the first was handled
         return say(error)
     finally:
-        end_at_once()  # the interpreter may take a moment to leave
+        exit_on_interrupt()  # the interpreter may take a moment to leave
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from .errors import AllErrors, BadSetting, Diagnostic, shown
+from .errors import BadSetting, Diagnostic, ErrorCollector, short_repr
 from .world import TIMESTEP
 
 if TYPE_CHECKING:
@@ -124,9 +124,9 @@ def bench(
 
     name, kind = _name_and_class(algorithm)
     if out is not None and not isinstance(out, str | os.PathLike):
-        raise BadSetting(f"out={shown(out)}: expected a directory, as 'one.result', or None.")
+        raise BadSetting(f"out={short_repr(out)}: expected a directory, as 'one.result', or None.")
     if on_progress is not None and not callable(on_progress):
-        raise BadSetting(f"on_progress={shown(on_progress)}: expected a function, or None.")
+        raise BadSetting(f"on_progress={short_repr(on_progress)}: expected a function, or None.")
     first_seed = _first_of(seeds)
     request = PlanRequest(
         benchmark=str(benchmark),
@@ -156,9 +156,9 @@ def _execute_request(
 
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)
-        wrong = AllErrors()
+        wrong = ErrorCollector()
         executor, plans = plan_all([request], str(workers), CALLBACK_LIMIT, wrong)
-        with wrong.kept():
+        with wrong.collect():
             check_directory(directory, resume=False, overwrite=False)
         wrong.check()
         execution = prepare_execution(plans, executor, directory, workers=str(workers))
@@ -180,8 +180,8 @@ def _name_and_class(
         return algorithm, None
     if not isinstance(algorithm, type):
         raise BadSetting(
-            f"algorithm={shown(algorithm)}: expected a name, 'module:Class', or a class, not an "
-            "object."
+            f"algorithm={short_repr(algorithm)}: expected a name, 'module:Class', or a class, not "
+            "an object."
         )
     return f"{algorithm.__module__}:{algorithm.__qualname__}", algorithm
 
@@ -214,10 +214,10 @@ def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Se
 def _folders_of(data_path: Sequence[str | Path]) -> tuple[Path, ...]:
     """Return folders in which files are looked for; BadSetting if these are none."""
     if isinstance(data_path, str) or not isinstance(data_path, Collection):
-        raise BadSetting(f"data_path={shown(data_path)}: expected folders, as ['meshes'].")
+        raise BadSetting(f"data_path={short_repr(data_path)}: expected folders, as ['meshes'].")
     for folder in data_path:
         if not isinstance(folder, str | os.PathLike):
-            raise BadSetting(f"data_path=[{shown(folder)}]: expected folders, as ['meshes'].")
+            raise BadSetting(f"data_path=[{short_repr(folder)}]: expected folders, as ['meshes'].")
     return tuple(Path(folder) for folder in data_path)
 
 
@@ -227,12 +227,14 @@ def _pairs_of(levels: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
     if not isinstance(levels, Mapping) or not all(
         isinstance(name, str) and isinstance(values, Collection) for name, values in levels.items()
     ):
-        raise BadSetting(f"levels={shown(levels)}: expected names and lists, as {{'fog': [0.5]}}.")
+        raise BadSetting(
+            f"levels={short_repr(levels)}: expected names and lists, as {{'fog': [0.5]}}."
+        )
     for name, values in levels.items():
         numbers = [_finite_number(value) for value in values]
         for value, number in zip(values, numbers, strict=True):
             if number is None:
-                raise BadSetting(f"levels={{{name!r}: [{shown(value)}]}}: expected numbers.")
+                raise BadSetting(f"levels={{{name!r}: [{short_repr(value)}]}}: expected numbers.")
             pairs.append((name, number))
         if not numbers:
             raise BadSetting(f"levels={{{name!r}: []}}: expected one number at least.")
@@ -251,14 +253,14 @@ def _finite_number(value: object) -> float | None:
 def _first_of(seeds: Sequence[int]) -> int:
     """Return the first of some consecutive seeds; BadSetting if they are not."""
     if isinstance(seeds, int):
-        given = shown(seeds)
+        given = short_repr(seeds)
         raise BadSetting(f"seeds={given}: expected a sequence, such as ({given},) or range(6).")
     given_seeds = list(seeds) if isinstance(seeds, Collection) else []
     are_whole = all(isinstance(s, Integral) and not isinstance(s, bool) for s in given_seeds)
     first = int(given_seeds[0]) if given_seeds and are_whole else -1
     if first < 0 or given_seeds != list(range(first, first + len(given_seeds))):
         raise BadSetting(
-            f"seeds={shown(seeds)}: expected consecutive seeds >= 0, such as (0,) or range(6)."
+            f"seeds={short_repr(seeds)}: expected consecutive seeds >= 0, such as (0,) or range(6)."
         )
     return first
 

@@ -32,12 +32,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Literal
 
-MAX_LISTED = 16
+MAX_LISTED_NAMES = 16
 """Greatest number of names listed; of more, the nearest `N_NEAREST` are."""
-MAX_NAME = 200
+MAX_NAME_LENGTH = 200
 """The longest text for which a name is looked for [characters]: peers send longer ones."""
 N_NEAREST = 3
-MAX_SHOWN = 80
+MAX_REPR_LENGTH = 80
 """The longest text of a value of foreign code in a message [characters]."""
 
 
@@ -106,9 +106,11 @@ class PluginError(FileError):
 class UnknownName(UwsimError):
     """An unknown name."""
 
-    def __init__(self, kind: str, name: str, known: Iterable[str]) -> None:
-        self.kind, self.known = kind, tuple(sorted(known))
-        super().__init__(f"No {kind} is called {name!r}.{choices(name, self.known)}.", name=name)
+    def __init__(self, kind: str, name: str, valid_names: Iterable[str]) -> None:
+        self.kind, self.valid_names = kind, tuple(sorted(valid_names))
+        super().__init__(
+            f"No {kind} is called {name!r}.{choices(name, self.valid_names)}.", name=name
+        )
 
 
 class AssetNotFound(UwsimError):
@@ -164,7 +166,7 @@ class ReplayDiffers(ResultError):
 
 
 @contextmanager
-def names_file(path: object, draft: object = None) -> Iterator[None]:
+def name_file_in_errors(path: object, draft: object = None) -> Iterator[None]:
     """Let errors of the system in this block, as a full disk, name the file that was written.
 
     Args:
@@ -185,14 +187,14 @@ RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)
 """Errors found only by running; every other `UwsimError` is invalid input."""
 
 
-class AllErrors:
+class ErrorCollector:
     """Collects the errors of one call, so that all of them are reported at once."""
 
     def __init__(self) -> None:
         self._found: list[UwsimError] = []
 
     @contextmanager
-    def kept(self) -> Iterator[None]:
+    def collect(self) -> Iterator[None]:
         """Keep an error raised within the block, and continue after it."""
         try:
             yield
@@ -211,14 +213,14 @@ class AllErrors:
             raise found[0] if len(found) == 1 else SeveralErrors(found)
 
 
-def choices(name: str, known: Iterable[str], *, called: str = "Known") -> str:
-    """Return " Did you mean 'x'? Known: x, y"; of more than `MAX_LISTED`, only the nearest."""
-    names = list(known)
-    meant = did_you_mean(name, names)
-    if len(names) <= MAX_LISTED:
-        return f"{meant} {called}: {', '.join(names) or 'none'}"
-    near = difflib.get_close_matches(name[:MAX_NAME], names, n=N_NEAREST, cutoff=0.0)
-    return f"{meant} Nearest of {len(names)}: {', '.join(near)}"
+def choices(name: str, valid_names: Iterable[str], *, heading: str = "Known") -> str:
+    """Return " Did you mean 'x'? Known: x, y"; for many names, only the nearest."""
+    names = list(valid_names)
+    suggestion = did_you_mean(name, names)
+    if len(names) <= MAX_LISTED_NAMES:
+        return f"{suggestion} {heading}: {', '.join(names) or 'none'}"
+    near = difflib.get_close_matches(name[:MAX_NAME_LENGTH], names, n=N_NEAREST, cutoff=0.0)
+    return f"{suggestion} Nearest of {len(names)}: {', '.join(near)}"
 
 
 def type_and_text(error: BaseException) -> str:
@@ -226,20 +228,20 @@ def type_and_text(error: BaseException) -> str:
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
 
 
-def shown(found: object) -> str:
+def short_repr(value: object) -> str:
     """Return the text of a value of foreign code as one line, cut where it is long."""
     try:
-        text = " ".join(repr(found).split())
+        text = " ".join(repr(value).split())
     except Exception:  # its own repr raises, or it is a whole number of too many digits
-        return f"a {type(found).__name__}"
-    return text if len(text) <= MAX_SHOWN else text[: MAX_SHOWN - 3] + "..."
+        return f"a {type(value).__name__}"
+    return text if len(text) <= MAX_REPR_LENGTH else text[: MAX_REPR_LENGTH - 3] + "..."
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
+def did_you_mean(name: str, valid_names: Iterable[str]) -> str:
     """Return " Did you mean 'x'?" for the nearest known name, or nothing, as for a long text."""
-    if len(name) > MAX_NAME:
+    if len(name) > MAX_NAME_LENGTH:
         return ""
-    names = list(known)
+    names = list(valid_names)
     by_lower = {candidate.lower(): candidate for candidate in names}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
     return f" Did you mean {by_lower[close[0]]!r}?" if close else ""

@@ -11,7 +11,7 @@ import pytest
 from uwsim import errors
 from uwsim.base import terminal
 from uwsim.base.numerics import compiling
-from uwsim.base.system_errors import as_run_failed
+from uwsim.base.system_errors import convert_to_run_failed
 from uwsim.cli import COMMANDS, app, exit_status, main
 
 
@@ -234,15 +234,15 @@ def test_an_error_of_normal_length_is_shown_whole() -> None:
     folders = ", ".join(f"/home/someone/simulation/data/folder-{i}" for i in range(20))
     said = f"'box.obj' is neither a file nor bundled. The file's folders: {folders}. Is 'x' meant?"
     assert exit_status.one_line(errors.BadSetting(said)) == f"uwsim: {said}"
-    long = terminal.printable(" ".join(["word"] * 10_000))
+    long = terminal.clean_text(" ".join(["word"] * 10_000))
     assert len(long) == terminal.MAX_LINE_LENGTH + 1
 
 
 def test_what_the_system_refuses_while_a_run_is_on_is_a_failed_run() -> None:
     said = r"No such file or directory: out/result\.json"
-    with pytest.raises(errors.RunFailed, match=said), as_run_failed():
+    with pytest.raises(errors.RunFailed, match=said), convert_to_run_failed():
         raise FileNotFoundError(2, "No such file or directory", "out/result.json")
-    with pytest.raises(BrokenPipeError), as_run_failed():
+    with pytest.raises(BrokenPipeError), convert_to_run_failed():
         raise BrokenPipeError
 
 
@@ -263,8 +263,8 @@ def test_a_terminal_is_told_of_a_start_that_compiles(
     """Once, when several functions are not on the disk."""
 
     def start() -> None:
-        for _ in range(2 * compiling.MANY):
-            compiling.one_is_compiled()
+        for _ in range(2 * compiling.SLOW_START_COUNT):
+            compiling.count_compilation()
 
     monkeypatch.setattr(compiling, "_n_compiled", 0)
     monkeypatch.setattr(app.Command, "load", lambda self: start)

@@ -18,13 +18,13 @@ import pytest
 from tests.support.short_benchmark import run, write_benchmark
 from tests.support.waiting import LIMIT
 from uwsim.base import interrupts
-from uwsim.base.numerics.compiling import one_is_compiled
+from uwsim.base.numerics.compiling import count_compilation
 from uwsim.runs.executors import executor
 
 
 @pytest.fixture(autouse=True)
 def _no_interrupt_is_left(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    for name in ("_arrived", "_waits", "_is_blocked"):
+    for name in ("_was_raised", "_is_pending", "_is_blocked"):
         monkeypatch.setattr(interrupts, name, threading.Event())
     numbers = signal.SIGINT, signal.SIGTERM, signal.SIGHUP
     before = [signal.getsignal(number) for number in numbers]
@@ -99,18 +99,18 @@ sys.exit(__main__.run())
 
 def test_who_ignores_ctrl_c_goes_on_ignoring_it() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    interrupts.end_at_once()
-    interrupts.raise_from_now_on()
+    interrupts.exit_on_interrupt()
+    interrupts.raise_on_interrupt()
     assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
 
 
 def test_from_a_point_on_ctrl_c_is_an_error_that_can_be_handled() -> None:
     before = signal.getsignal(signal.SIGINT)
-    interrupts.raise_from_now_on()
+    interrupts.raise_on_interrupt()
     assert signal.getsignal(signal.SIGINT) is before  # nobody asked for the other
-    interrupts.end_at_once()
+    interrupts.exit_on_interrupt()
     assert signal.getsignal(signal.SIGINT) is not before
-    interrupts.raise_from_now_on()
+    interrupts.raise_on_interrupt()
     with pytest.raises(KeyboardInterrupt):
         press()
 
@@ -118,8 +118,8 @@ def test_from_a_point_on_ctrl_c_is_an_error_that_can_be_handled() -> None:
 @pytest.fixture
 def raising() -> None:
     """Ctrl-C raises KeyboardInterrupt, as in a run."""
-    interrupts.end_at_once()
-    interrupts.raise_from_now_on()
+    interrupts.exit_on_interrupt()
+    interrupts.raise_on_interrupt()
 
 
 def press() -> None:
@@ -139,8 +139,8 @@ class Pressing(dict):
 
 context = create_context()
 _moderngl.UNIFORM_LOOKUP_TABLE = Pressing(_moderngl.UNIFORM_LOOKUP_TABLE)
-interrupts.end_at_once()
-interrupts.raise_from_now_on()
+interrupts.exit_on_interrupt()
+interrupts.raise_on_interrupt()
 try:
     program = context.program(
         vertex_shader='#version 330\\nuniform vec4 at;\\nvoid main() { gl_Position = at; }'
@@ -179,11 +179,11 @@ def test_an_interrupt_waits_while_compiled_code_is_made_or_answers(module: str) 
 def test_an_interrupt_that_waits_comes_in_before_the_next_function_is_compiled(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(interrupts, "LATER", LIMIT)
+    monkeypatch.setattr(interrupts, "RETRY_DELAY", LIMIT)
     its: dict[str, Any] = {
         "__name__": "numba.core.compiler",
         "press": press,
-        "then": one_is_compiled,
+        "then": count_compilation,
     }
     exec("def work():\n    press()\n    then()\n", its)
     with pytest.raises(KeyboardInterrupt):
@@ -197,7 +197,7 @@ def test_an_interrupt_that_another_thread_takes_waits_while_a_process_is_started
     other.start()
 
     def start() -> None:
-        with interrupts.ignoring_interrupts():
+        with interrupts.block_interrupts():
             press()  # to the other thread: this one blocks it
             time.sleep(0.1)
             done.append(1)
@@ -222,7 +222,7 @@ def test_a_run_whose_algorithm_swallows_the_interrupt_ends_and_keeps_no_spoiled_
 
     original = executor.run_trial
     monkeypatch.setattr(executor, "run_trial", run_trial)
-    interrupts.raise_from_now_on()
+    interrupts.raise_on_interrupt()
     with pytest.raises(KeyboardInterrupt):
         run(write_benchmark(tmp_path, "0.2"), tmp_path / "out")
     assert [path.read_text().count("\n") for path in (tmp_path / "out/units").iterdir()] == [1]
@@ -231,9 +231,9 @@ def test_a_run_whose_algorithm_swallows_the_interrupt_ends_and_keeps_no_spoiled_
 @pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
 def test_what_else_ends_a_run_is_as_ctrl_c_unless_it_is_ignored(number: int) -> None:
     signal.signal(number, signal.SIG_IGN)  # nohup
-    interrupts.raise_from_now_on()
+    interrupts.raise_on_interrupt()
     assert signal.getsignal(number) is signal.SIG_IGN
     signal.signal(number, signal.SIG_DFL)
-    interrupts.raise_from_now_on()
+    interrupts.raise_on_interrupt()
     with pytest.raises(KeyboardInterrupt):
         os.kill(os.getpid(), number)

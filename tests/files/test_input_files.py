@@ -4,7 +4,14 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.base.files.input_files import InputFile, by_name, hash_of, portable, read_bytes, recorded
+from uwsim.base.files.input_files import (
+    InputFile,
+    hash_of,
+    hashes_by_name,
+    portable_name,
+    read_bytes,
+    record_inputs,
+)
 from uwsim.errors import AssetError
 
 PACKAGE = Path(__file__).parents[2] / "src" / "uwsim"
@@ -22,7 +29,7 @@ def test_what_is_read_inside_is_recorded_with_its_hash(tmp_path: Path) -> None:
     file = tmp_path / "sea.csv"
     file.write_bytes(b"x,u\n0,1\n")
     read_bytes(file)
-    with recorded() as outer, recorded() as inner:
+    with record_inputs() as outer, record_inputs() as inner:
         assert read_bytes(file, name="data/sea.csv") == b"x,u\n0,1\n"
         read_bytes(file, name="data/sea.csv")
     read_bytes(file)
@@ -57,12 +64,16 @@ def test_only_regular_files_are_read(tmp_path: Path) -> None:
     ],
 )
 def test_no_folder_of_this_machine_is_in_a_recorded_name(name: str | Path, said: str) -> None:
-    assert portable(name) == said
+    assert portable_name(name) == said
 
 
 def test_two_files_of_one_name_are_both_kept() -> None:
     files = [InputFile("a.obj", "sha256:2"), InputFile("a.obj", "sha256:1")]
-    assert by_name(files) == by_name(files[::-1]) == {"a.obj": "sha256:1", "a.obj (2)": "sha256:2"}
+    assert (
+        hashes_by_name(files)
+        == hashes_by_name(files[::-1])
+        == {"a.obj": "sha256:1", "a.obj (2)": "sha256:2"}
+    )
 
 
 def test_nothing_else_opens_input_files() -> None:

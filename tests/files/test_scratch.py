@@ -16,10 +16,10 @@ from uwsim.errors import RunFailed
 
 PROGRAM = """
 import os, subprocess, sys, time
-from uwsim.base.files.scratch import OWNER, scratch_folder
+from uwsim.base.files.scratch import SCRATCH_VARIABLE, scratch_folder
 with scratch_folder("uwsim-test-") as folder:
     (folder / "a").write_text("x")
-    os.environ[OWNER] = str(folder)
+    os.environ[SCRATCH_VARIABLE] = str(folder)
     sleeper = subprocess.Popen(["sleep", "60"], start_new_session=True)
     (folder / "b").write_text(str(sleeper.pid))
     print(folder, flush=True)

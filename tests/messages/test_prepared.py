@@ -1,4 +1,4 @@
-"""What `prepare` says of a message before it is published, and what it does to its arrays."""
+"""`check_and_freeze` reports an invalid message, and makes the arrays of a valid one read-only."""
 
 from __future__ import annotations
 
@@ -12,7 +12,13 @@ import pytest
 
 import uwsim.messages
 from tests.support.random_messages import RandomMessages
-from uwsim.base.message_fields import _definition, are_within, copied, prepare, unfit
+from uwsim.base.message_fields import (
+    _definition,
+    are_within,
+    check_and_freeze,
+    copy_message,
+    find_invalid_field,
+)
 from uwsim.messages import Float64MultiArray, JointState, MultiArrayLayout, header
 
 CLASSES = sorted(
@@ -43,7 +49,7 @@ def test_a_message_that_fits_has_arrays_that_are_read_only(cls: type) -> None:
     random = RandomMessages(4, ["joint"])
     for _ in range(8):
         message = random.message(cls)
-        assert prepare(message) == unfit(copied(message)) is None
+        assert check_and_freeze(message) == find_invalid_field(copy_message(message)) is None
         assert not any(array.flags.writeable for array in arrays(message))
 
 
@@ -73,9 +79,9 @@ def spoiled(field: str, value: object) -> JointState:
 )
 def test_what_does_not_fit_is_reported_and_left_as_it_is(field: str, value: object) -> None:
     message = spoiled(field, value)
-    wrong = prepare(message)
+    wrong = check_and_freeze(message)
     assert wrong is not None
-    assert wrong == unfit(copy.copy(message))
+    assert wrong == find_invalid_field(copy.copy(message))
     assert wrong.startswith(f"{field} is ")
     assert message.velocity.flags.writeable
 
@@ -83,7 +89,7 @@ def test_what_does_not_fit_is_reported_and_left_as_it_is(field: str, value: obje
 @pytest.mark.parametrize("value", [[1.0], (1.0,), np.ones(1, np.float32), np.ones(1, int)])
 def test_numbers_of_other_kinds_are_taken(value: object) -> None:
     message = spoiled("position", value)
-    assert prepare(message) is None
+    assert check_and_freeze(message) is None
     assert isinstance(message.position, np.ndarray)
     assert not message.position.flags.writeable
 
@@ -92,7 +98,7 @@ def test_a_field_that_is_gone_is_no_reason_to_pass() -> None:
     message = Float64MultiArray(layout=MultiArrayLayout(dim=[], data_offset=0), data=np.zeros(2))
     object.__delattr__(message, "data")
     with pytest.raises(AttributeError):
-        prepare(message)
+        check_and_freeze(message)
 
 
 @pytest.mark.parametrize("n", [0, 1, 5, 32, 33, 400])

@@ -10,7 +10,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from uwsim import messages
-from uwsim.base.message_fields import unfit
+from uwsim.base.message_fields import find_invalid_field
 from uwsim.messages import PingInfo, ProjectedSonarImage, SonarImageData, Vector3
 
 TEXTS = Path(messages.__file__).parent / "marine_acoustic_msgs" / "msg"
@@ -25,7 +25,7 @@ def test_fields_are_those_of_the_definition(kind: type) -> None:
     assert kind.__msgtype__ == name  # type: ignore[attr-defined]
     fields = [each for each, _ in STORE.fielddefs[name][1]]
     assert [each.name for each in dataclasses.fields(kind)] == fields
-    assert unfit(kind()) is None
+    assert find_invalid_field(kind()) is None
 
 
 def test_a_sonar_image_is_what_ros_reads() -> None:
@@ -35,7 +35,7 @@ def test_a_sonar_image_is_what_ros_reads() -> None:
         ranges=np.array([1.0, 2.0], dtype=np.float32),
         image=SonarImageData(dtype=8, beam_count=1, data=np.arange(8, dtype=np.uint8)),
     )
-    assert unfit(message) is None
+    assert find_invalid_field(message) is None
     name = "marine_acoustic_msgs/msg/ProjectedSonarImage"
     back = STORE.deserialize_cdr(STORE.serialize_cdr(message, name), name)
     assert back.ping_info.frequency == 9e5

@@ -11,7 +11,7 @@ from rosbags.typesys import Stores, get_typestore
 
 from uwsim import messages
 from uwsim.base import message_fields
-from uwsim.base.message_fields import unfit
+from uwsim.base.message_fields import find_invalid_field
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage
 from uwsim.messages import (
@@ -38,7 +38,7 @@ def test_a_message_is_made_without_an_argument_and_is_what_ros_reads_from_zeros(
     kind: type,
 ) -> None:
     message = kind()
-    assert unfit(message) is None
+    assert find_invalid_field(message) is None
     name = kind.__msgtype__  # type: ignore[attr-defined]
     back = STORE.deserialize_cdr(STORE.serialize_cdr(message, name), name)
     assert back.__class__ is STORE.types[name]
@@ -117,20 +117,20 @@ def test_the_class_of_another_package_is_named_by_its_package() -> None:
 def test_a_number_in_a_message_in_a_message_is_checked(value: object, error: str | None) -> None:
     message = messages.TwistStamped()
     message.twist.angular.y = typing.cast("float", value)
-    assert unfit(message) == error
+    assert find_invalid_field(message) == error
 
 
 def test_a_message_of_another_type_in_a_message_is_named() -> None:
     message = messages.TwistStamped()
     message.twist.angular = typing.cast("messages.Vector3", messages.Quaternion())
-    assert str(unfit(message)).startswith("twist.angular is Quaternion(")
+    assert str(find_invalid_field(message)).startswith("twist.angular is Quaternion(")
 
 
 def test_a_message_of_rosbags_own_class_fits() -> None:
     message = messages.TwistStamped()
     own = STORE.types["geometry_msgs/msg/Vector3"](x=1.0, y=0.0, z=0.0)
     message.twist.linear = typing.cast("messages.Vector3", own)
-    assert unfit(message) is None
+    assert find_invalid_field(message) is None
 
 
 @pytest.mark.parametrize("kind", [messages.TwistStamped, messages.PoseStamped, messages.Bool])

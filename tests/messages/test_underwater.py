@@ -8,7 +8,7 @@ import pytest
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from uwsim import messages
-from uwsim.base.message_fields import unfit
+from uwsim.base.message_fields import find_invalid_field
 from uwsim.messages import DVL, LedLight, Pressure
 
 TEXTS = Path(messages.__file__).parent / "underwater_sensor_msgs" / "msg"
@@ -26,7 +26,7 @@ def test_fields_are_those_of_the_definition(kind: type) -> None:
         *(each for each, _ in STORE.fielddefs[name][1]),
         "__msgtype__",
     ]
-    assert unfit(kind()) is None
+    assert find_invalid_field(kind()) is None
 
 
 def test_a_dvl_message_is_what_ros_reads() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.network.links import Line
-from uwsim.base.record import assign, copied_record
+from uwsim.base.record import assign, copy_record
 from uwsim.errors import UnknownName
 from uwsim.network import BitErrors, EnergyModel, Mac, RateErrors, WaterChannel
 
@@ -233,7 +233,7 @@ def test_a_restored_network_goes_on_to_the_same_bits() -> None:
     for i in range(20):
         first.send("a", bytes([i]), at=0.03 * i)
         first.send("b", bytes([100 + i]), at=0.03 * i)
-    saved = copied_record(first.network.state)
+    saved = copy_record(first.network.state)
     assign(second.network.state, pickle.loads(pickle.dumps(saved)))
     first.received.clear()
     assert first.run(9.0) == second.run(9.0)

@@ -9,7 +9,7 @@ import numpy as np
 from uwsim.base import rng
 from uwsim.base.numerics.draws import STREAM, normal, stream_of, uniform
 from uwsim.base.numerics.jit import njit
-from uwsim.base.record import Drawn
+from uwsim.base.record import GeneratorState
 
 
 @njit
@@ -42,9 +42,9 @@ def test_the_generator_goes_on_in_python_where_compiled_code_has_stopped() -> No
     for n in (1, 2, 3, 4, 5):
         drawn(generator, n)
         other.standard_normal(n), other.random(n)
-        assert Drawn.by(generator) == Drawn.by(other)
+        assert GeneratorState.by(generator) == GeneratorState.by(other)
     assert generator.integers(1 << 40) == other.integers(1 << 40)
-    then = Drawn.by(generator)
+    then = GeneratorState.by(generator)
     first = drawn(generator, 10)[0]
     then.set(generator)
     assert drawn(generator, 10)[0].tobytes() == first.tobytes()

@@ -274,7 +274,7 @@ def test_one_is_told_when_many_functions_are_compiled_and_not_of_those_read(
 ) -> None:
     monkeypatch.setattr(compiling, "_n_compiled", 0)
     told: list[int] = []
-    compiling.when_many_are_compiled(lambda: told.append(compiling._n_compiled))
+    compiling.on_slow_start(lambda: told.append(compiling._n_compiled))
     module = fresh(cache)
     module.twice(1.5), module.half(np.ones(2))
     assert told == []
@@ -282,6 +282,6 @@ def test_one_is_told_when_many_functions_are_compiled_and_not_of_those_read(
     again.twice(1.5), again.half(np.ones(2))
     assert compiling._n_compiled == 2
     module.twice(1)  # of a whole number
-    assert told == [compiling.MANY]
+    assert told == [compiling.SLOW_START_COUNT]
     module.twice(np.float32(1.0))
-    assert told == [compiling.MANY]
+    assert told == [compiling.SLOW_START_COUNT]

@@ -4,21 +4,21 @@ import numpy as np
 import pytest
 
 from uwsim.base.numerics.linear import (
-    composed,
+    compose_transforms,
     cross,
     determinant,
     determinants,
     dot,
     inverse,
     length,
-    placed,
     product,
     pseudo_inverse,
     rank,
+    rotate,
+    rotate_back,
     singular_values,
     solve,
-    turned,
-    turned_back,
+    transform_points,
 )
 
 SHAPES = [
@@ -63,11 +63,11 @@ def test_matrices_that_do_not_fit_are_not_multiplied() -> None:
 def test_the_quick_ones_are_numpys() -> None:
     rotation, other, vector, points = random(3, 3), random(3, 3).T, random(3), random(7, 3)
 
-    np.testing.assert_allclose(turned(rotation, vector), rotation @ vector, rtol=1e-13)
-    np.testing.assert_allclose(turned_back(rotation, vector), rotation.T @ vector, rtol=1e-13)
+    np.testing.assert_allclose(rotate(rotation, vector), rotation @ vector, rtol=1e-13)
+    np.testing.assert_allclose(rotate_back(rotation, vector), rotation.T @ vector, rtol=1e-13)
     expected = points @ rotation.T + vector
-    np.testing.assert_allclose(placed(points, rotation, vector), expected, rtol=1e-13)
-    shift, turn = composed(rotation, vector, other, 2.0 * vector)
+    np.testing.assert_allclose(transform_points(points, rotation, vector), expected, rtol=1e-13)
+    shift, turn = compose_transforms(rotation, vector, other, 2.0 * vector)
     np.testing.assert_allclose(turn, rotation @ other, rtol=1e-13)
     np.testing.assert_allclose(shift, rotation @ (2.0 * vector) + vector, rtol=1e-13)
     assert dot(vector, points[0]) == pytest.approx(vector @ points[0])

@@ -14,7 +14,7 @@ from PIL import Image
 from scipy.io import netcdf_file
 
 from tests.support.opened import open_scene
-from uwsim.base.files.input_files import recorded
+from uwsim.base.files.input_files import record_inputs
 from uwsim.errors import ResultError
 from uwsim.results import journal
 from uwsim.results.inputs import Inputs, differing
@@ -124,7 +124,7 @@ def _plan(algorithm: str = "own_tracker:Tracker") -> Plan:
 
 def _inputs(algorithm: str = "own_tracker:Tracker") -> Inputs:
     plan = _plan(algorithm)
-    with recorded() as files:
+    with record_inputs() as files:
         simulation = open_scene(plan.scene)
     simulation.close()
     return inputs_of(plan, simulation, files)

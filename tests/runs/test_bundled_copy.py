@@ -9,7 +9,7 @@ import pytest
 from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled
 from uwsim.assets.find import PACKAGE
-from uwsim.base.files.input_files import recorded
+from uwsim.base.files.input_files import record_inputs
 from uwsim.cli import main
 from uwsim.runs.bundled_copy import copy_bundled, copyable_names
 from uwsim.runs.planning.make_plan import make_plan
@@ -20,7 +20,7 @@ from uwsim.scene.reader import read_scene
 
 def files_read(path: Path) -> set[Path]:
     """Open a copied scene or benchmark; return the files of the scene that are read."""
-    with recorded() as files:
+    with record_inputs() as files:
         if path.stem in bundled("scenes"):
             open_scene(read_scene(path)).close()
         else:

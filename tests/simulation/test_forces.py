@@ -74,7 +74,7 @@ class Gust(Force):
         self._attachment, self.state = attachment, RandomState(random)
 
     def wrenches(self, time: float) -> Iterable[tuple[Attachment, Array]]:
-        yield self._attachment, np.array([*self.state.random.standard_normal(3), 0.0, 0.0, 0.0])
+        yield self._attachment, np.array([*self.state.rng.standard_normal(3), 0.0, 0.0, 0.0])
 
 
 class Probe(Force):

@@ -30,7 +30,7 @@ from typing import Any
 import numpy as np
 
 from tests.support.short_trial import DATA, make_plan, with_algorithm
-from uwsim.base.environment import environment
+from uwsim.base.environment import set_environment
 from uwsim.benchmark.measures.euclidean_norm import EuclideanNorm
 from uwsim.bus import Node
 from uwsim.errors import ResultError
@@ -271,7 +271,7 @@ def trial(folder: Path, cheats: Sequence[type[Holds]], *, seed: int, length: flo
     """Play them with one worker, `Holds` before and behind."""
     players = (Holds, *cheats, HoldsAfterwards)
     benches = [bench_of(folder, player, seed=seed, length=length) for player in players]
-    with environment({FOLDER: str(folder)}):
+    with set_environment({FOLDER: str(folder)}):
         return run_each(benches, ProcessExecutor(1, callback_limit=60.0))
 
 

@@ -12,7 +12,7 @@ from uwsim.base import rng
 from uwsim.base.geodesy import Geodetic
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.base.numerics.calls import address_of, function_address
-from uwsim.base.numerics.memory import floats
+from uwsim.base.numerics.memory import view_doubles
 from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.network import Network
@@ -22,12 +22,12 @@ from uwsim.world.mounts import MOUNT
 
 def place_fixed(parameters: int, values: int, time: float) -> None:
     """Write the frame that `FakeBody.prepare` has written down."""
-    floats(values, 12)[:] = floats(parameters, 12)
+    view_doubles(values, 12)[:] = view_doubles(parameters, 12)
 
 
 def move_fixed(parameters: int, values: int, time: float) -> None:
     """Write the motion that `FakeBody.prepare` has written down."""
-    floats(values + 24, 9)[:] = floats(parameters + 96, 9)
+    view_doubles(values + 24, 9)[:] = view_doubles(parameters + 96, 9)
 
 
 class FakeBody:

@@ -31,7 +31,7 @@ SIGNS = ("(", ")", ",", "?", ":", "^", "-", "*", "/", "&&", "||", "<", "==", " "
 NAMES = ("a", "b", "_pi", "max", "min", "sin", "sqrt", "rint", "if", "ln", "2", "0.5", "1e300")
 SCORE = "a > 0 ? 100 - 2*b : max(a, b, 0)^2 + sqrt(sin(_pi))"
 MAX_LETTERS = 5000
-"""An error line is at most so long; `printable` cuts what is longer."""
+"""An error line is at most so long; `clean_text` cuts what is longer."""
 
 
 @functools.cache

@@ -15,7 +15,7 @@ from tests.support.short_benchmark import bench_of, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, remarks, shared_column
 from uwsim.analysis.comparison.page import render as render_comparison
 from uwsim.analysis.report.page import render
-from uwsim.base.terminal import printable
+from uwsim.base.terminal import clean_text
 from uwsim.cli.exit_status import one_line
 from uwsim.cli.verify import head
 from uwsim.errors import UwsimError
@@ -151,7 +151,7 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
     check_inputs(stored.inputs, sound.bench.inputs)
     bench = Run(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
     trials = finished(directory, plan, stored)
-    printable(head(stored, directory, len(trials), len(plan.trials())))
+    clean_text(head(stored, directory, len(trials), len(plan.trials())))
     if trials:
         made_otherwise(stored, directory, bench.info)
         verify(directory, stored, bench, trials, executor=Copies(sound))

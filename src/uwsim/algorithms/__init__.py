@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from collections.abc import Mapping
 
-from ..base.interrupts import is_of_user
+from ..base.interrupts import is_user_interrupt
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean, type_and_text
 from .control import PI, P
@@ -61,7 +61,7 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
     try:
         module = importlib.import_module(module_name)
     except BaseException as error:  # SystemExit of a script, too
-        if is_of_user(error):
+        if is_user_interrupt(error):
             raise
         raise BadSetting(
             f"Algorithm {name!r}: the module {module_name!r} cannot be imported: "

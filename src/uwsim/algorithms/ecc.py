@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.linear import determinant, inverse, product
-from ..base.numerics.opencv import plain_opencv
+from ..base.numerics.opencv import deterministic_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
 from .esm.homography import between, unimodular, warp
@@ -54,7 +54,7 @@ class EccTracker(Tracker):
     pyramid.
     """
 
-    @plain_opencv()
+    @deterministic_opencv()
     def __init__(
         self,
         image: Grey,
@@ -87,7 +87,7 @@ class EccTracker(Tracker):
         """Begin the next search at ``quad``."""
         self._homography = between(self._quad, quad)
 
-    @plain_opencv()
+    @deterministic_opencv()
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next image."""
         import cv2

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Array
 from ..base.numerics.linear import determinant
-from ..base.numerics.opencv import plain_opencv
+from ..base.numerics.opencv import deterministic_opencv
 from .direct_tracker import crossing
 from .esm.alignment import zncc
 from .esm.homography import between, unimodular, warp
@@ -63,7 +63,7 @@ class OrbTracker(Tracker):
     draws of MAGSAC begin anew from the same seed in every image.
     """
 
-    @plain_opencv()
+    @deterministic_opencv()
     def __init__(
         self,
         image: Grey,
@@ -103,7 +103,7 @@ class OrbTracker(Tracker):
         """Set the last estimate to ``quad``; the next image is searched as a whole all the same."""
         self._homography = between(self._quad, quad)
 
-    @plain_opencv()
+    @deterministic_opencv()
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next image."""
         homography = self._match(image)

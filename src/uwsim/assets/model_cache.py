@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.files import disk_cache
-from ..base.numerics.opencv import plain_opencv
+from ..base.numerics.opencv import deterministic_opencv
 from .mesh import Mesh, Model, Texture
 from .stand_ins import STAND_INS
 
@@ -45,7 +45,7 @@ def made(name: str) -> Model:
 
 def _make(name: str) -> Model:
     stand_in = STAND_INS[name]
-    with plain_opencv():
+    with deterministic_opencv():
         meshes = stand_in.make()
     digest = hashlib.sha256()
     for mesh in meshes:

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from ..base.numerics.opencv import plain_opencv
+from ..base.numerics.opencv import deterministic_opencv
 from .mesh import Model, Texture
 
 KEPT = 16
@@ -43,7 +43,7 @@ def _clouded(texture: Texture, pattern: int, strength: float) -> Texture:
     from .procedural.textures import noise
 
     height, width = texture.pixels.shape[:2]
-    with plain_opencv():
+    with deterministic_opencv():
         name = f"weathering/{pattern}"
         clouds = noise(name, height, width, cells=6, octaves=5, tiles=texture.repeats)
     factor = 1.0 + np.float32(strength) * clouds  # (h, w)

@@ -2,7 +2,7 @@
 
 By default every one of these is repaired. ``u:compatibility="thresholds rows"`` on ``<benchmark>``
 or ``--compat thresholds,rows`` brings the named ones back; ``uwsim`` brings back all but those of
-`OLDER`, which the original itself no longer had.
+`OLDER_QUIRKS`, which the original itself no longer had.
 """
 
 from __future__ import annotations
@@ -49,12 +49,12 @@ COMPATIBILITY: dict[str, str] = {
 }
 """Name -> what the original does. In alphabetical order."""
 
-OLDER = frozenset({"visual-frames"})
+OLDER_QUIRKS = frozenset({"visual-frames"})
 """What files of an older original mean and those of the last one do not: not part of ``uwsim``."""
 
 
 def compatibility(names: Iterable[str]) -> frozenset[str]:
-    """Return the set of quirks for these names; ``uwsim`` means all but `OLDER`.
+    """Return the set of quirks for these names; ``uwsim`` means all but `OLDER_QUIRKS`.
 
     Raises:
         UnknownName: a name is not in the table.
@@ -62,7 +62,7 @@ def compatibility(names: Iterable[str]) -> frozenset[str]:
     asked: set[str] = set()
     for name in names:
         if name == "uwsim":
-            asked.update(COMPATIBILITY.keys() - OLDER)
+            asked.update(COMPATIBILITY.keys() - OLDER_QUIRKS)
         elif name in COMPATIBILITY:
             asked.add(name)
         else:

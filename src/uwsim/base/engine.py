@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from .environment import environment
-from .interrupts import ignoring_interrupts
+from .environment import set_environment
+from .interrupts import block_interrupts
 
-with environment({"MUJOCO_GL": "disable"}), ignoring_interrupts():
+with set_environment({"MUJOCO_GL": "disable"}), block_interrupts():
     import mujoco as mujoco
 
 

@@ -12,20 +12,20 @@ CLIENT_SECRET = "UWSIM_CLIENT_SECRET"
 """Variable with the secret that the join of a client in lock-step has to have."""
 
 
-def without_secrets(variables: Mapping[str, str]) -> dict[str, str]:
+def remove_secrets(variables: Mapping[str, str]) -> dict[str, str]:
     """Return the variables without those that hold secrets, for a process that needs none."""
     return {k: v for k, v in variables.items() if k not in (WEB_TOKEN, CLIENT_SECRET)}
 
 
-def not_chosen(variables: Mapping[str, str]) -> dict[str, str]:
+def select_unset(variables: Mapping[str, str]) -> dict[str, str]:
     """Return those of the variables that the user has not set."""
     return {name: value for name, value in variables.items() if name not in os.environ}
 
 
 @contextmanager
-def environment(variables: Mapping[str, str]) -> Iterator[None]:
+def set_environment(variables: Mapping[str, str]) -> Iterator[None]:
     """Set the variables, where the user has not, for as long as the block lasts."""
-    ours = not_chosen(variables)
+    ours = select_unset(variables)
     os.environ.update(ours)
     try:
         yield

@@ -72,7 +72,7 @@ GRAMMAR = r"""
     %ignore /[ \t\r\n]+/
 """
 
-SHOWN = 60
+CONTEXT_LENGTH = 60
 """How much of an expression is shown on either side of what is wrong with it [characters]."""
 
 Function = Callable[..., Any]
@@ -88,10 +88,10 @@ class ScoreError(UwsimError):
 
     def pointed_at(self) -> str:
         """The text, and on the next line a caret under the wrong character; long ones are cut."""
-        start = max(0, self.column - SHOWN)
+        start = max(0, self.column - CONTEXT_LENGTH)
         before = "..." if start else ""
-        after = "..." if len(self.text) > self.column + SHOWN else ""
-        piece = before + _one_line(self.text[start : self.column + SHOWN]) + after
+        after = "..." if len(self.text) > self.column + CONTEXT_LENGTH else ""
+        piece = before + _one_line(self.text[start : self.column + CONTEXT_LENGTH]) + after
         return f"  {piece}\n  {' ' * (len(before) + self.column - start)}^"
 
 

@@ -22,7 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .geometry import Array
-from .numerics.linear import turned, turned_back
+from .numerics.linear import rotate, rotate_back
 
 SEMI_MAJOR_AXIS = 6378137.0
 """Of the ellipsoid [m]."""
@@ -71,7 +71,7 @@ class Geodetic:
 
     def north_east_down(self, place: Geodetic) -> Array:
         """Return where another place is in the local frame of this one, (3,) [m]."""
-        return turned_back(self.axes, place.earth_centred - self.earth_centred)
+        return rotate_back(self.axes, place.earth_centred - self.earth_centred)
 
     def place(self, north_east_down: Array) -> Geodetic:
         """Return the place at these local coordinates (3,) [m]: the inverse of the above.
@@ -79,7 +79,7 @@ class Geodetic:
         By iterating over the latitude; altitudes as Bowring's, Survey Review 28, 1985. Exact to
         1e-8 m near the ellipsoid.
         """
-        x, y, z = (self.earth_centred + turned(self.axes, north_east_down)).tolist()
+        x, y, z = (self.earth_centred + rotate(self.axes, north_east_down)).tolist()
         e2 = FLATTENING * (2.0 - FLATTENING)
         level = math.hypot(x, y)
         latitude = math.atan2(z, level * (1.0 - e2))

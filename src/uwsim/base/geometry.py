@@ -14,11 +14,11 @@ import numpy as np
 
 from .numerics.jit import njit
 from .numerics.linear import Array as Array
-from .numerics.linear import composed, length, placed, product, turned_back
+from .numerics.linear import compose_transforms, length, product, rotate_back, transform_points
 
 Triple = tuple[float, float, float]
 ZERO: Triple = (0.0, 0.0, 0.0)
-ONE: Triple = (1.0, 1.0, 1.0)
+UNIT_SCALE: Triple = (1.0, 1.0, 1.0)
 
 
 def rotation_x(angle: float) -> Array:
@@ -172,7 +172,9 @@ class Pose:
         return matrix
 
     def __matmul__(self, other: Pose) -> Pose:
-        return Pose(*composed(self.rotation, self.position, other.rotation, other.position))
+        return Pose(
+            *compose_transforms(self.rotation, self.position, other.rotation, other.position)
+        )
 
     def copy(self) -> Pose:
         """The same, in arrays of its own."""
@@ -180,12 +182,14 @@ class Pose:
 
     def inverse(self) -> Pose:
         """``b_from_a``."""
-        return Pose(-turned_back(self.rotation, self.position), self.rotation.T)
+        return Pose(-rotate_back(self.rotation, self.position), self.rotation.T)
 
     def transform(self, points: Array) -> Array:
         """Points in b, (n, 3) or one (3,), as points in a, of the same shape [m]."""
         rows = np.asarray(points, dtype=np.float64)
-        return placed(np.atleast_2d(rows), self.rotation, self.position).reshape(rows.shape)
+        return transform_points(np.atleast_2d(rows), self.rotation, self.position).reshape(
+            rows.shape
+        )
 
 
 def image_centre(width: int, height: int) -> tuple[float, float]:
@@ -247,7 +251,7 @@ class Intrinsics:
             far=far,
         )
 
-    def resized(self, width: int, height: int) -> Intrinsics:
+    def with_size(self, width: int, height: int) -> Intrinsics:
         """The same pinhole on an image of another size: as high a field of view, wider or narrower.
 
         What is in the centre of the image stays there.

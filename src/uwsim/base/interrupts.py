@@ -2,8 +2,8 @@
 
 Python answers Ctrl-C by raising KeyboardInterrupt wherever it happens to be, and while libraries
 are loaded that is inside them: some turn it into another error, some print it and go on. So a
-command begins with `end_at_once`, and says `raise_from_now_on` before it writes its first file.
-From then on the system's SIGTERM, and the SIGHUP of a terminal that is closed, are as Ctrl-C.
+command begins with `exit_on_interrupt`, and calls `raise_on_interrupt` before it writes its first
+file. From then on SIGTERM, and the SIGHUP of a closed terminal, have the effect of Ctrl-C.
 
 Some libraries call Python from compiled code and do not look for an error: moderngl's crashes the
 process when it makes a program's uniforms, numba's goes on with a named tuple that is not there.
@@ -20,26 +20,26 @@ from contextlib import contextmanager
 from threading import Event, Timer, current_thread, get_ident, main_thread
 from types import FrameType
 
-STATUS = 130
+INTERRUPTED_STATUS = 130
 """Exit status of what was interrupted: that of shells."""
-UNSAFE = ("moderngl", "_moderngl", "glcontext", "numba", "llvmlite")
+UNSAFE_PACKAGES = ("moderngl", "_moderngl", "glcontext", "numba", "llvmlite")
 """Packages that an exception from nowhere may break; and the named tuples that numba makes."""
-LATER = 0.02
+RETRY_DELAY = 0.02
 """How long an interrupt waits before it tries again [s]."""
-_arrived = Event()
-_waits = Event()
+_was_raised = Event()
+_is_pending = Event()
 _is_blocked = Event()
 
 
-def end_at_once() -> None:
+def exit_on_interrupt() -> None:
     """From now on Ctrl-C ends this process with one line, unless SIGINT is ignored."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, _end)
 
 
-def raise_from_now_on() -> None:
+def raise_on_interrupt() -> None:
     """From now on the signals that ended the process at once raise KeyboardInterrupt."""
-    _arrived.clear()  # one that waits goes on waiting
+    _was_raised.clear()  # one that waits goes on waiting
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, _raise)
     for number in (signal.SIGTERM, signal.SIGHUP):
@@ -49,19 +49,19 @@ def raise_from_now_on() -> None:
 
 def raise_if_interrupted() -> None:
     """Raise KeyboardInterrupt if one waits, or was raised here and something has caught it."""
-    raise_if_one_waits()
-    if _arrived.is_set():
-        _arrived.clear()
+    raise_pending_interrupt()
+    if _was_raised.is_set():
+        _was_raised.clear()
         raise KeyboardInterrupt
 
 
-def raise_if_one_waits() -> None:
+def raise_pending_interrupt() -> None:
     """Raise KeyboardInterrupt if one waits until a library may be interrupted: now it may be."""
-    if _waits.is_set() and current_thread() is main_thread():
+    if _is_pending.is_set() and current_thread() is main_thread():
         _interrupt()
 
 
-def ignore_from_now_on() -> None:
+def ignore_interrupts() -> None:
     """From now on Ctrl-C does nothing: the work is done and the exit status is known.
 
     For the last milliseconds of a process: Python gives SIGINT its default action back before it
@@ -75,13 +75,13 @@ def are_interrupts_unblocked() -> bool:
     return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
 
-def is_of_user(error: BaseException) -> bool:
+def is_user_interrupt(error: BaseException) -> bool:
     """Whether an exception may be the user's Ctrl-C."""
     return isinstance(error, KeyboardInterrupt) and are_interrupts_unblocked()
 
 
 @contextmanager
-def ignoring_interrupts() -> Iterator[None]:
+def block_interrupts() -> Iterator[None]:
     """Start processes in this block that ignore Ctrl-C for as long as they run.
 
     For this process it waits until the block is left. The system may hand it to another thread,
@@ -111,12 +111,12 @@ def _end(number: int, frame: FrameType | None) -> None:
         _try_again(number)
     else:
         os.write(2, b"uwsim: interrupted.\n")
-        os._exit(STATUS)
+        os._exit(INTERRUPTED_STATUS)
 
 
 def _interrupt() -> None:
-    _waits.clear()
-    _arrived.set()
+    _is_pending.clear()
+    _was_raised.set()
     raise KeyboardInterrupt
 
 
@@ -124,7 +124,7 @@ def _is_unsafe(frame: FrameType | None) -> bool:
     """Whether one of the packages that may break is at work."""
     while frame is not None:
         package = str(frame.f_globals.get("__name__")).partition(".")[0]
-        if package in UNSAFE or package.startswith("namedtuple_"):
+        if package in UNSAFE_PACKAGES or package.startswith("namedtuple_"):
             return True
         frame = frame.f_back
     return False
@@ -132,12 +132,12 @@ def _is_unsafe(frame: FrameType | None) -> bool:
 
 def _try_again(number: int) -> None:
     """Send this thread, the main one, the signal in a moment, unless it was raised until then."""
-    _waits.set()
-    timer = Timer(LATER, _send, (get_ident(), number))
+    _is_pending.set()
+    timer = Timer(RETRY_DELAY, _send, (get_ident(), number))
     timer.daemon = True
     timer.start()
 
 
 def _send(thread: int, number: int) -> None:
-    if _waits.is_set():
+    if _is_pending.is_set():
         signal.pthread_kill(thread, number)

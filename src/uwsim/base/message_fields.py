@@ -36,23 +36,23 @@ _WORDS = {
     "list": "a list of what is defined there",
     "message": "a message",
 }
-FEW = 32
+MAX_LOOP_LENGTH = 32
 """Numbers that are looked at one by one."""
 _ARRAY = re.compile(r"np\.ndarray\[.*np\.dtype\[np\.(\w+)\]\]")
 _LIST = re.compile(r"list\[(.*)\]")
 
 
-def unfit(message: object, of: str = "", *, converts: bool = True) -> str | None:
+def find_invalid_field(message: object, of: str = "", *, converts: bool = True) -> str | None:
     """Report the first field of a message that does not fit its definition, or None.
 
     Lists and tuples given for arrays become arrays, or do not fit (``converts``). ``of`` is the
     path to a message in another, with a dot behind it.
     """
-    return None if _is_plainly_fit(message) else _misfit(message, of, converts)
+    return None if _is_plainly_fit(message) else _check_fields(message, of, converts)
 
 
-def _misfit(message: object, of: str, converts: bool) -> str | None:
-    """Report as `unfit` does, field by field."""
+def _check_fields(message: object, of: str, converts: bool) -> str | None:
+    """Report as `find_invalid_field` does, field by field."""
     for name, kind, inner in _definition(cast(Hashable, message.__class__)):
         value = getattr(message, name)
         wrong: str | None = None
@@ -68,10 +68,10 @@ def _misfit(message: object, of: str, converts: bool) -> str | None:
                 if inner == "str":
                     is_fit = is_fit and isinstance(item, str)
                 elif wrong is None and (is_fit := is_fit and _is_message(item, inner)):
-                    wrong = unfit(item, f"{of}{name}[{i}].", converts=converts)
+                    wrong = find_invalid_field(item, f"{of}{name}[{i}].", converts=converts)
         elif kind == "message":
             is_fit = _is_message(value, inner)
-            wrong = unfit(value, f"{of}{name}.", converts=converts) if is_fit else None
+            wrong = find_invalid_field(value, f"{of}{name}.", converts=converts) if is_fit else None
         else:
             is_fit = isinstance(value, _FITTING[kind])
         if not is_fit:
@@ -83,11 +83,11 @@ def _misfit(message: object, of: str, converts: bool) -> str | None:
     return None
 
 
-def prepare(message: object) -> str | None:
-    """Report as `unfit` does; the arrays of a message that fits are read-only from now on."""
+def check_and_freeze(message: object) -> str | None:
+    """Report as `find_invalid_field` does; make the arrays of a valid message read-only."""
     if _is_plainly_fit(message, freezes=True):
         return None
-    wrong = _misfit(message, "", converts=True)
+    wrong = _check_fields(message, "", converts=True)
     if wrong is None:
         freeze(message)
     return wrong
@@ -119,7 +119,9 @@ def _is_plainly_fit(message: object, *, freezes: bool = False) -> bool:
     return True
 
 
-def odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str, str] | None:
+def find_invalid_number(
+    message: object, paths: Sequence[str], limit: float
+) -> tuple[str, str] | None:
     """Report the first number of a command that is not finite, or else beyond a limit.
 
     Args:
@@ -143,7 +145,7 @@ def odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str
 
 def are_within(values: np.ndarray[Any, Any], limit: float) -> bool:
     """Whether no number of an array is NaN, or greater than a limit."""
-    if values.size <= FEW:  # numpy's functions take longer than those numbers
+    if values.size <= MAX_LOOP_LENGTH:  # numpy's functions take longer than those numbers
         return all(-limit <= value <= limit for value in values.ravel().tolist())
     return bool(np.abs(values).max() <= limit)
 
@@ -189,7 +191,7 @@ def _freeze_value(value: object) -> None:
             _freeze_value(item)
 
 
-def copied(message: M) -> M:
+def copy_message(message: M) -> M:
     """Return the same message with arrays, lists and messages of its own."""
     if hasattr(message, "__dict__"):
         own: M = object.__new__(message.__class__)
@@ -209,7 +211,7 @@ def _copied_value(value: object) -> object:
     if isinstance(value, list | tuple):
         items = [_copied_value(item) for item in value]
         return items if isinstance(value, list) else tuple(items)
-    return copied(value) if dataclasses.is_dataclass(value) else value
+    return copy_message(value) if dataclasses.is_dataclass(value) else value
 
 
 def size_of(value: object) -> int:

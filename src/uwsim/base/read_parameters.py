@@ -10,41 +10,41 @@ from ..errors import did_you_mean
 Value = float | str
 
 
-class ReadParameters(dict[str, Value]):
+class TrackedParameters(dict[str, Value]):
     """A dict that remembers the names that were asked for; whoever goes through it asks for all."""
 
     def __init__(self, given: Mapping[str, Value]) -> None:
         super().__init__(given)
-        self.given = dict(given)
+        self.plain_copy = dict(given)
         """The parameters, to be looked at without asking."""
-        self.asked: dict[str, None] = {}
+        self.names_read: dict[str, None] = {}
         """The names that were asked for, in this order, whether or not they were given."""
 
     def _all(self) -> None:
-        self.asked.update(dict.fromkeys(self.given))
+        self.names_read.update(dict.fromkeys(self.plain_copy))
 
     def __getitem__(self, name: str) -> Value:
-        self.asked[name] = None
+        self.names_read[name] = None
         return super().__getitem__(name)
 
     def __contains__(self, name: object) -> bool:
         if isinstance(name, str):
-            self.asked[name] = None
+            self.names_read[name] = None
         return super().__contains__(name)
 
     def get(self, name: str, default: Any = None) -> Any:
         """Return a value, or the default."""
-        self.asked[name] = None
+        self.names_read[name] = None
         return super().get(name, default)
 
     def pop(self, name: str, *default: Any) -> Any:
         """Take a value out, or the default."""
-        self.asked[name] = None
+        self.names_read[name] = None
         return super().pop(name, *default)
 
     def setdefault(self, name: str, default: Any = None) -> Any:
         """Return a value; where there is none, the default, which is put in."""
-        self.asked[name] = None
+        self.names_read[name] = None
         return super().setdefault(name, default)
 
     def __iter__(self) -> Iterator[str]:
@@ -78,7 +78,7 @@ class ReadParameters(dict[str, Value]):
         return other | self.copy()
 
 
-def unread_note(name: str, given: Iterable[str], asked: Iterable[str]) -> str:
+def describe_unread_parameters(name: str, given: Iterable[str], asked: Iterable[str]) -> str:
     """Say which parameters an algorithm never asked for; empty if it asked for all.
 
     Args:
@@ -97,6 +97,6 @@ def unread_note(name: str, given: Iterable[str], asked: Iterable[str]) -> str:
     return f"algorithm {name!r} never read the {which} {shown}.{near} {asks}"
 
 
-def unasked(parameters: object) -> object:
+def untracked_parameters(parameters: object) -> object:
     """Return parameters that may be gone through without asking for them."""
-    return parameters.given if isinstance(parameters, ReadParameters) else parameters
+    return parameters.plain_copy if isinstance(parameters, TrackedParameters) else parameters

@@ -3,12 +3,12 @@
 A part of a running scene keeps what changes in one record, its ``state``, and sets no other
 attribute after it was made. The records lie in each other as the parts do; the outermost is the
 state of a whole simulation. In a running one they hold what runs: arrays that compiled code writes,
-random generators, the engine's memory. `copied` returns a record of values alone, and `assign`
+random generators, the engine's memory. `copy_value` returns a record of values alone, and `assign`
 writes such values back into what runs.
 
 A record is a dataclass with slots. Its fields hold numbers, texts, tuples and frozen dataclasses,
 which are never changed but replaced; arrays, lists, dictionaries and queues of them; generators;
-`Live` parts; and records, alone or in lists and dictionaries.
+`ExternalValue` parts; and records, alone or in lists and dictionaries.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class NoState(Record):
 class RandomState(Record):
     """The record of a part that changes by what it draws alone."""
 
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator that it draws from."""
 
 
@@ -55,7 +55,7 @@ class Item(Record):
     __slots__ = ()
 
 
-class Live(abc.ABC):
+class ExternalValue(abc.ABC):
     """Something that runs outside Python's objects, and whose values can be read and set."""
 
     @abc.abstractmethod
@@ -78,7 +78,7 @@ class Part(Protocol):
 P = TypeVar("P", bound=Part)
 
 
-class Lazy(Live, Generic[P]):
+class LazyPart(ExternalValue, Generic[P]):
     """A part that is made when it is first needed, and with it its record.
 
     Args:
@@ -90,7 +90,7 @@ class Lazy(Live, Generic[P]):
         self.part: P | None = None
         """The part; None before it was needed."""
 
-    def made(self) -> P:
+    def get_or_make(self) -> P:
         """Return the part; make it if it is not there."""
         if self.part is None:
             self.part = self._make()
@@ -98,18 +98,18 @@ class Lazy(Live, Generic[P]):
 
     def value(self) -> Record | None:
         """Return the record of the part; None before it was needed."""
-        return None if self.part is None else copied_record(self.part.state)
+        return None if self.part is None else copy_record(self.part.state)
 
     def set(self, value: object) -> None:
         """Set the record of the part, which is made or given up as needed."""
         if value is None:
             self.part = None
             return
-        assign(self.made().state, _checked(value, Record))
+        assign(self.get_or_make().state, _require_type(value, Record))
 
 
 @dataclasses.dataclass(slots=True)
-class Drawn(Item):
+class GeneratorState(Item):
     """How far a random generator has drawn."""
 
     words: bytes
@@ -120,13 +120,13 @@ class Drawn(Item):
     """The half of a word that is left."""
 
     @staticmethod
-    def by(generator: np.random.Generator) -> Drawn:
+    def by(generator: np.random.Generator) -> GeneratorState:
         """Read it from a generator of `uwsim.base.rng.stream`."""
         state: Any = generator.bit_generator.state
         counter, key = state["state"].values()
         words = counter.tobytes() + key.tobytes() + state["buffer"].tobytes()
         half = state["uinteger"] if state["has_uint32"] else None
-        return Drawn(words, state["buffer_pos"], half)
+        return GeneratorState(words, state["buffer_pos"], half)
 
     def set(self, generator: np.random.Generator) -> None:
         """Let a generator go on from here."""
@@ -141,12 +141,12 @@ class Drawn(Item):
         }
 
 
-def copied(value: Any) -> Any:
+def copy_value(value: Any) -> Any:
     """Return a value that shares nothing that changes with this one."""
     return _COPIES[type(value)](value)
 
 
-def copied_record(record: R) -> R:
+def copy_record(record: R) -> R:
     """Return a record of values alone."""
     copy: R = _COPIES[type(record)](record)
     return copy
@@ -157,7 +157,7 @@ def changing_fields(kind: type) -> tuple[int, ...]:
     return tuple(
         place
         for place, each in enumerate(dataclasses.fields(kind))
-        if not _PLAIN.issuperset(str(each.type).split(" | "))
+        if not _SCALAR_TYPES.issuperset(str(each.type).split(" | "))
     )
 
 
@@ -182,10 +182,10 @@ class _Copies(dict[type, Callable[[Any], Any]]):
     """What copies a value, by its type."""
 
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
-        self[kind] = _itself
+        self[kind] = _return_unchanged
         if issubclass(kind, Record):
             self[kind] = _record_copier(kind)
-        elif issubclass(kind, Live):
+        elif issubclass(kind, ExternalValue):
             self[kind] = kind.value
         return self[kind]
 
@@ -206,24 +206,24 @@ def _record_copier(kind: type[Any]) -> Callable[[Any], Any]:
     return copy
 
 
-def _itself(value: Any) -> Any:
+def _return_unchanged(value: Any) -> Any:
     return value
 
 
-def _copied_array(value: Any) -> Any:
+def _copy_array(value: Any) -> Any:
     return value.copy() if value.flags.writeable else value
 
 
-_PLAIN = {"int", "float", "bool", "str", "bytes", "None"}
+_SCALAR_TYPES = {"int", "float", "bool", "str", "bytes", "None"}
 _FIELDS = _Fields()
 _COPIES: _Copies = _Copies(
     {
-        NoState: _itself,
-        np.ndarray: _copied_array,
-        np.random.Generator: Drawn.by,
+        NoState: _return_unchanged,
+        np.ndarray: _copy_array,
+        np.random.Generator: GeneratorState.by,
         list: lambda value: [_COPIES[type(each)](each) for each in value],
         dict: lambda value: {key: _COPIES[type(each)](each) for key, each in value.items()},
-        deque: lambda value: deque(map(copied, value), value.maxlen),
+        deque: lambda value: deque(map(copy_value, value), value.maxlen),
     }
 )
 
@@ -235,13 +235,13 @@ def assign(record: Record, values: Record) -> None:
         UwsimError: they are those of another part.
     """
     if type(record) is not type(values):
-        raise of_another_scene()
+        raise wrong_scene_error()
     assign_fields(record, dict(zip(values.__slots__, fields_of(values), strict=True)))
 
 
-def copied_fields(record: Record, names: Collection[str]) -> dict[str, Any]:
+def copy_fields(record: Record, names: Collection[str]) -> dict[str, Any]:
     """Return the values of some fields of a record, by name."""
-    return {name: copied(getattr(record, name)) for name in names}
+    return {name: copy_value(getattr(record, name)) for name in names}
 
 
 def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
@@ -252,7 +252,7 @@ def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
     """
     for name, then in values.items():
         if not _is_assigned(getattr(record, name), then):
-            setattr(record, name, copied(then))
+            setattr(record, name, copy_value(then))
 
 
 def _is_assigned(now: Any, then: Any) -> bool:
@@ -260,21 +260,21 @@ def _is_assigned(now: Any, then: Any) -> bool:
     if _is_parts(now):
         assign(now, then)
     elif isinstance(now, np.random.Generator):
-        _checked(then, Drawn).set(now)
-    elif isinstance(now, Live):
+        _require_type(then, GeneratorState).set(now)
+    elif isinstance(now, ExternalValue):
         now.set(then)
     elif isinstance(now, np.ndarray) and now.flags.writeable:
         if not isinstance(then, np.ndarray) or (then.shape, then.dtype) != (now.shape, now.dtype):
             return False
         now[...] = then
     elif isinstance(now, dict) and any(map(_is_parts, now.values())):
-        if list(_checked(then, dict)) != list(now):
-            raise of_another_scene()
+        if list(_require_type(then, dict)) != list(now):
+            raise wrong_scene_error()
         for key, each in now.items():
             assign(each, then[key])
     elif isinstance(now, list) and any(map(_is_parts, now)):
-        if len(_checked(then, list)) != len(now):
-            raise of_another_scene()
+        if len(_require_type(then, list)) != len(now):
+            raise wrong_scene_error()
         for each, values in zip(now, then, strict=True):
             assign(each, values)
     else:
@@ -306,12 +306,12 @@ def is_same(first: Any, second: Any) -> bool:
     return bool(first == second) or (first != first and second != second)
 
 
-def of_another_scene() -> UwsimError:
+def wrong_scene_error() -> UwsimError:
     """Return the error of a state that belongs to other parts."""
     return UwsimError("The saved simulation is not of this scene.")
 
 
-def _checked(value: Any, kind: type) -> Any:
+def _require_type(value: Any, kind: type) -> Any:
     if not isinstance(value, kind):
-        raise of_another_scene()
+        raise wrong_scene_error()
     return value

@@ -18,12 +18,12 @@ import numpy.typing as npt
 from .numerics.calls import address_of, call, evaluate, function_address
 from .numerics.jit import njit
 from .numerics.linear import Array
-from .numerics.memory import Ints64, carray, floats, longs, pointer, real
+from .numerics.memory import Ints64, carray, pointer, read_double, view_doubles, view_int64s
 from .record import Record
 
 START, N_SAMPLES, DUE = range(3)
 """Of the counts of a timer: the step of its first sample, the samples taken, the next step."""
-NEVER = 2**62
+NO_STEP = 2**62
 """The step of what is never due."""
 
 TIMER = np.dtype(
@@ -69,20 +69,20 @@ def take_due(tables: Records, step: int) -> None:
     """Count the timers that are due at a step, and take the samples of those with a sampler."""
     table = tables[0]
     timers = carray(pointer(table.timers), (table.n,), TIMER)
-    least = NEVER
+    least = NO_STEP
     for i in range(table.n):
         timer = timers[i]
-        counts = longs(timer.counts, 3)
+        counts = view_int64s(timer.counts, 3)
         is_due = step >= counts[DUE]
         timer.is_fired = timer.is_needed if is_due else 0
         if is_due:
             count_sample(counts, timer.rate, table.timestep)
             if timer.function != 0 and timer.is_needed != 0:
                 time = step * table.timestep
-                floats(timer.values, 1)[0] = time
+                view_doubles(timer.values, 1)[0] = time
                 call(timer.function, timer.parameters, timer.values + 8, time)
         least = min(least, counts[DUE])
-    longs(table.due, 1)[0] = least
+    view_int64s(table.due, 1)[0] = least
 
 
 @dataclass(slots=True)
@@ -181,7 +181,9 @@ NUMBERS = np.dtype([("addresses", np.int64), ("n", np.int64)])
 Addresses = npt.NDArray[np.int64]
 
 
-def addresses_in(array: npt.NDArray[np.float64], places: npt.ArrayLike | None = None) -> Addresses:
+def number_addresses(
+    array: npt.NDArray[np.float64], places: npt.ArrayLike | None = None
+) -> Addresses:
     """Return the addresses of numbers of a contiguous array, which has to live on, (n,).
 
     Args:
@@ -192,7 +194,7 @@ def addresses_in(array: npt.NDArray[np.float64], places: npt.ArrayLike | None = 
     return address_of(array) + array.itemsize * chosen.ravel()
 
 
-def gathering(
+def gather_sampler(
     addresses: Addresses,
     *,
     prepare: Callable[[float], None],
@@ -220,6 +222,6 @@ def gathering(
 def gather(parameters: int, values: int, time: float) -> None:
     """Copy numbers from their addresses; see `uwsim.base.numerics.calls`."""
     numbers = carray(pointer(parameters), (1,), NUMBERS)[0]
-    addresses, found = longs(numbers.addresses, numbers.n), floats(values, numbers.n)
+    addresses, found = view_int64s(numbers.addresses, numbers.n), view_doubles(values, numbers.n)
     for i in range(numbers.n):
-        found[i] = real(addresses[i])
+        found[i] = read_double(addresses[i])

@@ -16,7 +16,7 @@ def system_error_text(error: OSError) -> str:
 
 
 @contextmanager
-def as_run_failed() -> Iterator[None]:
+def convert_to_run_failed() -> Iterator[None]:
     """Turn system errors in this block into `RunFailed`, because the inputs were checked before."""
     try:
         yield

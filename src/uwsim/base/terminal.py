@@ -19,13 +19,13 @@ MAX_LINE_LENGTH = 4000
 
 def warn(message: str) -> None:
     """Print a warning; the command continues."""
-    print(printable(f"uwsim: warning: {message}"), file=sys.stderr)
+    print(clean_text(f"uwsim: warning: {message}"), file=sys.stderr)
 
 
 def print_warnings(found: Iterable[Diagnostic]) -> None:
     """Print warnings about files; the command continues."""
     for warning in found:
-        print(printable(str(warning)), file=sys.stderr)
+        print(clean_text(str(warning)), file=sys.stderr)
 
 
 def ignore_casts() -> None:
@@ -37,19 +37,19 @@ def ignore_casts() -> None:
     warnings.filterwarnings("ignore", what, RuntimeWarning)
 
 
-def printable(text: str) -> str:
+def clean_text(text: str) -> str:
     """Return a text from an untrusted file without control characters, cut to a readable length."""
     return "\n".join(_legible(line) for line in text.split("\n"))
 
 
 def _legible(line: str) -> str:
-    shown = LONG.sub(_shortened, line[: 10 * MAX_LINE_LENGTH])
+    shown = LONG_WORD.sub(_shortened, line[: 10 * MAX_LINE_LENGTH])
     if len(shown) > MAX_LINE_LENGTH or len(line) > 10 * MAX_LINE_LENGTH:
         shown = f"{shown[:MAX_LINE_LENGTH]}…"
-    return legible(shown)
+    return escape_control_characters(shown)
 
 
-def legible(text: str) -> str:
+def escape_control_characters(text: str) -> str:
     """Escape all control characters but line ends."""
     return "".join(
         letter if letter.isprintable() or letter == "\n" else f"\\x{ord(letter):02x}"
@@ -57,12 +57,14 @@ def legible(text: str) -> str:
     )
 
 
-def one_line(text: str) -> str:
+def escape_to_one_line(text: str) -> str:
     """Escape all control characters, line ends too."""
-    return legible(text).replace("\n", "\\n")
+    return escape_control_characters(text).replace("\n", "\\n")
 
 
-LONG = re.compile(rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{MAX_QUOTE_LENGTH + 1},}}""")
+LONG_WORD = re.compile(
+    rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{MAX_QUOTE_LENGTH + 1},}}"""
+)
 """Quoted texts, and long words."""
 
 

@@ -36,7 +36,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..base.inbox import Inbox
-from ..base.numerics.linear import placed, product, turned_back
+from ..base.numerics.linear import product, rotate_back, transform_points
 from ..messages import Float32MultiArray
 from ..schema import Spec, element
 from ..world import Body, Box, Camera, World
@@ -182,7 +182,7 @@ class RelativeLocation(GroundTruth):
     def read(self) -> Array:
         """Return the location now, (3,) [m]."""
         frame = self._from.world_from_body
-        return turned_back(frame.rotation, self._to.world_from_body.position - frame.position)
+        return rotate_back(frame.rotation, self._to.world_from_body.position - frame.position)
 
 
 class _Seen(GroundTruth):
@@ -217,7 +217,7 @@ class _Seen(GroundTruth):
             body.rotation.tobytes(),
         )
         if key != self._seen_from:
-            points = placed(self._points, body.rotation, body.position - camera.position)
+            points = transform_points(self._points, body.rotation, body.position - camera.position)
             seen = product(points, camera.rotation)  # (n, 3) [m], camera frame
             pixels = self._camera.intrinsics.project(seen, behind=self._unseen)  # (n, 2) [px]
             is_seen = all(map(math.isfinite, pixels.ravel().tolist()))
@@ -278,7 +278,7 @@ class CentroidFromCamera(GroundTruth):
         """As `read`, in plain numbers, because it is called at every step."""
         camera = self._camera.world_from_camera
         way = self._body.world_from_body.position - camera.position  # (3,) [m]
-        x, y, z = turned_back(camera.rotation, way).tolist()
+        x, y, z = rotate_back(camera.rotation, way).tolist()
         u, v = self._camera.intrinsics.pixel(x, y, z, behind=self._unseen)
         return (u, v) if math.isfinite(u) and math.isfinite(v) else None
 

@@ -30,7 +30,7 @@ from types import CodeType, ModuleType
 
 from ..base.files.input_files import read_bytes
 from ..base.files.source_module import source_module
-from ..base.interrupts import is_of_user
+from ..base.interrupts import is_user_interrupt
 from ..errors import (
     AssetError,
     Diagnostic,
@@ -95,7 +95,7 @@ class Plugin:
             line = error.lineno if error.filename == self.path else None
             raise self.diagnostic(f"not Python: {error.msg}", line) from error
         except BaseException as error:
-            if is_of_user(error):
+            if is_user_interrupt(error):
                 raise
             message = f"cannot be imported: {raised(error)}"
             if isinstance(error, ModuleNotFoundError):
@@ -183,7 +183,7 @@ def attribute_errors_to(
     except UwsimError:
         raise
     except BaseException as error:
-        if is_of_user(error):
+        if is_user_interrupt(error):
             raise
         for plugin in plugins:
             line = plugin.line_of(error)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
 
-from ..base.read_parameters import unasked
+from ..base.read_parameters import untracked_parameters
 from ..errors import RunFailed
 from ..world import Stage
 from .measures import Measure
@@ -95,7 +95,7 @@ def parameters_of(
     Raises:
         RunFailed: they are no dict of name -> number or text, which is what a result can hold.
     """
-    returned: object = unasked(getattr(algorithm, "parameters", given))
+    returned: object = untracked_parameters(getattr(algorithm, "parameters", given))
     who = f"Algorithm {name}: its attribute parameters"
     if not isinstance(returned, Mapping):
         raise RunFailed(f"{who} is {_shown(returned)}; expected a dict of name -> number or text.")

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import TypeVar, cast
 
 from ..base.inbox import Inbox
-from ..base.message_fields import freeze, prepare, unfit
+from ..base.message_fields import check_and_freeze, find_invalid_field, freeze
 from ..base.record import Record
 from ..base.terminal import warn
 from ..errors import BadMessage, BadSetting, UwsimError, did_you_mean
@@ -199,11 +199,11 @@ class Bus:
                 raise BadMessage(f"Topic {topic!r} carries {type_name(type)}, {wrong_class}.")
             if not entry.readers:
                 entry.unread = message
-                if entry.hearers and not unfit(message):
+                if entry.hearers and not find_invalid_field(message):
                     for hear in entry.hearers:
                         hear(message)
                 return
-            if wrong := prepare(message):
+            if wrong := check_and_freeze(message):
                 raise BadMessage(f"Topic {topic!r} carries {type_name(type)}: {wrong}.")
             for check in entry.checks:
                 check(message)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from ..base.message_fields import prepare
+from ..base.message_fields import check_and_freeze
 from ..errors import BadMessage, UnknownName
 from .names import is_exactly, type_name, without_slash
 
@@ -99,7 +99,7 @@ class Services:
             raise BadMessage(
                 f"Service {name!r} takes {type_name(type)}, not {type_name(request.__class__)}."
             )
-        if wrong := prepare(request):
+        if wrong := check_and_freeze(request):
             raise BadMessage(f"Service {name!r} takes {type_name(type)}: {wrong}.")
         return handler(request)
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..errors import AllErrors
+from ..errors import ErrorCollector
 
 if TYPE_CHECKING:
     from ..benchmark.plugin import Plugin
@@ -34,9 +34,9 @@ def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tabl
     from ..benchmark.plugin import read_plugin
     from ..benchmark.plugin_tables import with_plugins
 
-    wrong, plugins = AllErrors(), []
+    wrong, plugins = ErrorCollector(), []
     for file in files or ():
-        with wrong.kept():
+        with wrong.collect():
             plugins.append(read_plugin(file))
     wrong.check()
     return tuple(plugins), with_plugins(bundled_tables(), plugins)

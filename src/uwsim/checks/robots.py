@@ -89,7 +89,7 @@ def unused_arguments(scene: CheckedScene) -> Iterator[Diagnostic]:
     known = [name for each in expansions for name in each.declared_arguments]
     for name, _ in scene.spec.expansion.arguments:
         if name not in known:
-            near = choices(name, sorted(set(known)), called="Arguments")
+            near = choices(name, sorted(set(known)), heading="Arguments")
             yield scene.warning(
                 scene.spec,
                 f"no <xacro:arg> is called {name[:60]!r}, so that its value has no effect.{near}",

@@ -9,7 +9,7 @@ from enum import IntEnum
 from functools import partial
 from typing import Generic, TypeVar
 
-from ..errors import Diagnostic, UwsimError, shown, type_and_text
+from ..errors import Diagnostic, UwsimError, short_repr, type_and_text
 
 S = TypeVar("S")
 
@@ -65,7 +65,7 @@ class Rule(Generic[S]):
                 for each in self.find(subject):
                     if not isinstance(each, Diagnostic):
                         raise UwsimError(
-                            f"The rule {self.name} gives {shown(each)}; expected a Diagnostic."
+                            f"The rule {self.name} gives {short_repr(each)}; expected a Diagnostic."
                         )
                     yield each
         except UwsimError:

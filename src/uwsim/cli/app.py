@@ -14,7 +14,7 @@ from typing import Annotated
 
 import typer
 
-from ..base.numerics.compiling import when_many_are_compiled
+from ..base.numerics.compiling import on_slow_start
 from ..base.terminal import ignore_casts
 from ..version import __version__
 from .exit_status import INTERRUPTED, exit_status, one_line
@@ -170,7 +170,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Run ``uwsim`` and return its exit status: 0 done, 2 wrong input, 3 the run failed."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     wanted = [argument for argument in given if argument != TRACEBACK] or ["--help"]
-    when_many_are_compiled(tell_of_compiling)
+    on_slow_start(tell_of_compiling)
     ignore_casts()
     try:
         refuse_old_options(wanted, COMMANDS)

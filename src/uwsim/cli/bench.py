@@ -15,10 +15,10 @@ import typer
 from ..analysis.load_reporter import load_reporter
 from ..analysis.repeats_note import repeats_note
 from ..base.files.file_names import file_names
-from ..base.interrupts import raise_from_now_on
-from ..base.system_errors import as_run_failed
+from ..base.interrupts import raise_on_interrupt
+from ..base.system_errors import convert_to_run_failed
 from ..base.terminal import warn
-from ..errors import AllErrors, BadSetting
+from ..errors import BadSetting, ErrorCollector
 from ..runs.planning.plan_request import PlanRequest
 from .options.client_options import ClientOptions
 from .options.completion import algorithm_names
@@ -114,9 +114,11 @@ class BenchOptions:
         """Where the result goes."""
         return self.out or Path(f"{Path(self.task.benchmark).stem}.result")
 
-    def requests(self, levels: Sequence[tuple[str, float]], wrong: AllErrors) -> list[PlanRequest]:
+    def requests(
+        self, levels: Sequence[tuple[str, float]], wrong: ErrorCollector
+    ) -> list[PlanRequest]:
         """Return what is asked for of each algorithm, none with an error; collects errors."""
-        with wrong.kept():
+        with wrong.collect():
             request = replace(
                 request_of(self.task, self.changes, self.files),
                 seed=self.seed,
@@ -140,21 +142,21 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     from ..runs.execute import execute, plan_all, prepare_execution
     from ..runs.executors.background import BackgroundProcess
 
-    wrong, wrong_levels, folders = AllErrors(), AllErrors(), []
+    wrong, wrong_levels, folders = ErrorCollector(), ErrorCollector(), []
     options.outside.check(wrong, options.by.workers)
     how = {"resume": options.resume, "overwrite": options.overwrite}
     requests = options.requests(read_levels(options.level, wrong_levels), wrong)
     executor, plans = plan_all(requests, options.by.workers, options.by.callback_limit, wrong)
-    with wrong.kept():
+    with wrong.collect():
         wrong_levels.check()
-    with wrong.kept():
+    with wrong.collect():
         check_live(options, plans)
-    with wrong.kept():
+    with wrong.collect():
         folders = folders_of(options.algorithm or ())
-    with wrong.kept():
+    with wrong.collect():
         check(options.directory, **how, results=folders)
     recordings: list[TrialRecording] = []
-    with wrong.kept():
+    with wrong.collect():
         if len(plans) == len(options.algorithm or (None,)):
             recordings = recordings_of(options, plans, folders)
     wrong.check()
@@ -168,11 +170,11 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
         command=context.obj,
     )
     record(execution.runs, recordings, is_resumed=options.resume)
-    raise_from_now_on()
+    raise_on_interrupt()
     if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
         print(note, file=sys.stderr)
     with (
-        as_run_failed(),
+        convert_to_run_failed(),
         looked_at(options.live, plans) as onlooker,  # first: a port that is taken changes nothing
     ):
         if onlooker is not None:

@@ -11,10 +11,10 @@ from typing import Annotated
 import typer
 
 from ..assets.bundled import bundled_or
-from ..base.terminal import printable
+from ..base.terminal import clean_text
 from ..checks import check_file
 from ..checks.benchmark_tables import read_plugins
-from ..errors import AllErrors, Diagnostic
+from ..errors import Diagnostic, ErrorCollector
 from ..runs.planning.option_values import pairs_of
 from ..scene.settings import xacro_arguments
 from .exit_status import WRONG_INPUT
@@ -67,7 +67,7 @@ def check(
     """
     folders = tuple(data_path or ())
     plugins = read_plugins(plugin)
-    arguments = xacro_arguments(pairs_of(xacro_settings(xacro), AllErrors()))
+    arguments = xacro_arguments(pairs_of(xacro_settings(xacro), ErrorCollector()))
     named = [bundled_or(file) for file in files]
     scene = None if scene is None else bundled_or(scene)
     found = {
@@ -99,7 +99,7 @@ def lines_of(found: Mapping[str, Sequence[Diagnostic]]) -> str:
         lines.append(
             f"{file}: {_count(sum(diagnostic.severity == 'error' for diagnostic in diagnostics))}"
         )
-    return printable("\n".join(lines))
+    return clean_text("\n".join(lines))
 
 
 def json_of(found: Mapping[str, Sequence[Diagnostic]], n_errors: int) -> str:

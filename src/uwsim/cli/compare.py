@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ..base.terminal import printable
+from ..base.terminal import clean_text
 from .options.help_texts import COMPARED, OUTPUT, in_group
 from .options.options import JsonOption
 from .output.console import standard_output
@@ -109,9 +109,9 @@ def compare(
     make_room(out, overwrite=place.overwrite, ours=OURS, folders=FOLDERS)
     if comparison.forced:
         warning = f"warning: not of one experiment: {'; '.join(comparison.forced)}"
-        print(printable(warning), file=sys.stderr)
+        print(clean_text(warning), file=sys.stderr)
     for remark in comparison.remarks:
-        print(printable(f"note: {remark}"), file=sys.stderr)
+        print(clean_text(f"note: {remark}"), file=sys.stderr)
     page = write_comparison(comparison, out)
     if as_json:
         print(json_text(comparison), end="")

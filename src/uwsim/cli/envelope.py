@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..base.interrupts import raise_from_now_on
-from ..base.terminal import printable
+from ..base.interrupts import raise_on_interrupt
+from ..base.terminal import clean_text
 from ..envelope.directory import check_out, prepared
 from ..envelope.search_request import SearchRequest, search_request
-from ..errors import AllErrors, BadSetting
+from ..errors import BadSetting, ErrorCollector
 from ..runs.planning.plan_request import PlanRequest
 from .options.completion import algorithm_names
 from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group
@@ -142,9 +142,9 @@ class EnvelopeOptions:
         """One a search."""
         return tuple(range(self.seed, self.seed + self.repeat))
 
-    def plan_requests(self, wrong: AllErrors) -> list[PlanRequest]:
+    def plan_requests(self, wrong: ErrorCollector) -> list[PlanRequest]:
         """Return what is asked for of each run, none with an error; collects errors."""
-        with wrong.kept():
+        with wrong.collect():
             request = replace(
                 request_of(self.task, self.changes, self.files),
                 algorithm=self.algorithm,
@@ -172,14 +172,14 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
     from ..envelope import plan_for
     from ..runs.execute import plan_all, prepare_execution
 
-    wrong, request, search = AllErrors(), None, options.search
+    wrong, request, search = ErrorCollector(), None, options.search
     workers = options.by.workers
     requests = options.plan_requests(wrong)
     executor, plans = plan_all(requests, workers, options.by.callback_limit, wrong)
-    with wrong.kept():
+    with wrong.collect():
         check_numbers(search.confidence, options.repeat)
     chosen = read_levels(search.level, wrong)
-    with wrong.kept():
+    with wrong.collect():
         check_out(options.directory, resume=options.resume, overwrite=options.overwrite)
     for plan in plans:
         ends = (search.start, search.stop, search.tolerance)
@@ -193,7 +193,7 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
         workers=workers,
         command=context.obj,
     )
-    raise_from_now_on()
+    raise_on_interrupt()
     search_and_write(execution, request, options)
 
 
@@ -238,4 +238,4 @@ def tell(envelope: Envelope, directory: Path) -> None:
     lines.append(f"{seeds}, {len(envelope.evaluations)} runs, {n_broken} broken{why}")
     lines += [f"warning: {warning}" for warning in envelope.warnings]
     lines.append(f"written: {directory}/envelope.json, envelope.png")
-    typer.echo(printable("\n".join(lines)))
+    typer.echo(clean_text("\n".join(lines)))

@@ -6,12 +6,12 @@ import typer
 
 from ..base import interrupts
 from ..base.system_errors import system_error_text
-from ..base.terminal import printable
+from ..base.terminal import clean_text
 from ..errors import RUN_ERRORS, FileError, SeveralErrors, UwsimError
 
 WRONG_INPUT = 2
 RUN_FAILED = 3
-INTERRUPTED = interrupts.STATUS
+INTERRUPTED = interrupts.INTERRUPTED_STATUS
 
 
 def exit_status(error: BaseException) -> int:
@@ -36,7 +36,7 @@ def one_line(error: BaseException) -> str:
     if isinstance(error, SeveralErrors):
         return "\n".join(one_line(each) for each in error.errors)
     if isinstance(error, FileError):
-        return printable(str(error))
+        return clean_text(str(error))
     if isinstance(error, typer.TyperException):
         message = error.format_message()
         context = getattr(error, "ctx", None)
@@ -48,4 +48,4 @@ def one_line(error: BaseException) -> str:
         message = system_error_text(error)
     else:
         message = f"{type(error).__name__}: {error} (--traceback shows where)"
-    return printable(f"uwsim: {message.strip()}") if message.strip() else ""
+    return clean_text(f"uwsim: {message.strip()}") if message.strip() else ""

@@ -12,9 +12,9 @@ from rich.table import Table
 from rich.text import Text
 
 from ..assets.bundled import scene_file
-from ..base.terminal import printable
+from ..base.terminal import clean_text
 from ..checks import check_file
-from ..errors import AllErrors
+from ..errors import ErrorCollector
 from ..runs.planning.option_values import pairs_of
 from .options.options import (
     DataPathOption,
@@ -61,12 +61,12 @@ def info(
 
     folders = tuple(data_path or ())
     path = scene_file(scene, folders)
-    wrong = AllErrors()
+    wrong = ErrorCollector()
     pairs = pairs_of([*(settings or ()), *xacro_settings(xacro)], wrong)
     arguments = xacro_arguments(pairs)
     spec = read_scene(path, data_path=folders, arguments=arguments)
     for name, value in pairs:
-        with wrong.kept():
+        with wrong.collect():
             spec = apply_setting(spec, name, value)
     wrong.check()
     simulation = Simulation(
@@ -88,7 +88,7 @@ def info(
 
 def drawn(found: Fields) -> Iterator[RenderableType]:
     """Give everything that is printed."""
-    yield Text(printable(str(found["file"])), style="bold")
+    yield Text(clean_text(str(found["file"])), style="bold")
     yield from _section("frame and water", [_frame(found["frame"]), *_water(found["water"])])
     for vehicle in found["vehicles"]:
         yield from _section(f"vehicle {vehicle['name']}", _vehicle(vehicle))
@@ -113,13 +113,13 @@ def _varying(one: Fields) -> str:
 
 
 def _section(title: str, lines: Iterable[str]) -> Iterator[RenderableType]:
-    yield Text(printable(f"\n{title}"), style="bold")
+    yield Text(clean_text(f"\n{title}"), style="bold")
     for line in list(lines) or ["nothing"]:
-        yield Padding(Text(printable(line)), (0, 0, 0, 2), expand=False)
+        yield Padding(Text(clean_text(line)), (0, 0, 0, 2), expand=False)
 
 
 def _table(title: str, rows: Iterator[Sequence[str]]) -> Iterator[RenderableType]:
-    cells = [tuple(map(printable, row)) for row in rows]
+    cells = [tuple(map(clean_text, row)) for row in rows]
     if not cells:
         yield from _section(title, [])
         return

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..base.interrupts import raise_from_now_on
+from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import print_warnings, warn
-from ..errors import AllErrors
+from ..errors import ErrorCollector
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.stand_ins import warn_of_stand_ins
 from .options.connections import ConnectionOptions, connected
@@ -70,10 +70,10 @@ def play(
     from ..simulation import Simulation
 
     folders = tuple(data_path or ())
-    wrong = AllErrors()
+    wrong = ErrorCollector()
     settings = settings_of_scene(changes)
     spec = SceneSpec(path=str(recording))
-    with wrong.kept():
+    with wrong.collect():
         if scene is not None:
             spec = scene_of(scene, folders, settings, wrong) or spec
             if no_code:
@@ -91,7 +91,7 @@ def play(
         simulation.attach(player, name="recording")
         if what.duration is None:
             wanted = replace(wanted, duration=reader.duration)
-        raise_from_now_on()
+        raise_on_interrupt()
         with connected(simulation, connections):
             run_and_report(simulation, spec, wanted, output)
 

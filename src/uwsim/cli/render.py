@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from ..assets.bundled import scene_file
 from ..base.terminal import print_warnings
-from ..errors import AllErrors, BadSetting
+from ..errors import BadSetting, ErrorCollector
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.option_values import compatibility_of, pairs_of
 from ..runs.stand_ins import warn_of_stand_ins
@@ -122,16 +122,16 @@ def render(
     from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
-    wrong, wanted = AllErrors(), None
+    wrong, wanted = ErrorCollector(), None
     folders = tuple(data_path or ())
-    with wrong.kept():
+    with wrong.collect():
         if output.out.suffix.lower() != ".png":
             raise BadSetting(f"-o {output.out}: only .png images are written.")
     spec = scene_of(scene, folders, changes.all_settings, wrong)
-    with wrong.kept():
+    with wrong.collect():
         at = (look.eye, look.at)
         wanted = Wanted.of(look.camera, look.view, *at, output.size, changes.all_settings)
-    with wrong.kept():
+    with wrong.collect():
         if spec is not None and no_code:
             refuse_code(spec)
     quirks = compatibility_of(changes.compat or [], wrong)
@@ -152,18 +152,18 @@ def render(
 
 
 def scene_of(
-    scene: str, folders: tuple[Path, ...], settings: Sequence[str], wrong: AllErrors
+    scene: str, folders: tuple[Path, ...], settings: Sequence[str], wrong: ErrorCollector
 ) -> SceneSpec | None:
     """Read the scene and apply every ``--set``; None, and what is wrong is kept, if it fails."""
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting, xacro_arguments
 
     spec, pairs = None, pairs_of(settings, wrong)
-    with wrong.kept():
+    with wrong.collect():
         path = scene_file(scene, folders)
         spec = read_scene(path, data_path=folders, arguments=xacro_arguments(pairs))
     for name, value in pairs:
-        with wrong.kept():
+        with wrong.collect():
             spec = None if spec is None else apply_setting(spec, name, value)
     return spec
 

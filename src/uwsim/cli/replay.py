@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..base.interrupts import raise_from_now_on
+from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import warn
-from ..errors import AllErrors, BadSetting
+from ..errors import BadSetting, ErrorCollector
 from .options.help_texts import FILES, INPUT, OUTPUT, in_group
 from .options.options import DataPathOption, ResultArgument
 from .output.progress import progress
@@ -152,18 +152,18 @@ class FilmOptions:
         from ..viewer.film.film import FilmSpec
         from ..viewer.film.paths import view_kind
 
-        wrong = AllErrors()
+        wrong = ErrorCollector()
         view, size = view_kind("orbit"), (960, 720)
         usual = WEBP_RATE if out.suffix.lower() == WEBP else FILM_RATE
         rate = usual if self.rate is None else self.rate
-        with wrong.kept():
+        with wrong.collect():
             view = view_kind(self.view)
-        with wrong.kept():
+        with wrong.collect():
             size = even(size_of(self.size))
-        with wrong.kept():
+        with wrong.collect():
             if not 0.1 <= rate <= MAX_RATE:
                 raise BadSetting(f"--fps {rate:g}: expected 0.1 to {MAX_RATE:g}.")
-        with wrong.kept():
+        with wrong.collect():
             if not 0.01 <= self.speed <= 1000.0:
                 raise BadSetting(f"--speed {self.speed:g}: expected 0.01 to 1000.")
         wrong.check()
@@ -336,7 +336,7 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
         n_drawn += 1
         on_frame()
 
-    raise_from_now_on()
+    raise_on_interrupt()
     try:
         with (
             closing(DrawingProcesses(trials, spec, n) if n > 1 else Reel(trials, spec)) as film,

@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..base.interrupts import raise_from_now_on
-from ..base.read_parameters import unread_note
-from ..base.system_errors import as_run_failed
+from ..base.interrupts import raise_on_interrupt
+from ..base.read_parameters import describe_unread_parameters
+from ..base.system_errors import convert_to_run_failed
 from ..base.terminal import print_warnings, warn
-from ..errors import AllErrors, BadSetting, RunFailed, did_you_mean
+from ..errors import BadSetting, ErrorCollector, RunFailed, did_you_mean
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.make_plan import OF_ALGORITHM, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
@@ -72,13 +72,13 @@ def run(
     from ..simulation import Simulation
 
     folders = tuple(data_path or ())
-    wrong = AllErrors()
+    wrong = ErrorCollector()
     spec = scene_of(scene, folders, settings_of_scene(changes), wrong)
-    with wrong.kept():
+    with wrong.collect():
         if spec is not None and no_code:
             refuse_code(spec)
     quirks = compatibility_of(changes.compat or [], wrong)
-    with wrong.kept():
+    with wrong.collect():
         live.check()
     wanted = wanted_of(what, output, changes, connections, wrong, is_viewed=live.view)
     wrong.check()
@@ -88,7 +88,7 @@ def run(
     model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
     with Simulation(model, udp_address=what.udp_address) as simulation:
         print_warnings(model_warnings(model))
-        raise_from_now_on()
+        raise_on_interrupt()
         scene_topics = None
         if connections.is_connected or output.record is not None:
             from ..viewer.scene_topics import SceneTopics
@@ -165,7 +165,7 @@ def wanted_of(
     output: RecordOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
-    wrong: AllErrors,
+    wrong: ErrorCollector,
     *,
     is_viewed: bool = False,
 ) -> Wanted:
@@ -176,10 +176,10 @@ def wanted_of(
     duration, program, images = 0.0, None, image_storage("raw")
     own = [each for each in changes.all_settings if each.startswith(OF_ALGORITHM)]
     connections.check(wrong)
-    with wrong.kept():
+    with wrong.collect():
         is_endless = what.duration is None and (connections.is_connected or is_viewed)
         duration = math.inf if is_endless else duration_of(what.duration or "10s")
-    with wrong.kept():
+    with wrong.collect():
         if what.program is not None:
             program = load_program(what.program, ALGORITHMS)
         elif own:
@@ -189,9 +189,9 @@ def wanted_of(
         for name, value in pairs_of(own, wrong)
     }
     check_parameters(program, parameters, wrong)
-    with wrong.kept():
+    with wrong.collect():
         images = image_storage(output.images)
-    with wrong.kept():
+    with wrong.collect():
         if output.record is not None:
             check_path(output.record, overwrite=output.overwrite)
     return Wanted(duration=duration, program=program, parameters=parameters, images=images)
@@ -234,7 +234,7 @@ def run_and_report(
             node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
         for sentence in node.unconnected():
             warn(sentence)
-    with as_run_failed(), ExitStack() as last, ExitStack() as stack:
+    with convert_to_run_failed(), ExitStack() as last, ExitStack() as stack:
         stack.enter_context(aside)
         recorder = None
         if output.record is not None:
@@ -259,7 +259,7 @@ def run_and_report(
                 raise RunFailed(f"{node.name} {node.how}: {node.error}")
         if node is not None:
             given = node.parameters
-            if note := unread_note(node.name, given.given, given.asked):
+            if note := describe_unread_parameters(node.name, given.plain_copy, given.names_read):
                 warn(note)
 
 

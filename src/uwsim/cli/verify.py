@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..base.interrupts import raise_from_now_on
-from ..base.system_errors import as_run_failed
-from ..base.terminal import printable
+from ..base.interrupts import raise_on_interrupt
+from ..base.system_errors import convert_to_run_failed
+from ..base.terminal import clean_text
 from ..errors import ResultError
 from ..runs.foreign_code import announce_code
 from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
@@ -167,15 +167,15 @@ def verify(
     n_levels = sum(len(trial.levels) for trial in trials)
     others = made_otherwise(stored, directory, run.info)
     for line in others.values():
-        typer.echo(printable(line))
-    raise_from_now_on()
+        typer.echo(clean_text(line))
+    raise_on_interrupt()
     with (
-        as_run_failed(),
+        convert_to_run_failed(),
         progress("replaying", n_levels, of="levels", at_once=by.at_once) as on_level,
     ):
         found = compare(directory, stored, run, trials, executor=executor, on_level=on_level)
     for line in tell(found, n_whole, others):
-        typer.echo(printable(line))
+        typer.echo(clean_text(line))
     if found.differences:
         raise typer.Exit(RUN_FAILED)
 
@@ -208,7 +208,7 @@ def head(stored: Result, directory: Path, n_whole: int, n_trials: int) -> str:
         finished = f"{n_whole} of {finished} finished"
     seeds = sorted({seed for seed in seeds_of(stored) if seed is not None})
     which = f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else f"seed {run.seed}"
-    return printable(
+    return clean_text(
         f"{directory}: {run.algorithm}, {which}, {run.mode}, "
         f"{count(len(stored.rows), 'row')}, {finished}\n"
         f"files: the same ({', '.join(names)} and {n_others} more)"

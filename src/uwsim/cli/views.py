@@ -122,7 +122,7 @@ class Wanted:
     def _seen(self, simulation: Simulation, name: str) -> RenderedView:
         camera = simulation.world.sensors.camera(name)
         if self.size is not None:
-            camera.resize(camera.intrinsics.resized(*self.size))
+            camera.resize(camera.intrinsics.with_size(*self.size))
         return RenderedView(
             f"camera {name!r}",
             camera.capture(),

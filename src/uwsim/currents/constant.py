@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..base.geometry import Triple
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..schema import element
 from .compiled import CompiledCurrent
 from .current import MAX_SPEED, CurrentSpec, Place
@@ -67,4 +67,4 @@ class Constant(CompiledCurrent):
 def flow_constant(parameters: int, values: int, time: float) -> None:
     """Answer a query about a constant current; see `uwsim.currents.flow_function`."""
     query = carray(pointer(values), (1,), QUERY)[0]
-    write_everywhere(query, floats(parameters, 3), np.zeros(3))
+    write_everywhere(query, view_doubles(parameters, 3), np.zeros(3))

@@ -30,7 +30,7 @@ from ..base.files.input_files import read_bytes
 from ..base.geometry import Array
 from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..errors import AssetError
 from ..schema import MAX_NUMBER, element, parse_number
 from .compiled import CompiledCurrent
@@ -347,7 +347,7 @@ def _within(corner: tuple[int, ...], used: list[bool]) -> bool:
 @njit
 def axis_of(current: Record, k: int) -> Array:
     """Return the values of t, x, y or z."""
-    return floats(current.axes[k], current.lengths[k])
+    return view_doubles(current.axes[k], current.lengths[k])
 
 
 @njit
@@ -396,11 +396,11 @@ def flow_field(parameters: int, values: int, time: float) -> None:
     corners = carray(pointer(current.corners), (current.n_corners,), CORNER)
     i, fraction, span = moment(current, time)
     size = 3 * current.n_nodes
-    now = floats(current.velocities + 8 * size * i, size)
-    later = floats(current.velocities + 8 * size * (i + 1 if span > 0.0 else i), size)
+    now = view_doubles(current.velocities + 8 * size * i, size)
+    later = view_doubles(current.velocities + 8 * size * (i + 1 if span > 0.0 else i), size)
     shares, velocity, change = np.empty((3, 2)), np.empty(3), np.empty(3)
     for p in range(query.n):
-        node, is_inside = surround(current, floats(query.points + 24 * p, 3), shares)
+        node, is_inside = surround(current, view_doubles(query.points + 24 * p, 3), shares)
         velocity[:], change[:] = 0.0, 0.0
         for c in range(current.n_corners):
             corner = corners[c]

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from ..base.geometry import Array
 from ..base.numerics.calls import address_of, function_address
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import floats
+from ..base.numerics.memory import view_doubles
 
 QUERY = np.dtype(
     [
@@ -83,7 +83,7 @@ def write_no_acceleration(query: Record) -> None:
 @njit
 def fill(address: int, n: int, vector: Array) -> None:
     """Write a vector (3,) for each of n points at an address."""
-    vectors = floats(address, 3 * n)
+    vectors = view_doubles(address, 3 * n)
     for i in range(n):
         for k in range(3):
             vectors[3 * i + k] = vector[k]

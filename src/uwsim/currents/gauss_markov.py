@@ -19,7 +19,7 @@ import numpy as np
 from ..base.geometry import Array, Triple
 from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..schema import element
 from .compiled import CompiledCurrent
 from .current import MAX_SPEED, CurrentSpec, Place
@@ -121,7 +121,7 @@ def flow_gauss_markov(parameters: int, values: int, time: float) -> None:
     """
     current = carray(pointer(parameters), (1,), GAUSS_MARKOV)[0]
     table = carray(pointer(current.states), (1,), ROWS)[0]
-    states = floats(table.rows, 3 * table.n)
+    states = view_doubles(table.rows, 3 * table.n)
     at = max(0.0, time) / current.step
     k = math.floor(at + 1e-6)
     fraction = max(0.0, at - k)

@@ -34,7 +34,7 @@ import numpy.typing as npt
 from ..base.geometry import Array, Triple
 from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..errors import BadSetting
 from ..schema import Spec, element
 from .compiled import CompiledCurrent
@@ -230,7 +230,10 @@ def flow_power(parameters: int, values: int, time: float) -> None:
     """Answer a query about a power profile; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
-    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    points, velocities = (
+        view_doubles(query.points, 3 * query.n),
+        view_doubles(query.velocity, 3 * query.n),
+    )
     depth, share = math.nan, 0.0
     for i in range(query.n):
         here = depth_of(current.down, points, i)
@@ -246,7 +249,10 @@ def flow_log(parameters: int, values: int, time: float) -> None:
     """Answer a query about a logarithmic profile; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
-    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    points, velocities = (
+        view_doubles(query.points, 3 * query.n),
+        view_doubles(query.velocity, 3 * query.n),
+    )
     depth, share = math.nan, 0.0
     for i in range(query.n):
         here = depth_of(current.down, points, i)
@@ -263,8 +269,11 @@ def flow_layers(parameters: int, values: int, time: float) -> None:
     """Answer a query about layers; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), LAYERS)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
-    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
-    layers = floats(current.layers, 4 * current.n_layers).reshape((current.n_layers, 4))
+    points, velocities = (
+        view_doubles(query.points, 3 * query.n),
+        view_doubles(query.velocity, 3 * query.n),
+    )
+    layers = view_doubles(current.layers, 4 * current.n_layers).reshape((current.n_layers, 4))
     for i in range(query.n):
         depth = depth_of(current.down, points, i)
         below = 0  # of the first layer that is below

@@ -22,10 +22,10 @@ from pathlib import Path
 
 import numpy as np
 
-from ..base.files.modules import located
+from ..base.files.modules import find_module_file
 from ..base.files.python_sources import sources_of
 from ..base.geometry import Array
-from ..errors import BadSetting, did_you_mean, shown
+from ..errors import BadSetting, did_you_mean, short_repr
 from ..schema import element
 from .current import MAX_SPEED, Current, CurrentSpec, Place
 
@@ -75,7 +75,7 @@ class PythonFunctionSpec(CurrentSpec):
             BadSetting: it is not on Python's path.
         """
         try:
-            return located(self._names()[0])
+            return find_module_file(self._names()[0])
         except ModuleNotFoundError as error:
             raise self._lost(error.name) from error
 
@@ -147,8 +147,8 @@ class PythonFunction(Current):
             x = y = z = math.nan
         if not (abs(x) <= MAX_SPEED and abs(y) <= MAX_SPEED and abs(z) <= MAX_SPEED):
             raise BadSetting(
-                f"The current {self._name!r} returned {shown(returned)} {_place(point, time)}; "
-                f"expected three numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
+                f"The current {self._name!r} returned {short_repr(returned)} {_place(point, time)}"
+                f"; expected three numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
             )
         return x, y, z
 

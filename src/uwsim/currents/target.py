@@ -9,7 +9,7 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.numerics.calls import FUNCTION, call
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import carray, floats, longs, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles, view_int64s
 from ..world import Flow
 from .current import Current, compiled, is_steady
 from .flow_function import QUERY, FlowFunction, Record
@@ -93,8 +93,8 @@ def flow_target(parameters: int, values: int, time: float) -> None:
 @njit
 def clear_others(query: Record, address: int, target: int) -> None:
     """Set to 0 the vectors (n, 3) at an address that are not the target's."""
-    vectors = floats(address, 3 * query.n)
+    vectors = view_doubles(address, 3 * query.n)
     for i in range(query.n):
-        if query.vehicles == 0 or longs(query.vehicles, query.n)[i] != target:
+        if query.vehicles == 0 or view_int64s(query.vehicles, query.n)[i] != target:
             for k in range(3):
                 vectors[3 * i + k] = 0.0

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.calls import FUNCTION, address_of, call
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..world import Flow
 from .current import Current, CurrentSpec, Place, compiled, is_steady
 from .flow_function import QUERY, FlowFunction
@@ -99,7 +99,7 @@ def flow_total(parameters: int, values: int, time: float) -> None:
         call(parts[i].function, parts[i].parameters, values, time)
         for k in range(2 if i > 0 else 0):
             if wanted[k] != 0:
-                total = floats(wanted[k], size)
+                total = view_doubles(wanted[k], size)
                 for j in range(size):
                     total[j] += part_of[k * size + j]
     query.velocity, query.acceleration = wanted

@@ -20,7 +20,7 @@ import numpy as np
 
 from ..base.numerics.calls import address_of
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..schema import element
 from .compiled import CompiledCurrent
 from .current import MAX_SPEED, CurrentSpec, Place
@@ -150,7 +150,7 @@ def flow_sinusoid(parameters: int, values: int, time: float) -> None:
     a, b, c, e = 1.0, 1.0, 1.0, current.random
     if e != 0.0:
         table, first = carray(pointer(current.draws), (1,), ROWS)[0], 3 * draw_of(time)
-        rows = floats(table.rows, 3 * table.n)
+        rows = view_doubles(table.rows, 3 * table.n)
         a, b, c = 1.0 + e * rows[first], 1.0 + e * rows[first + 1], 1.0 + e * rows[first + 2]
     speed, dspeed = swung(current.speed, a, time)
     theta, dtheta = swung(current.theta, b, time)

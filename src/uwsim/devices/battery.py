@@ -38,7 +38,7 @@ from ..base.geometry import Array
 from ..base.numerics.calls import FUNCTION, address_of, call, function_address
 from ..base.numerics.exact_sum import exact_sum
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..base.record import Record
 from ..base.sampling import Sample, Sampler, Sampling
 from ..messages import BatteryState, header
@@ -259,7 +259,7 @@ def drain(parameters: int, values: int, time: float) -> None:
     See `uwsim.base.numerics.calls`.
     """
     battery = carray(pointer(parameters), (1,), BATTERY)[0]
-    numbers, load = floats(battery.numbers, 3), battery.hotel_load
+    numbers, load = view_doubles(battery.numbers, 3), battery.hotel_load
     if battery.powers.function != 0:
         powers = np.empty(battery.n)
         call(battery.powers.function, battery.powers.parameters, powers.ctypes.data, time)

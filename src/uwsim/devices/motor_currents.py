@@ -59,6 +59,6 @@ class MotorCurrents(Device):
             return JointState(header=stamp)
         currents = self._actuators.powers() / self._spec.voltage
         if self._spec.std > 0.0:
-            currents += self._spec.std * self.state.random.standard_normal(len(currents))
+            currents += self._spec.std * self.state.rng.standard_normal(len(currents))
         names = [*self._actuators.thrusters, *self._actuators.joints]
         return JointState(header=stamp, name=names, effort=currents)

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ..errors import AllErrors, BadSetting, UwsimError, did_you_mean
+from ..errors import BadSetting, ErrorCollector, UwsimError, did_you_mean
 
 if TYPE_CHECKING:
     from ..benchmark.updaters import Level, SceneUpdaterSpec
@@ -53,7 +53,7 @@ def search_request(
     until: str,
     ends: tuple[float | None, float | None, float | None],
     chosen: list[tuple[str, float]],
-    wrong: AllErrors,
+    wrong: ErrorCollector,
 ) -> SearchRequest | None:
     """Make the request; None with collected errors if it is invalid.
 
@@ -68,13 +68,13 @@ def search_request(
     from . import parse_criterion
 
     spec = where = at = criterion = None
-    with wrong.kept():
+    with wrong.collect():
         spec = updater_of(plan, over)
         where = range_of(spec, over, *ends)
-    with wrong.kept():
+    with wrong.collect():
         if spec is not None:
             at = fixed_levels(plan, over, chosen)
-    with wrong.kept():
+    with wrong.collect():
         try:
             criterion = parse_criterion(until, [m.name for m in plan.benchmark.measures])
         except UwsimError as error:

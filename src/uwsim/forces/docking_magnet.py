@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..base.geometry import ZERO, Array, Triple
-from ..base.numerics.linear import cross, dot, turned
+from ..base.numerics.linear import cross, dot, rotate
 from ..schema import MAX_DISTANCE, Spec, element
 from ..world import Attachment, ForceWorld
 from .force import Force, ForceSpec
@@ -100,8 +100,8 @@ class DockingMagnet(Force):
         """Return the wrenches on both bodies, each about its magnet, in W."""
         one, other = self._first.world_from_body, self._second.world_from_body
         on_first, on_second = dipole_wrenches(
-            turned(one.rotation, self._moments[0]),
-            turned(other.rotation, self._moments[1]),
+            rotate(one.rotation, self._moments[0]),
+            rotate(other.rotation, self._moments[1]),
             other.position - one.position,
             self._closest,
         )

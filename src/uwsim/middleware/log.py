@@ -7,7 +7,7 @@ import threading
 from collections import Counter, deque
 from collections.abc import Callable
 
-from ..base.terminal import one_line, printable
+from ..base.terminal import clean_text, escape_to_one_line
 
 MAX_OF_A_KIND = 5
 """Lines of one kind that are printed; the next says that there are more."""
@@ -17,7 +17,7 @@ MAX_KINDS = 1000
 
 def to_standard_error(line: str) -> None:
     """Print a line."""
-    print(printable(line), file=sys.stderr, flush=True)
+    print(clean_text(line), file=sys.stderr, flush=True)
 
 
 class Log:
@@ -41,7 +41,7 @@ class Log:
 
         Line ends in what a peer has sent are escaped: it writes no lines of its own.
         """
-        line = one_line(line)
+        line = escape_to_one_line(line)
         key = kind or line
         with self._lock:
             if key not in self._counts and len(self._counts) >= MAX_KINDS:

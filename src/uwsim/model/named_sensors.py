@@ -49,4 +49,4 @@ class NamedSensors:
         if name in self._cameras:
             found = f"{name!r} is a <virtualCamera>, which <VirtualCameraToROSImage> publishes"
         expected = "expected the name of a sensor, or of a device that measures"
-        return f"{found}; {expected}.{choices(name, sorted(self._types), called='Sensors')}"
+        return f"{found}; {expected}.{choices(name, sorted(self._types), heading='Sensors')}"

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..acoustics import MATERIALS, Material, MaterialName
 from ..base.geometry import Array, Pose
-from ..base.numerics.linear import determinant, placed, product
+from ..base.numerics.linear import determinant, product, transform_points
 from ..rays import RayScene, Surface
 from ..scene.spec import SceneSpec
 from .parts import Part
@@ -85,7 +85,7 @@ def _surfaces(part: Part, frame: Array) -> list[Surface]:
     for mesh in part.model.meshes:
         if mesh.opacity > 0.0:
             vertices = mesh.vertices.astype(np.float64)
-            corners = placed(vertices, frame[:3, :3], frame[:3, 3])[mesh.triangles]
+            corners = transform_points(vertices, frame[:3, :3], frame[:3, 3])[mesh.triangles]
             if determinant(np.ascontiguousarray(frame[:3, :3])) < 0.0:
                 corners = corners[:, ::-1]
             found.append(Surface(part.id, corners, mesh.two_sided))

@@ -23,7 +23,7 @@ import mujoco
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.linear import dot, product, turned, turned_back
+from ..base.numerics.linear import dot, product, rotate, rotate_back
 from ..base.record import Record
 from .hydrodynamics import columns as c
 
@@ -168,13 +168,13 @@ class _Object:
         return max(0.0, self._kinetic(free) - self._kinetic(before))
 
     def _kinetic(self, velocity: Array) -> float:
-        twist = np.concatenate([turned_back(self._rotation(), velocity[:3]), velocity[3:]])
+        twist = np.concatenate([rotate_back(self._rotation(), velocity[:3]), velocity[3:]])
         return 0.5 * dot(twist, product(self._inertia, twist))
 
     def _potential(self) -> float:
         """Of weight and buoyancy."""
         lever = self._mass * self._middle - self._displaced * self._lift_at
-        moment = (self._mass - self._displaced) * self._q[:3] + turned(self._rotation(), lever)
+        moment = (self._mass - self._displaced) * self._q[:3] + rotate(self._rotation(), lever)
         return -dot(self._gravity, moment)
 
     def _rotation(self) -> Array:

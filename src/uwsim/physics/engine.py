@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Pose, quaternion_from_rotation
-from ..base.numerics.linear import cross, turned, turned_back
+from ..base.numerics.linear import cross, rotate, rotate_back
 from ..model.body_names import loose_joint, vehicle_joint
 from ..model.scene_model import SceneModel
 from ..scene.spec import SceneSpec
@@ -198,7 +198,7 @@ class Engine:
         applied[:] = 0.0
         for body, point, wrench in wrenches:
             applied[body] += wrench
-            applied[body, 3:] += cross(turned(axes[body], point - middles[body]), wrench[:3])
+            applied[body, 3:] += cross(rotate(axes[body], point - middles[body]), wrench[:3])
 
     def fall(self) -> None:
         """Advance the original's physics by one step, if the scene uses it.
@@ -249,7 +249,7 @@ class Engine:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
         first = self._free_dofs[index]
         twist: Array = self._data.qvel[first : first + 6].copy()
-        twist[:3] = turned_back(self.poses.vehicle(index).rotation, twist[:3])
+        twist[:3] = rotate_back(self.poses.vehicle(index).rotation, twist[:3])
         return twist
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:

@@ -21,7 +21,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from ..base.record import Live, of_another_scene
+from ..base.record import ExternalValue, wrong_scene_error
 from .hydrodynamics.kernel.layout import MujocoChanged, data_places
 
 Bytes = npt.NDArray[np.uint8]
@@ -46,7 +46,7 @@ class EngineNumbers:
     """The used part of the arena. It follows from the rest; the engine leaves gaps in it."""
 
 
-class EngineMemory(Live):
+class EngineMemory(ExternalValue):
     """The memory of one MjData.
 
     Args:
@@ -89,14 +89,14 @@ class EngineMemory(Live):
     def set(self, value: object) -> None:
         """Set its numbers; raises UwsimError where they are of another model."""
         if not isinstance(value, EngineNumbers):
-            raise of_another_scene()
+            raise wrong_scene_error()
         places = np.frombuffer(value.places, np.uint64)
         lengths = len(value.counts), len(places), len(value.arrays)
         own = self._n_counts, len(self._places), len(self._arrays)
         if lengths != own or len(value.arena) > len(self._arena):
-            raise of_another_scene()
+            raise wrong_scene_error()
         if places.max(initial=0) > len(value.arena) + 1:  # what is empty may begin at its end
-            raise of_another_scene()
+            raise wrong_scene_error()
         first = 0
         for each in self._counts:
             end = first + each.stop - each.start

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array
-from ..base.record import Live, Record, of_another_scene
+from ..base.record import ExternalValue, Record, wrong_scene_error
 from .actuation.vehicle_actuation import ActuationState
 from .bounce_limit import BounceState
 from .collision.contacts import EngineContactsState
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .stepper import StepperState
 
 
-class EngineFlags(Live):
+class EngineFlags(ExternalValue):
     """What MuJoCo leaves out of a step: `islands` chooses it anew for every step.
 
     Args:
@@ -41,7 +41,7 @@ class EngineFlags(Live):
     def set(self, value: object) -> None:
         """Set the flags."""
         if not isinstance(value, int):
-            raise of_another_scene()
+            raise wrong_scene_error()
         self._model.opt.disableflags = value
 
 

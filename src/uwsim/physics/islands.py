@@ -10,7 +10,7 @@ and is part of the state: MuJoCo's own flag.
 from __future__ import annotations
 
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import Ints64, ints, small
+from ..base.numerics.memory import Ints64, read_int32, view_int32s
 from .hydrodynamics.kernel import fields as f
 
 FEW_ROWS = 256
@@ -30,11 +30,11 @@ def choose_islands(m: int, d: int, at: Ints64, step: int) -> None:
         at: offsets of the fields.
         step: steps taken.
     """
-    flags = ints(m + at[f.DISABLE], 1)
-    if small(d + at[f.N_ROWS]) <= FEW_ROWS:
+    flags = view_int32s(m + at[f.DISABLE], 1)
+    if read_int32(d + at[f.N_ROWS]) <= FEW_ROWS:
         together = False
     elif (flags[0] & _WITHOUT_ISLANDS) != 0:
-        together = small(d + at[f.ITERATIONS]) <= 1
+        together = read_int32(d + at[f.ITERATIONS]) <= 1
     else:
         together = step % PERIOD == 0
     flags[0] &= ~_WITHOUT_ISLANDS

@@ -20,7 +20,14 @@ from ..base.geometry import Array
 from ..base.numerics.calls import address_of, call_both, call_three, function_address
 from ..base.numerics.jit import njit
 from ..base.numerics.linear import cross
-from ..base.numerics.memory import carray, floats, longs, pointer, small, word
+from ..base.numerics.memory import (
+    carray,
+    pointer,
+    read_int32,
+    read_int64,
+    view_doubles,
+    view_int64s,
+)
 from ..base.sampling import Sampler
 from .collision.contact_wrench import rotate_wrench
 from .hydrodynamics import callback
@@ -124,7 +131,7 @@ def sample_joint(parameters: int, values: int, time: float) -> None:
     if joint.workspace != 0:
         space = carray(pointer(joint.workspace), (1,), WORKSPACE)[0]
         compute_wrench(space, joint.body, frame, wrench)
-    rotate_wrench(frame, wrench, floats(values, 6))
+    rotate_wrench(frame, wrench, view_doubles(values, 6))
 
 
 @njit
@@ -137,16 +144,16 @@ def compute_wrench(space: Record, body: int, point: Array, wrench: Array) -> Non
         point: about which the torque is, in W, (3,) or more [m].
         wrench: receives force and torque.
     """
-    m, d, offsets = space.model, space.copy, longs(space.offsets, space.n_offsets)
+    m, d, offsets = space.model, space.copy, view_int64s(space.offsets, space.n_offsets)
     call_three(space.copy_data, d, m, space.data)
     for function in space.functions:
         call_both(function, m, d)
-    n = word(m + offsets[f.NBODY])
+    n = read_int64(m + offsets[f.NBODY])
     water = np.empty((n, 6))  # torque, then force
     water_wrenches(m, d, offsets, water)
-    reaction = floats(word(d + offsets[f.SUBTREE_FORCE]) + 48 * body, 6)
-    root = small(word(m + offsets[f.BODY_ROOT]) + 4 * body)
-    centre = floats(word(d + offsets[f.COM]) + 24 * root, 3)
+    reaction = view_doubles(read_int64(d + offsets[f.SUBTREE_FORCE]) + 48 * body, 6)
+    root = read_int32(read_int64(m + offsets[f.BODY_ROOT]) + 4 * body)
+    centre = view_doubles(read_int64(d + offsets[f.COM]) + 24 * root, 3)
     lever = np.empty(3)
     for i in range(3):
         lever[i] = point[i] - centre[i]

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.calls import address_of
-from ..base.numerics.linear import points_of, product, turned
+from ..base.numerics.linear import product, rotate, world_positions
 from ..base.record import Record
 from ..model.body_names import object_body, vehicle_body
 from ..model.scene_model import SceneModel
@@ -187,7 +187,7 @@ class Poses:
             elif parent in follows:
                 follows.add(body)
                 mujoco.mju_quat2Mat(axes, model.body_quat[body])
-                self.origins[body] = self.origins[parent] + turned(
+                self.origins[body] = self.origins[parent] + rotate(
                     self.axes[parent], model.body_pos[body]
                 )
                 self.axes[body] = product(self.axes[parent], axes.reshape(3, 3))
@@ -200,7 +200,7 @@ class Poses:
     def points(self, bodies: npt.NDArray[np.int64], on_bodies: Array) -> Array:
         """Return where points (n, 3) [m] of some bodies are, in W, (n, 3) [m]."""
         self.refresh()
-        return points_of(self.origins, self.axes, bodies, on_bodies)
+        return world_positions(self.origins, self.axes, bodies, on_bodies)
 
     def _body(self, body: int) -> Pose:
         self.refresh()

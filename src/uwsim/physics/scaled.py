@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from ..base.geometry import Array, Triple, rotation_from_rpy
-from ..base.numerics.linear import length, turned, turned_back
+from ..base.numerics.linear import length, rotate, rotate_back
 from ..model.body_names import vehicle_body
 from ..scene.urdf.kinematics import joint_positions, link_poses
 from ..scene.urdf.robot import RobotSpec
@@ -43,8 +43,8 @@ class ScaledLinks:
         positions = joint_positions(self._robot, values.tolist())
         for joint in self._robot.joints:
             parent, child = poses[joint.parent], poses[joint.child]
-            apart = turned_back(parent.rotation, self._scale * (child.position - parent.position))
+            apart = rotate_back(parent.rotation, self._scale * (child.position - parent.position))
             if joint.kind == "prismatic":  # the engine adds the slide
                 axis = np.array(joint.axis) / length(joint.axis)
-                apart -= turned(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
+                apart -= rotate(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
             self._model.body_pos[self._bodies[joint.child]] = apart

@@ -10,7 +10,15 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.numerics.calls import call, call_both
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import Ints64, carray, floats, longs, pointer, small, word
+from ..base.numerics.memory import (
+    Ints64,
+    carray,
+    pointer,
+    read_int32,
+    read_int64,
+    view_doubles,
+    view_int64s,
+)
 from ..base.sampling import TABLE, take_due
 from .actuation.autopilot_kernel import Seen, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
@@ -74,25 +82,25 @@ def begin(plans: Record) -> None:
     """Set the water, the thrusters and the servos of the step that begins."""
     plan = plans[0]
     m, d = plan.model, plan.data
-    at = longs(plan.offsets, plan.n_offsets)
-    qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
+    at = view_int64s(plan.offsets, plan.n_offsets)
+    qpos = view_doubles(read_int64(d + at[f.QPOS]), read_int64(m + at[f.NQ]))
     if plan.n_placed > 0:
         keep_placed(plan, qpos)
     if plan.n_water > 0:
         set_water(plan, at)
-    ctrl = floats(word(d + at[f.CTRL]), word(m + at[f.NU]))
+    ctrl = view_doubles(read_int64(d + at[f.CTRL]), read_int64(m + at[f.NU]))
     set_thrusters(plan, at, qpos, ctrl)
-    nv = word(m + at[f.NV])
+    nv = read_int64(m + at[f.NV])
     engine = Forces(
         qpos=qpos,
-        bias=floats(word(d + at[f.BIAS_FORCE]), nv),
-        passive=floats(word(d + at[f.PASSIVE]), nv),
-        spring=floats(word(d + at[f.SPRING]), nv),
-        damper=floats(word(d + at[f.DAMPER]), nv),
-        given=floats(word(d + at[f.ACTUATOR]), nv),
+        bias=view_doubles(read_int64(d + at[f.BIAS_FORCE]), nv),
+        passive=view_doubles(read_int64(d + at[f.PASSIVE]), nv),
+        spring=view_doubles(read_int64(d + at[f.SPRING]), nv),
+        damper=view_doubles(read_int64(d + at[f.DAMPER]), nv),
+        given=view_doubles(read_int64(d + at[f.ACTUATOR]), nv),
         controls=ctrl,
     )
-    servos = longs(plan.servos, 3 * plan.n_servos)
+    servos = view_int64s(plan.servos, 3 * plan.n_servos)
     for i in range(plan.n_servos):
         joints = carray(pointer(servos[3 * i]), (servos[3 * i + 2],), JOINT)
         states = carray(pointer(servos[3 * i + 1]), (servos[3 * i + 2],), JOINT_STATE)
@@ -107,20 +115,20 @@ def end(plans: Record) -> int:
     """Complete the step after MuJoCo's, and say what became of it."""
     plan = plans[0]
     m, d = plan.model, plan.data
-    at = longs(plan.offsets, plan.n_offsets)
+    at = view_int64s(plan.offsets, plan.n_offsets)
     if plan.is_in_middle != 0:
         to_the_end(m, d, at)
     for i in range(plan.n_warnings):
-        if small(plan.warnings + plan.stride * i) != 0:
+        if read_int32(plan.warnings + plan.stride * i) != 0:
             return WARNED
-    qvel = floats(word(d + at[f.QVEL]), word(m + at[f.NV]))
-    speeds = longs(plan.speeds, 3 * plan.n_speeds).reshape((-1, 3))
+    qvel = view_doubles(read_int64(d + at[f.QVEL]), read_int64(m + at[f.NV]))
+    speeds = view_int64s(plan.speeds, 3 * plan.n_speeds).reshape((-1, 3))
     dof = too_fast(qvel, speeds)
     if dof >= 0:
         return TOO_FAST + dof
-    qpos = floats(word(d + at[f.QPOS]), word(m + at[f.NQ]))
-    placed = longs(plan.placed, 2 * plan.n_placed)
-    poses = floats(plan.poses, 7 * plan.n_placed)
+    qpos = view_doubles(read_int64(d + at[f.QPOS]), read_int64(m + at[f.NQ]))
+    placed = view_int64s(plan.placed, 2 * plan.n_placed)
+    poses = view_doubles(plan.poses, 7 * plan.n_placed)
     for i in range(plan.n_placed):
         for k in range(7):
             qpos[placed[2 * i] + k] = poses[7 * i + k]
@@ -141,7 +149,7 @@ def sample(plans: Record) -> bool:
     if plan.samples == 0:
         return False
     tables, step = carray(pointer(plan.samples), (1,), TABLE), plan.step + plan.ahead
-    if step < word(tables[0].due):
+    if step < read_int64(tables[0].due):
         return False
     call_both(plan.kinematics, plan.model, plan.data)
     take_due(tables, step)
@@ -169,8 +177,8 @@ def end_and_begin(plans: Record) -> int:
 @njit
 def keep_placed(plan: Record, qpos: Array) -> None:
     """Write down where the bodies are that stay where they are put, after they have drifted."""
-    placed = longs(plan.placed, 2 * plan.n_placed)
-    poses = floats(plan.poses, 7 * plan.n_placed)
+    placed = view_int64s(plan.placed, 2 * plan.n_placed)
+    poses = view_doubles(plan.poses, 7 * plan.n_placed)
     for i in range(plan.n_placed):
         for k in range(7):
             poses[7 * i + k] = qpos[placed[2 * i] + k]
@@ -187,13 +195,13 @@ def keep_placed(plan: Record, qpos: Array) -> None:
 def set_water(plan: Record, at: Ints64) -> None:
     """Let the water move in the step that begins as its function says, at its middle."""
     d, n = plan.data, plan.n_wet
-    wet = longs(plan.wet, n)
-    rows = floats(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
+    wet = view_int64s(plan.wet, n)
+    rows = view_doubles(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
     if plan.needs_points != 0:
-        felt_at = floats(plan.felt_at, 3 * n)
+        felt_at = view_doubles(plan.felt_at, 3 * n)
         for i in range(n):
-            origin = floats(word(d + at[f.XPOS]) + 24 * wet[i], 3)
-            axes = floats(word(d + at[f.XMAT]) + 72 * wet[i], 9)
+            origin = view_doubles(read_int64(d + at[f.XPOS]) + 24 * wet[i], 3)
+            axes = view_doubles(read_int64(d + at[f.XMAT]) + 72 * wet[i], 9)
             x, y, z = felt_at[3 * i], felt_at[3 * i + 1], felt_at[3 * i + 2]
             for k in range(3):
                 rows[i, POINT + k] = (
@@ -201,7 +209,9 @@ def set_water(plan: Record, at: Ints64) -> None:
                 )
     time = (plan.step + plan.ahead + 1) * plan.timestep - 0.5 * plan.timestep
     call(plan.flow, plan.flow_parameters, plan.water_rows, time)
-    userdata = floats(word(d + at[f.USERDATA]), word(plan.model + at[f.NUSERDATA]))
+    userdata = view_doubles(
+        read_int64(d + at[f.USERDATA]), read_int64(plan.model + at[f.NUSERDATA])
+    )
     for i in range(n):
         to = WATER_COLUMNS * wet[i]
         for k in range(6):
@@ -214,7 +224,7 @@ def set_water(plan: Record, at: Ints64) -> None:
 @njit
 def set_thrusters(plan: Record, at: Ints64, qpos: Array, ctrl: Array) -> None:
     """Let the autopilots that are due, or have got a command, set their thrusters."""
-    addresses = longs(plan.autopilots, 5 * plan.n_autopilots)
+    addresses = view_int64s(plan.autopilots, 5 * plan.n_autopilots)
     is_due = plan.step % plan.autopilot_steps == 0
     for i in range(plan.n_autopilots):
         own = addresses[5 * i : 5 * i + 5]
@@ -224,12 +234,15 @@ def set_thrusters(plan: Record, at: Ints64, qpos: Array, ctrl: Array) -> None:
         autopilot = carray(pointer(own[0]), (1,), AUTOPILOT)[0]
         thrusters = carray(pointer(own[2]), (own[4],), THRUSTER)
         is_over_ground = autopilot.is_over_ground != 0 or state.mode == POSITION
-        qvel = floats(word(plan.data + at[f.QVEL]) + 8 * autopilot.dof, 6)
-        water = word(plan.data + at[f.USERDATA]) + 8 * WATER_COLUMNS * autopilot.body
+        qvel = view_doubles(read_int64(plan.data + at[f.QVEL]) + 8 * autopilot.dof, 6)
+        water = read_int64(plan.data + at[f.USERDATA]) + 8 * WATER_COLUMNS * autopilot.body
         seen = look(
-            qpos[autopilot.place : autopilot.place + 7], qvel, floats(water, 3), is_over_ground
+            qpos[autopilot.place : autopilot.place + 7],
+            qvel,
+            view_doubles(water, 3),
+            is_over_ground,
         )
-        commands = floats(own[3], own[4])
+        commands = view_doubles(own[3], own[4])
         dt = plan.autopilot_steps * plan.timestep
         steer(dt, autopilot, state, thrusters, commands, seen, ctrl)
 

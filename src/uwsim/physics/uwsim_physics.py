@@ -21,7 +21,7 @@ import mujoco
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.linear import turned
+from ..base.numerics.linear import rotate
 from ..base.record import Record
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
@@ -120,9 +120,9 @@ class _DampedObject:
         """Damp its velocities for one step."""
         rotation = self._rotation.reshape(3, 3)
         turning = self._velocity[3:]
-        of_middle = self._velocity[:3] + turned(rotation, np.cross(turning, self._middle))
+        of_middle = self._velocity[:3] + rotate(rotation, np.cross(turning, self._middle))
         turning *= self._keeps_turning
-        lever = turned(rotation, np.cross(turning, self._middle))
+        lever = rotate(rotation, np.cross(turning, self._middle))
         self._velocity[:3] = self._keeps * of_middle - lever
 
 

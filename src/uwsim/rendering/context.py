@@ -7,7 +7,7 @@ from typing import Any
 
 import moderngl
 
-from ..base.environment import environment
+from ..base.environment import set_environment
 from ..errors import NoGraphics
 
 ENVIRONMENT = {
@@ -32,7 +32,7 @@ def create_context() -> moderngl.Context:
     for device in range(N_DEVICES):
         settings: dict[str, Any] = {"standalone": True, "backend": "egl", "device_index": device}
         try:
-            with environment(ENVIRONMENT):  # processes started later choose for themselves
+            with set_environment(ENVIRONMENT):  # processes started later choose for themselves
                 context = moderngl.create_context(require=330, **settings)
         except Exception as error:  # glcontext and moderngl raise bare Exceptions
             failures.append(error)

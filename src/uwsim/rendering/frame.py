@@ -6,7 +6,7 @@ import moderngl
 import numpy as np
 
 from ..base.geometry import Array, Intrinsics, Pose
-from ..base.numerics.linear import product, turned_back
+from ..base.numerics.linear import product, rotate_back
 from .lights.sun_shadow import SunShadow
 from .program import Block
 from .water import AMBIENT, SPECULAR, SUN_COLOURS, Light, Water, sun_direction
@@ -55,7 +55,7 @@ class Frame:
             shadow.texture_from_world, world_from_camera.matrix
         ).T
         values["up"] = *rotation[2], height
-        values["sun"] = *turned_back(rotation, sun_direction(light.sun)), shadow.lift
+        values["sun"] = *rotate_back(rotation, sun_direction(light.sun)), shadow.lift
         values["sunlight"][:3] = [light.rate * colour for colour in SUN_COLOURS[light.sun]]
         values["sky"][:2] = light.rate * AMBIENT, light.rate * SPECULAR
         values["water_colour"][:3] = water.colour

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import names_file
+from ..errors import name_file_in_errors
 
 DRAFT = re.compile(r"\.(.+)\.[0-9]+\.part")
 """Name of a draft: the file's name and the process that writes it."""
@@ -30,7 +30,7 @@ def atomic_write(path: Path) -> Iterator[Path]:
     """
     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
-        with names_file(path, draft):
+        with name_file_in_errors(path, draft):
             yield draft
             draft.replace(path)
     finally:

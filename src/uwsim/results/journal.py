@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..errors import ReplayDiffers, ResultError, names_file
+from ..errors import ReplayDiffers, ResultError, name_file_in_errors
 from .chosen_code import other_code
 from .inputs import Inputs, differing
 from .provenance import codes_of, load_provenance
@@ -248,14 +248,14 @@ class Journal:
         if self._stored.end is not None and not self._is_finished:
             self.finish(self._stored.end)
             return
-        with names_file(self._path):
+        with name_file_in_errors(self._path):
             self._stream.close()
 
     def _write(self, record: Record) -> None:
         text = _text(record)
         if self._seal is not None and "unit" not in record:
             text = self._seal.line(text)
-        with names_file(self._path):
+        with name_file_in_errors(self._path):
             self._stream.write(text + "\n")
             self._stream.flush()
             os.fsync(self._stream.fileno())

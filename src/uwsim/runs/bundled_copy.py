@@ -6,7 +6,7 @@ from pathlib import Path, PurePosixPath
 
 from ..assets.bundled import bundled
 from ..assets.find import PACKAGE
-from ..base.files.input_files import InputFile, recorded
+from ..base.files.input_files import InputFile, record_inputs
 from ..errors import BadSetting, UnknownName
 from ..physics.compile_scene import compile_scene
 from ..results.atomic_file import atomic_write
@@ -61,7 +61,7 @@ def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Pa
 def _files_of(name: str) -> list[InputFile]:
     """Return the bundled files that are read when a scene or benchmark is opened."""
     scenes, benchmarks = (bundled(kind) for kind in KINDS)
-    with recorded() as files:
+    with record_inputs() as files:
         if name in scenes:
             Simulation(compile_scene(read_scene(scenes[name]))).close()
         elif name in benchmarks:

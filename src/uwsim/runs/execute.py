@@ -15,9 +15,9 @@ from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 
-from ..base.system_errors import as_run_failed
+from ..base.system_errors import convert_to_run_failed
 from ..base.terminal import warn
-from ..errors import AllErrors, RunFailed
+from ..errors import ErrorCollector, RunFailed
 from ..results.provenance import carried, machine, save_beginning, save_provenance
 from ..results.result import Result
 from .control import CONTROL, control_of, wants_control
@@ -117,7 +117,7 @@ class Callbacks:
 
 
 def plan_all(
-    requests: Sequence[PlanRequest], workers: str, callback_limit: float, wrong: AllErrors
+    requests: Sequence[PlanRequest], workers: str, callback_limit: float, wrong: ErrorCollector
 ) -> tuple[Executor | None, list[Plan]]:
     """Choose the executor and make the plans; collects all errors.
 
@@ -128,11 +128,11 @@ def plan_all(
         wrong: keeps what is wrong.
     """
     executor: Executor | None = None
-    with wrong.kept():
+    with wrong.collect():
         executor = executor_of(workers, callback_limit)
     plans = []
     for request in requests:
-        with wrong.kept():
+        with wrong.collect():
             plans.append(make_plan(request))
     return executor, plans
 
@@ -177,7 +177,7 @@ def begun(execution: Execution, directory: AbstractContextManager[None]) -> Iter
         execution: what runs in this block; a system error there is a `RunFailed`.
         directory: locks and empties the directory.
     """
-    with as_run_failed(), directory:
+    with convert_to_run_failed(), directory:
         for run in execution.runs:
             if message := save_beginning(execution.command, run.out):
                 warn(message)

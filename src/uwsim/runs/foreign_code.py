@@ -6,8 +6,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..base.files.modules import located
-from ..base.terminal import printable
+from ..base.files.modules import find_module_file
+from ..base.terminal import clean_text
 from ..errors import BadSetting
 
 if TYPE_CHECKING:
@@ -34,13 +34,13 @@ def refused(code: str, file: str) -> BadSetting:
 def announce(code: str, file: str, *, place: Path | None = None) -> None:
     """Announce that ``module:name``, or a plugin at a place, which a file names, will run."""
     try:
-        where = place or located(code.partition(":")[0])
+        where = place or find_module_file(code.partition(":")[0])
     except (ModuleNotFoundError, ValueError):
         return  # the import reports it
     message = (
         f"uwsim: {file} runs Python code: {code} in {where or 'Python'} (--no-code refuses it)"
     )
-    print(printable(message), file=sys.stderr)
+    print(clean_text(message), file=sys.stderr)
 
 
 def _codes(scene: SceneSpec) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from ..base.files.input_files import InputFile, by_name, hash_of, portable, record
+from ..base.files.input_files import InputFile, hash_of, hashes_by_name, portable_name, record
 from ..base.files.python_sources import sources_of
 from ..benchmark.plugin import attribute_errors_to, hashes
 from ..benchmark.plugin_checks import files_of
@@ -21,7 +21,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     Args:
         plan: the benchmark to run.
         simulation: its scene.
-        read: the input files that were read to make it (`uwsim.base.files.input_files.recorded`).
+        read: the input files that were read to make it (`record_inputs`).
     """
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     robots = {
@@ -29,7 +29,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
         for i, vehicle in enumerate(plan.scene.vehicles)
     }
     assets = [
-        InputFile(portable(robots[file.path]), file.sha256) if file.path in robots else file
+        InputFile(portable_name(robots[file.path]), file.sha256) if file.path in robots else file
         for file in read
         if file.path not in (benchmark, scene)
     ]
@@ -46,7 +46,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     return Inputs(
         benchmark=(benchmark.name, hash_of(benchmark)),
         scene=(scene.name, hash_of(scene)),
-        assets=by_name(assets),
+        assets=hashes_by_name(assets),
         plugins=hashes(plan.plugins) or None,
         algorithm=of_algorithm(plan),
     )
@@ -57,11 +57,11 @@ def of_algorithm(plan: Plan) -> dict[str, str] | None:
     module, colon, _ = plan.algorithm.name.partition(":")
     if not colon:
         return None
-    return by_name(_hashed(sources_of(module)))
+    return hashes_by_name(_hashed(sources_of(module)))
 
 
 def _hashed(files: Mapping[str, Path]) -> list[InputFile]:
     """Hash and record files that are read later, or by others."""
-    found = [InputFile(portable(name), hash_of(path), path) for name, path in files.items()]
+    found = [InputFile(portable_name(name), hash_of(path), path) for name, path in files.items()]
     record(found)
     return found

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from ..base.files.input_files import recorded
+from ..base.files.input_files import record_inputs
 from ..benchmark.plugin import attribute_errors_to, check_bound
 from ..benchmark.truth_checks import truth_diagnostics
 from ..benchmark.unknown_names import unknown_names
@@ -23,7 +23,7 @@ from .run import Run
 
 def prepare_run(plan: Plan, out: Path) -> Run:
     """Return the run of a plan, with its result in ``out``; raises as `hash_inputs` does."""
-    with recorded() as files:
+    with record_inputs() as files:
         inputs, renderer = hash_inputs(plan)
     return Run(plan=plan, out=out, inputs=inputs, renderer=renderer, files=watchable(files))
 
@@ -42,7 +42,7 @@ def prepare_runs(plans: Sequence[Plan], out: Path, folders: Sequence[str]) -> li
     first = prepare_run(plans[0], out)
     runs = []
     for plan, folder in zip(plans, folders or [""], strict=True):
-        with recorded() as sources:
+        with record_inputs() as sources:
             inputs = replace(first.inputs, algorithm=of_algorithm(plan))
         files = watchable([*first.files, *sources])
         run = Run(plan=plan, out=out / folder, inputs=inputs, renderer=first.renderer, files=files)
@@ -54,7 +54,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
     """Open the scene once: hash every file that is read, and name the renderer.
 
     Every name of the benchmark is looked up on the way, so that no name can fail later. Inside
-    `recorded` the files are recorded with their paths.
+    `record_inputs` the files are recorded with their paths.
 
     Args:
         plan: the benchmark to run.
@@ -66,7 +66,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
     Raises:
         UwsimError: a file, a body, a camera or a service that is not there.
     """
-    with recorded() as files:
+    with record_inputs() as files:
         simulation = Simulation(compile_plan(plan, 0), pool=pool)
         try:
             with attribute_errors_to(plan.plugins):

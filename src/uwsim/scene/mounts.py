@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from ..base.geometry import Array, Pose
-from ..base.numerics.linear import dot, length, product, turned, turned_back
+from ..base.numerics.linear import dot, length, product, rotate, rotate_back
 from ..devices.object_picker import ObjectPickerSpec
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.range_sensor import RangeSensorSpec
@@ -124,8 +124,8 @@ class MountFrames:
     def _scaled(self, point: Array) -> Array:
         """A point of the vehicle without its scale, where its scale puts it, in W, (3,) [m]."""
         base, scale = self.world_from_base, np.array(self.vehicle.scale_factor)
-        own = turned_back(base.rotation, point - base.position)
-        placed: Array = base.position + turned(base.rotation, scale * own)
+        own = rotate_back(base.rotation, point - base.position)
+        placed: Array = base.position + rotate(base.rotation, scale * own)
         return placed
 
     def world_axes(self, spec: Mounted, *, visual: bool = False) -> Array:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ..acoustics import MaterialName
-from ..base.geometry import ONE, ZERO, Pose, Triple, rotation_from_xyz
+from ..base.geometry import UNIT_SCALE, ZERO, Pose, Triple, rotation_from_xyz
 from ..base.numerics.linear import product
 from ..schema import CLAMPED_NUMBER, MAX_DISTANCE, REQUIRED_BY_DTD, Spec, element
 from .accepted_warnings import ObjectWarning
@@ -42,11 +42,11 @@ class PhysicsSpec(Spec):
     """Of its turning [1/s]."""
     is_kinematic: bool = False
     """Whether it is moved by commands alone."""
-    min_linear_limit: Triple = ONE
+    min_linear_limit: Triple = UNIT_SCALE
     """Where an axis may go from; min above max is free [m]."""
     max_linear_limit: Triple = ZERO
     """Where an axis may go to; min above max is free [m]."""
-    min_angular_limit: Triple = ONE
+    min_angular_limit: Triple = UNIT_SCALE
     """Where a turn may go from; min above max is free [rad]."""
     max_angular_limit: Triple = ZERO
     """Where a turn may go to; min above max is free [rad]."""
@@ -99,7 +99,9 @@ class ObjectSpec(Spec):
     """In the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy", original=REQUIRED_BY_DTD)
     """In the file's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
-    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER)
+    scale_factor: Triple = element(
+        default=UNIT_SCALE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER
+    )
     """Scale along x, y, z [1]."""
     offsetp: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """Point of the mesh that becomes the origin of the object [m]."""

@@ -18,7 +18,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal, TypeVar
 
-from ..base.geometry import ONE, ZERO, Pose, Triple
+from ..base.geometry import UNIT_SCALE, ZERO, Pose, Triple
 from ..devices import DEVICES
 from ..devices.echo import SimulatedDevicesSpec
 from ..devices.fdm import FdmSpec
@@ -66,7 +66,9 @@ class VehicleSpec(Spec):
     """Of its base in the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
     """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
-    scale_factor: Triple = element(default=ONE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER)
+    scale_factor: Triple = element(
+        default=UNIT_SCALE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER
+    )
     """Scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
     links, and what is mounted on them; a simulated vehicle has none [1]."""
     parts: tuple[object, ...] = element("", choice=PARTS, default=())

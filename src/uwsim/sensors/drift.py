@@ -32,7 +32,7 @@ from ..base.geometry import Array
 from ..base.numerics.calls import address_of
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import floats
+from ..base.numerics.memory import view_doubles
 from ..base.record import Record
 from ..schema import Spec, element
 
@@ -128,8 +128,12 @@ def draw_errors(drift: Any, time: float, errors: Array) -> float:
         time: when the sample is taken [s].
         errors: into which they are written.
     """
-    last, constant, bias = floats(drift.time, 1), floats(drift.constant, 3), floats(drift.bias, 3)
-    walk = floats(drift.walk, 3)
+    last, constant, bias = (
+        view_doubles(drift.time, 1),
+        view_doubles(drift.constant, 3),
+        view_doubles(drift.bias, 3),
+    )
+    walk = view_doubles(drift.walk, 3)
     lasted = 0.0 if math.isnan(last[0]) else time - last[0]
     last[0] = time
     kept = math.exp(-lasted / drift.correlation_time)

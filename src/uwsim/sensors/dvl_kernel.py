@@ -11,8 +11,8 @@ from ..base.geometry import Array
 from ..base.numerics.calls import FUNCTION
 from ..base.numerics.draws import STREAM, normal, uniform
 from ..base.numerics.jit import njit
-from ..base.numerics.linear import matrices, solved, turned, turned_back, turned_rows
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.linear import eliminate, multiply_matrices, rotate, rotate_back, rotate_rows
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..rays import Hits
 from ..rays.scene_record import RAYS, cast_from
 from ..world.mounts import MOUNT, read_frame, read_motion, read_water
@@ -74,7 +74,7 @@ def sample_dvl(parameters: int, values: int, time: float) -> None:
             noise[i, k] = normal(dvl.stream)
     for i in range(4):
         chances[i] = uniform(dvl.stream)
-    found = floats(values, N_VALUES)
+    found = view_doubles(values, N_VALUES)
     if dvl.is_original != 0:
         differ(dvl, time, frame, noise[3], found)
     else:
@@ -84,10 +84,10 @@ def sample_dvl(parameters: int, values: int, time: float) -> None:
 @njit
 def differ(dvl: Record, time: float, frame: Array, noise: Array, found: Array) -> None:
     """Write the mean velocity since the last sample in the sensor's axes, as the original's."""
-    before, velocity = floats(dvl.before, 4), np.zeros(3)
+    before, velocity = view_doubles(dvl.before, 4), np.zeros(3)
     if time > before[0]:  # not before the first: NaN
         moved = (frame[:3] - before[1:]) / (time - before[0])
-        velocity = turned_back(frame[3:].reshape((3, 3)), moved)
+        velocity = rotate_back(frame[3:].reshape((3, 3)), moved)
     before[0], before[1:] = time, frame[:3]
     for k in range(3):
         found[k] = velocity[k] + dvl.std * noise[k]
@@ -100,12 +100,12 @@ def ping(
     """Measure with these random numbers, (4, 4) and (4,)."""
     axes, motion, base = frame[3:].reshape((3, 3)), np.empty(12), np.empty(12)
     directions = dvl.directions
-    beams = turned_rows(axes, directions)
+    beams = rotate_rows(axes, directions)
     ranges = find_ranges(dvl, frame, beams)
     motion[:3] = frame[:3]
     read_motion(dvl.mount, motion)
-    velocity = turned_back(axes, motion[3:6])
-    scale, reach = floats(dvl.scale, 4), dvl.water_layer / dvl.cosine
+    velocity = rotate_back(axes, motion[3:6])
+    scale, reach = view_doubles(dvl.scale, 4), dvl.water_layer / dvl.cosine
     flow = flow_at(dvl, frame, reach, beams, time)
     bottom, water, along = np.empty(4), np.empty(4), found[ALONG : ALONG + 4]
     is_good, is_wet = np.empty(4, np.bool_), np.empty(4, np.bool_)
@@ -127,11 +127,11 @@ def ping(
             drop = -(0.0 + d[0] * axes[2, 0] + d[1] * axes[2, 1] + d[2] * axes[2, 2])
             height, n_good = height + found[RANGES + i] * drop, n_good + 1
     noise = dvl.std * normals[3, :3]
-    take_velocity(floats(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
-    take_velocity(floats(dvl.through, N_TRACK), time, axes, dvl, (water, is_wet), noise)
+    take_velocity(view_doubles(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
+    take_velocity(view_doubles(dvl.through, N_TRACK), time, axes, dvl, (water, is_wet), noise)
     read_frame(dvl.base, base)
-    write_track(floats(dvl.bottom, N_TRACK), base[3:], found[BOTTOM:IN_WATER])
-    write_track(floats(dvl.through, N_TRACK), base[3:], found[IN_WATER:HEIGHT])
+    write_track(view_doubles(dvl.bottom, N_TRACK), base[3:], found[BOTTOM:IN_WATER])
+    write_track(view_doubles(dvl.through, N_TRACK), base[3:], found[IN_WATER:HEIGHT])
     found[HEIGHT] = height / n_good if n_good else math.nan
     found[DEPTH] = max(0.0, dvl.surface - frame[2])
 
@@ -151,7 +151,7 @@ def write_track(track: Array, base: Array, found: Array) -> None:
 def flow_at(dvl: Record, frame: Array, reach: float, beams: Array, time: float) -> Array:
     """Return the velocity of the water on the beams, in W, (4, 3) [m/s]."""
     if dvl.water.function == 0:
-        return floats(dvl.flow, 12).reshape((4, 3))
+        return view_doubles(dvl.flow, 12).reshape((4, 3))
     found = np.empty((2, 4, 3))
     for i in range(4):
         for k in range(3):
@@ -203,11 +203,11 @@ def take_velocity(
         return
     beams = dvl.directions[is_good]
     across = np.ascontiguousarray(beams.T)
-    columns = matrices(across, along[is_good].reshape((-1, 1)))
-    velocity = solved(matrices(across, beams), columns)[0][:, 0]
+    columns = multiply_matrices(across, along[is_good].reshape((-1, 1)))
+    velocity = eliminate(multiply_matrices(across, beams), columns)[0][:, 0]
     for k in range(3):
         track[INSTRUMENT + k] = velocity[k] + noise[k]
-    track[WORLD:ERROR] = turned(axes, track[INSTRUMENT:WORLD])
+    track[WORLD:ERROR] = rotate(axes, track[INSTRUMENT:WORLD])
     track[ERROR] = math.nan
     if is_good.all():
         total = SIGNS[0] * along[0]

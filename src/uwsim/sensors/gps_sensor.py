@@ -22,7 +22,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.draws import STREAM, normal, stream_of
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..base.record import RandomState
 from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
@@ -123,7 +123,7 @@ def sample_gps(parameters: int, values: int, time: float) -> None:
     """Take a sample of a receiver of satellites; see `uwsim.base.numerics.calls`."""
     sensor, found, frame = (
         carray(pointer(parameters), (1,), GNSS)[0],
-        floats(values, 6),
+        view_doubles(values, 6),
         np.empty(12),
     )
     read_frame(sensor.mount, frame)

@@ -25,8 +25,8 @@ import numpy as np
 from ..base.geometry import Array, write_quaternion, write_rotation
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.jit import njit
-from ..base.numerics.linear import matrices, turned_back
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.linear import multiply_matrices, rotate_back
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..base.record import Record
 from ..messages import Imu, Quaternion, Vector3, header
 from ..schema import MAX_DISTANCE, element
@@ -131,7 +131,7 @@ class InertialUnit(CompiledSensor):
 def sample_imu(parameters: int, values: int, time: float) -> None:
     """Take a sample of an inertial measurement unit; see `uwsim.base.numerics.calls`."""
     imu = carray(pointer(parameters), (1,), IMU)[0]
-    measure(imu, time, floats(values, N_VALUES))
+    measure(imu, time, view_doubles(values, N_VALUES))
 
 
 @njit
@@ -144,19 +144,19 @@ def measure(imu: Any, time: float, values: Array) -> None:
     pitch = imu.std * normal(imu.stream)
     yaw = imu.std * normal(imu.stream)
     write_rotation(roll, pitch, yaw, noise)
-    localized = matrices(imu.localized_from_world, axes)
-    write_quaternion(matrices(noise, localized), values[:4])
+    localized = multiply_matrices(imu.localized_from_world, axes)
+    write_quaternion(multiply_matrices(noise, localized), values[:4])
     if imu.measures_motion == 0:
         return
     motion, errors = np.empty(12), np.empty(3)
     motion[:3] = frame[:3]
     read_motion(imu.mount, motion)
     values[7] = draw_errors(imu.gyro, time, errors)
-    values[4:7] = turned_back(axes, motion[6:9]) + errors
+    values[4:7] = rotate_back(axes, motion[6:9]) + errors
     values[11] = draw_errors(imu.accelerometer, time, errors)
     for i in range(3):
         motion[9 + i] += UP[i]
-    values[8:11] = turned_back(axes, motion[9:12]) + errors
+    values[8:11] = rotate_back(axes, motion[9:12]) + errors
 
 
 @functools.lru_cache(maxsize=64)

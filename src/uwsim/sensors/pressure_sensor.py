@@ -25,7 +25,7 @@ from ..base.geometry import Array
 from ..base.numerics.calls import address_of
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.jit import njit
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..base.record import RandomState
 from ..messages import Pressure, header
 from ..schema import MAX_DISTANCE, element
@@ -118,7 +118,7 @@ class PressureSensor(CompiledSensor):
 def sample_pressure(parameters: int, values: int, time: float) -> None:
     """Take a sample of a pressure sensor; see `uwsim.base.numerics.calls`."""
     sensor = carray(pointer(parameters), (1,), PRESSURE)[0]
-    floats(values, 1)[0] = without_noise(sensor) + sensor.std * normal(sensor.stream)
+    view_doubles(values, 1)[0] = without_noise(sensor) + sensor.std * normal(sensor.stream)
 
 
 @njit
@@ -134,7 +134,7 @@ def without_noise(sensor: Any) -> float:
     depth: float = below if below > 0.0 else 0.0
     if sensor.measures == DEPTH:
         return depth
-    levels = floats(sensor.levels, 2 * sensor.n_levels).reshape((-1, 2))
+    levels = view_doubles(sensor.levels, 2 * sensor.n_levels).reshape((-1, 2))
     gauge: float = GRAVITY * column_mass(levels, depth)
     return gauge if sensor.measures == GAUGE else sensor.atmosphere + gauge
 

@@ -22,8 +22,8 @@ from ..base.geometry import Array
 from ..base.numerics.calls import address_of, function_address
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.jit import njit
-from ..base.numerics.linear import turned_rows
-from ..base.numerics.memory import carray, floats, pointer
+from ..base.numerics.linear import rotate_rows
+from ..base.numerics.memory import carray, pointer, view_doubles
 from ..base.record import RandomState
 from ..base.sampling import Sampler
 from ..messages import Range, header
@@ -132,7 +132,7 @@ def sample_range(parameters: int, values: int, time: float) -> None:
     noise = sensor.std * normal(sensor.stream)
     if nearest <= sensor.reach:
         nearest += noise
-    floats(values, 1)[0] = min(max(nearest, 0.0), sensor.reach)
+    view_doubles(values, 1)[0] = min(max(nearest, 0.0), sensor.reach)
 
 
 @njit
@@ -142,8 +142,8 @@ def nearest_hit(sensor: Any) -> float:
     frame, begins = np.empty(12), np.zeros(n)
     hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, np.int32))
     read_frame(sensor.mount, frame)
-    directions = floats(sensor.directions, 3 * n).reshape((-1, 3))
-    along = turned_rows(frame[3:].reshape((3, 3)), directions)
+    directions = view_doubles(sensor.directions, 3 * n).reshape((-1, 3))
+    along = rotate_rows(frame[3:].reshape((3, 3)), directions)
     cast_from(sensor.rays, frame[:3], along, begins, sensor.reach, hits)
     nearest: float = hits.distance.min()
     return nearest

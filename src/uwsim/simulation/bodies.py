@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Pose
-from ..base.numerics.linear import placed, product
+from ..base.numerics.linear import product, transform_points
 from ..errors import UnknownName, UwsimError
 from ..model.parts import Part
 from ..model.scene_model import SceneModel
@@ -157,7 +157,7 @@ def _box_of(
     visual_from_link = product(world_from_visual.inverse().matrix, world_from_link)
     corners = np.concatenate(
         [
-            placed(part.model.box.corners(), matrix[:3, :3], matrix[:3, 3])
+            transform_points(part.model.box.corners(), matrix[:3, :3], matrix[:3, 3])
             for part in parts
             for matrix in [product(visual_from_link, part.frame_from_mesh)]
         ]

@@ -12,7 +12,7 @@ from ..errors import (
     SimulationFailed,
     UnknownName,
     UwsimError,
-    shown,
+    short_repr,
     type_and_text,
 )
 from ..forces import FORCES, Force, ForceSpec
@@ -67,8 +67,8 @@ def engine_wrenches(
                 ):
                     raise SimulationFailed(
                         f"{_shown_force(spec)} acts on {attachment.name!r} with "
-                        f"{shown(wrench.tolist())} at {time:.6g} s; expected six finite numbers "
-                        "[N, N m]."
+                        f"{short_repr(wrench.tolist())} at {time:.6g} s; expected six finite "
+                        "numbers [N, N m]."
                     )
                 if attachment.engine_body is not None:
                     yield attachment.engine_body, attachment.on_body, wrench
@@ -87,8 +87,8 @@ def _failed(
             f"{_shown_force(spec)} raised {type_and_text(error)} at {time:.6g} s."
         )
     return SimulationFailed(
-        f"{_shown_force(spec)} returned {shown(returned)} at {time:.6g} s; expected pairs of an "
-        f"attachment and six finite numbers [N, N m] ({type_and_text(error)})."
+        f"{_shown_force(spec)} returned {short_repr(returned)} at {time:.6g} s; expected pairs of "
+        f"an attachment and six finite numbers [N, N m] ({type_and_text(error)})."
     )
 
 

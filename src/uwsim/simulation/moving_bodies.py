@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.calls import address_of, function_address
-from ..base.sampling import Sampler, addresses_in, gathering
+from ..base.sampling import Sampler, gather_sampler, number_addresses
 from ..physics.engine import Engine
 from ..physics.kinematics import link_kernel
 from ..physics.kinematics.link_motion import LinkMotion
@@ -163,7 +163,9 @@ class CompiledVehicle:
         place, twist = self._engine.link_motion.base_addresses(self._index)
         self._twist = twist
         self._addresses = np.concatenate([place, twist])
-        return gathering(self._addresses, prepare=self._prepare, is_alone=lambda _: self._follow())
+        return gather_sampler(
+            self._addresses, prepare=self._prepare, is_alone=lambda _: self._follow()
+        )
 
     def _prepare(self, time: float) -> None:
         """Look up where the base is, and its twist if the engine does not move it."""
@@ -176,7 +178,7 @@ class CompiledVehicle:
     def _follow(self) -> bool:
         """Whether the engine moves it; samples read its twist, else that which is led."""
         is_free = self._led_twist() is None
-        self._addresses[-len(self._led) :] = self._twist if is_free else addresses_in(self._led)
+        self._addresses[-len(self._led) :] = self._twist if is_free else number_addresses(self._led)
         return is_free
 
     def joint_sampler(self) -> Sampler:
@@ -185,4 +187,4 @@ class CompiledVehicle:
         addresses = engine.link_motion.joint_addresses(
             self._index, self._joints, with_motion=engine.is_simulated(self._index)
         )
-        return gathering(addresses, prepare=lambda _: None, is_alone=lambda _: True)
+        return gather_sampler(addresses, prepare=lambda _: None, is_alone=lambda _: True)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..base.numerics.calls import address_of
 from ..base.record import Record
-from ..base.sampling import DUE, NEVER, TABLE, TIMER, Sampling, TimerState, take_due
+from ..base.sampling import DUE, NO_STEP, TABLE, TIMER, Sampling, TimerState, take_due
 from ..bus import Bus
 
 M = TypeVar("M")
@@ -62,7 +62,7 @@ class Schedule:
         self._bus, self._timestep = bus, timestep
         self._timers: list[_Timer] = []
         self._appliers: list[Callable[[Any], None]] = []
-        self.state = ScheduleState(np.full(1, NEVER))
+        self.state = ScheduleState(np.full(1, NO_STEP))
         """What is to be done later."""
 
     def every(
@@ -96,7 +96,7 @@ class Schedule:
 
     def _set(self, timers: list[_Timer]) -> None:
         self._timers, self.state.timers = timers, [each.state for each in timers]
-        self.state.due[0] = min((each.counts[DUE] for each in self.state.timers), default=NEVER)
+        self.state.due[0] = min((each.counts[DUE] for each in self.state.timers), default=NO_STEP)
         self.__dict__.pop("_rows", None)
         self.__dict__.pop("table", None)
 
@@ -132,7 +132,7 @@ class Schedule:
             The step at which compiled steps have to end, as something is due for Python; and that
             of the first sample which compiled code cannot take without preparation.
         """
-        for_python = unprepared = NEVER
+        for_python = unprepared = NO_STEP
         for i, timer in enumerate(self._timers):
             due = int(timer.state.counts[DUE])
             if due > last or due >= unprepared or not self._is_sampled(i, timer):

@@ -11,7 +11,7 @@ from typing import Any, Self
 from ..base.geometry import Array, Pose
 from ..base.record import assign
 from ..bus import Algorithm, Bus
-from ..errors import BadSetting, UwsimError, shown
+from ..errors import BadSetting, UwsimError, short_repr
 from ..model.scene_model import SceneModel
 from ..physics.compile_scene import recompile
 from ..rendering.rendered_image import RenderedImage
@@ -53,7 +53,7 @@ class Simulation:
         if not isinstance(model, SceneModel):
             raise BadSetting(
                 f"A Simulation is made of what compile_scene returns, not of "
-                f"a {type(model).__name__}: {shown(model)}."
+                f"a {type(model).__name__}: {short_repr(model)}."
             )
         self._own_pool = RendererPool()
         self._make_scene = partial(

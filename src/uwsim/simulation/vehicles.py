@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..base.geometry import Array, Pose
-from ..base.numerics.linear import turned_back
-from ..base.record import Lazy, Record
+from ..base.numerics.linear import rotate_back
+from ..base.record import LazyPart, Record
 from ..base.sampling import Sampler
 from ..bus import Bus
 from ..devices.sway import displaced, undisplaced
@@ -30,7 +30,7 @@ from .moving_bodies import CompiledVehicle, MountedBody, MovingBody, MovingLink
 class VehicleState(Record):
     """What changes of a vehicle besides the engine's."""
 
-    placed: Lazy[PlacedMotion]
+    placed: LazyPart[PlacedMotion]
     """Its motion where it is not simulated and a sensor reads it, or it follows a recording."""
     centre: tuple[Sequence[float], Sequence[float]] | None = None
     """The position [m] and angles [rad] that it is displaced from; None: those of the file."""
@@ -62,7 +62,7 @@ class SceneVehicle:
         """Its name in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable)
         """Names of the joints of the joint vector."""
-        self._lazy_motion = Lazy(lambda: engine.placed_motion(index))
+        self._lazy_motion = LazyPart(lambda: engine.placed_motion(index))
         self.state = VehicleState(self._lazy_motion)
         """What changes of it besides the engine's."""
 
@@ -109,7 +109,7 @@ class SceneVehicle:
         if self._placed is None:
             return self._engine.vehicle_velocity(self.index)
         twist = self._placed.twist(self._step())
-        return np.concatenate([turned_back(self.world_from_base.rotation, twist[:3]), twist[3:]])
+        return np.concatenate([rotate_back(self.world_from_base.rotation, twist[:3]), twist[3:]])
 
     @property
     def joints(self) -> Array:
@@ -125,7 +125,7 @@ class SceneVehicle:
 
     def follow(self) -> None:
         """From now on it moves as `lead` says, not as it is simulated: velocities are of that."""
-        self._lazy_motion.made()
+        self._lazy_motion.get_or_make()
 
     def lead(
         self, world_from_base: Pose | None, joints: Array | None, starts: Collection[Source] = ()

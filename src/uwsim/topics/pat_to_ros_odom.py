@@ -15,7 +15,7 @@ import numpy as np
 
 from ..base.geometry import Array, quaternion_from_rotation
 from ..base.geometry import Pose as PoseOfBody
-from ..base.numerics.linear import turned_back
+from ..base.numerics.linear import rotate_back
 from ..messages import (
     Odometry,
     Point,
@@ -64,7 +64,7 @@ def odometry(
     px, py, pz = pose.position.tolist()
     linear, angular = np.zeros(3), np.zeros(3)
     if is_simulated:
-        linear, angular = turned_back(world_from_base.rotation, values[12:15]), values[15:]
+        linear, angular = rotate_back(world_from_base.rotation, values[12:15]), values[15:]
     return Odometry(
         header=header(time),
         child_frame_id="",

@@ -16,7 +16,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.message_fields import odd_number
+from ..base.message_fields import find_invalid_number
 from ..messages import JointState
 from ..vehicle import Numbers, Servos, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
@@ -41,7 +41,7 @@ class ROSJointStateToArmSpec(VehicleTopicSpec):
             self.topic,
             JointState,
             world.at_next_step(command.obey),
-            remark=lambda m: odd_number(m, [field_that_counts(m)], MAX_VALUE),
+            remark=lambda m: find_invalid_number(m, [field_that_counts(m)], MAX_VALUE),
         )
         return command
 

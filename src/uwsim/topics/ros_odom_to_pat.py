@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ..base.external_values import MAX_COMMAND
-from ..base.message_fields import odd_number
+from ..base.message_fields import find_invalid_number
 from ..bus import Remark
 from ..messages import Odometry
 from .interface import Interface, TopicWorld, VehicleTopicSpec
@@ -53,7 +53,7 @@ def odd_odometry(odometry: Odometry) -> Remark | None:
     """Report what is odd about the pose, or the twist, that counts."""
     if has_pose(odometry):
         return odd_pose(odometry, "pose.pose.")
-    return odd_number(odometry, [f"twist.{path}" for path in TWIST], MAX_COMMAND)
+    return find_invalid_number(odometry, [f"twist.{path}" for path in TWIST], MAX_COMMAND)
 
 
 class OdometryCommand(Interface):

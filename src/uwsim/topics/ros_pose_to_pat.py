@@ -11,7 +11,7 @@ import numpy as np
 
 from ..base.external_values import MAX_COMMAND, read_quaternion
 from ..base.geometry import Pose
-from ..base.message_fields import odd_number
+from ..base.message_fields import find_invalid_number
 from ..bus import Remark
 from ..messages import Pose as PoseMessage
 from ..vehicle import Vehicle, go_or_place
@@ -62,9 +62,11 @@ def odd_pose(message: object, at: str = "") -> Remark | None:
         at: path to the pose in it, with a dot behind it.
     """
     positions = [f"{at}position.{axis}" for axis in "xyz"]
-    found = odd_number(message, positions, MAX_COMMAND)
+    found = find_invalid_number(message, positions, MAX_COMMAND)
     if found is None:
-        odd = odd_number(message, [f"{at}orientation.{axis}" for axis in "xyzw"], MAX_VALUE)
+        odd = find_invalid_number(
+            message, [f"{at}orientation.{axis}" for axis in "xyzw"], MAX_VALUE
+        )
         found = None if odd is None else (odd[0], "a finite number; it counts as no rotation")
     return found
 

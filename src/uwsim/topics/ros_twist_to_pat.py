@@ -27,7 +27,7 @@ import numpy as np
 
 from ..base.external_values import MAX_COMMAND
 from ..base.geometry import Pose, rotation_from_xyz
-from ..base.message_fields import odd_number
+from ..base.message_fields import find_invalid_number
 from ..base.record import Record
 from ..messages import Twist, TwistStamped, Vector3
 from ..vehicle import Vehicle
@@ -60,7 +60,7 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
             self.topic,
             TwistStamped,
             lambda m: obey(m.twist),
-            remark=lambda m: odd_number(m, TWIST, MAX_COMMAND),
+            remark=lambda m: find_invalid_number(m, TWIST, MAX_COMMAND),
         )
         return command
 
@@ -107,7 +107,7 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
             self.topic,
             Twist,
             world.at_next_step(command.apply_command),
-            remark=lambda m: odd_number(m, CMD_VEL, MAX_COMMAND),
+            remark=lambda m: find_invalid_number(m, CMD_VEL, MAX_COMMAND),
         )
         return command
 

@@ -15,7 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.external_values import MAX_COMMAND
-from ..base.message_fields import odd_number
+from ..base.message_fields import find_invalid_number
 from ..errors import BadMessage, UnknownName
 from ..messages import Float64MultiArray, WrenchStamped
 from ..schema import NAMESPACE, Original, element
@@ -64,7 +64,7 @@ class ROSThrustersToPATSpec(AutopilotTopicSpec):
             Float64MultiArray,
             world.at_next_step(command.obey),
             check=command.check,
-            remark=lambda m: odd_number(m, ("data",), MAX_COMMAND),
+            remark=lambda m: find_invalid_number(m, ("data",), MAX_COMMAND),
         )
         return command
 
@@ -110,7 +110,7 @@ class ROSFinsToPATSpec(AutopilotTopicSpec):
             Float64MultiArray,
             world.at_next_step(command.obey),
             check=command.check,
-            remark=lambda m: odd_number(m, ("data",), MAX_COMMAND),
+            remark=lambda m: find_invalid_number(m, ("data",), MAX_COMMAND),
         )
         return command
 
@@ -153,7 +153,7 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
             self.topic,
             WrenchStamped,
             world.at_next_step(command.obey),
-            remark=lambda m: odd_number(m, WRENCH, MAX_COMMAND),
+            remark=lambda m: find_invalid_number(m, WRENCH, MAX_COMMAND),
         )
         return command
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from ..base.geometry import Array, Pose, rotation_from_quaternion
-from ..errors import BadSetting, names_file
+from ..errors import BadSetting, name_file_in_errors
 from ..messages import Float64, MarkerArray, String, TFMessage
 from ..messages.build import NANOSECONDS, transform
 from ..middleware.recording.mcap_file import McapFile
@@ -61,7 +61,7 @@ def write_recording(
         n = 0
         puppets.put(0.0)
         file = McapFile(path)
-        with names_file(path), whole_or_nothing(file):
+        with name_file_in_errors(path), whole_or_nothing(file):
             messages = [
                 (0.0, f"/{SCENE}", _shapes(puppets.simulation)),
                 *_about(trial, puppets.simulation),

@@ -19,7 +19,7 @@ from uwsim.algorithms.grasp import (
     View,
 )
 from uwsim.algorithms.grasp.box import half_turn
-from uwsim.base.numerics.linear import placed
+from uwsim.base.numerics.linear import transform_points
 
 WEDGE = np.array(
     [(-0.12, -0.1, 0.0), (0.12, -0.1, 0.0), (0.12, 0.14, 0.0), (-0.12, 0.05, 0.0), (0.0, 0.0, 0.2)]
@@ -31,7 +31,7 @@ RING = [(r * math.cos(a), r * math.sin(a), z) for a in TURNS for r, z in ((0.1, 
 def drawn(model: ConvexObject, pose: BoxPose, seen: View, seed: int = 0) -> np.ndarray:
     """An image (240, 320, 3) of the object's convex hull on sand, with noise."""
     image = np.full((240 * 4, 320 * 4, 3), SAND, np.uint8)
-    pixels = seen.project(placed(model.points, pose.rotation, pose.place))
+    pixels = seen.project(transform_points(model.points, pose.rotation, pose.place))
     hull = cv2.convexHull(np.rint(pixels * 4.0 + 1.5).astype(np.int32))
     cv2.fillConvexPoly(image, hull, ORANGE)
     small = cv2.resize(image, (320, 240), interpolation=cv2.INTER_AREA).astype(float)

@@ -12,7 +12,7 @@ from uwsim.algorithms.grasp.detector import ColourDetector
 from uwsim.algorithms.grasp.perception import Perception
 from uwsim.algorithms.grasp.target import Target
 from uwsim.base.geometry import Pose
-from uwsim.base.numerics.linear import placed
+from uwsim.base.numerics.linear import transform_points
 
 PLACES = [(-0.6, 0.0, 0.0), (-0.5, 0.2, 0.7), (-0.8, -0.3, 1.5), (-0.9, 0.4, 2.4), (-0.4, 0.0, 0.2)]
 
@@ -56,7 +56,7 @@ def test_a_box_that_is_half_out_of_the_image_is_no_surprise() -> None:
 
 def test_the_corners_of_the_face_give_the_pose() -> None:
     true, seen = pose(-0.7, 0.1, 0.4), view()
-    corners = seen.project(placed(BOX.face, true.rotation, true.place))
+    corners = seen.project(transform_points(BOX.face, true.rotation, true.place))
     near = pose(-0.65, 0.15, 0.3)
     away, turned = off(pose_from_face(corners, seen, BOX, near), true)
     assert away < 0.002

@@ -6,7 +6,7 @@ import numpy as np
 from uwsim.algorithms.grasp.box import BoxPose, BoxSpec
 from uwsim.algorithms.grasp.camera import Pinhole, View
 from uwsim.base.geometry import Pose, rotation_from_rpy
-from uwsim.base.numerics.linear import placed
+from uwsim.base.numerics.linear import transform_points
 
 PINHOLE = Pinhole(fx=207.8, fy=207.8, cx=159.5, cy=119.5, width=320, height=240)
 BOX = BoxSpec()
@@ -38,7 +38,7 @@ def faces(where: BoxPose, seen: View) -> list[np.ndarray]:
         if sign * camera[0] > x:
             side = [(sign * x, a, b) for a, b in ((-y, z), (y, z), (y, -z), (-y, -z))]
             shown.append(np.array(side))
-    return [seen.project(placed(one, where.rotation, where.place)) for one in shown]
+    return [seen.project(transform_points(one, where.rotation, where.place)) for one in shown]
 
 
 def draw(where: BoxPose | None, seen: View, *, fog: float = 1.0, seed: int = 0) -> np.ndarray:

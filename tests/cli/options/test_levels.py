@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from uwsim.cli.options.levels import read_level, read_levels
-from uwsim.errors import AllErrors, BadSetting, UwsimError
+from uwsim.errors import BadSetting, ErrorCollector, UwsimError
 
 
 def test_a_level_is_a_name_and_a_number_with_all_its_digits() -> None:
@@ -30,7 +30,7 @@ def test_what_is_no_level_is_refused(text: str, message: str) -> None:
 
 
 def test_each_wrong_level_is_reported_and_the_others_are_kept() -> None:
-    wrong = AllErrors()
+    wrong = ErrorCollector()
     assert read_levels(["fog", "fog=1", "current=x"], wrong) == [("fog", 1.0)]
     with pytest.raises(UwsimError, match=r"(?s)'fog': expected NAME.*'current=x'"):
         wrong.check()

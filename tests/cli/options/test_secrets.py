@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.base.environment import without_secrets
+from uwsim.base.environment import remove_secrets
 from uwsim.cli.options.client_options import ClientOptions
 from uwsim.cli.options.connections import ConnectionOptions
 from uwsim.cli.options.secrets import MAX_BYTES, client_secret, web_token
@@ -75,13 +75,13 @@ def test_secrets_are_not_shown_with_what_holds_them(monkeypatch: pytest.MonkeyPa
     assert spec.connection.web is not None
     assert spec.connection.web.token == "high-water"
     assert "water" not in repr(spec)
-    assert without_secrets({"UWSIM_WEB_TOKEN": "a", "HOME": "b", "UWSIM_CLIENT_SECRET": "c"}) == {
+    assert remove_secrets({"UWSIM_WEB_TOKEN": "a", "HOME": "b", "UWSIM_CLIENT_SECRET": "c"}) == {
         "HOME": "b"
     }
 
 
 def test_the_secret_is_of_a_client_that_joins(tmp_path: Path) -> None:
-    from uwsim.errors import AllErrors
+    from uwsim.errors import ErrorCollector
 
     file = tmp_path / "secret"
     file.write_text("tide")
@@ -89,7 +89,7 @@ def test_the_secret_is_of_a_client_that_joins(tmp_path: Path) -> None:
         ClientOptions(client="a", web=0, sync="none", client_secret_file=file),
         ClientOptions(client_secret_file=file),
     ):
-        wrong = AllErrors()
+        wrong = ErrorCollector()
         options.check(wrong, "0")
         with pytest.raises(BadSetting, match="--client-secret-file is of"):
             wrong.check()

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.cheat_trials import FOLDER, Holds, bench_of
-from uwsim.base.environment import environment
+from uwsim.base.environment import set_environment
 from uwsim.errors import RunFailed
 from uwsim.runs.executors.closed_forks import ClosedForks, parent_of
 from uwsim.runs.executors.executor import run_each
@@ -92,7 +92,7 @@ class KillsItsWorker(Holds):
 
 def test_a_lost_worker_of_a_sealed_run_is_replaced_by_a_closed_one(tmp_path: Path) -> None:
     run = bench_of(tmp_path, KillsItsWorker, seed=3, length=0.2)
-    with environment({FOLDER: str(tmp_path)}):
+    with set_environment({FOLDER: str(tmp_path)}):
         outcome = run_each([run], ProcessExecutor(1))
     assert outcome.failures == ()
     assert len(outcome.results[0].rows) == 2

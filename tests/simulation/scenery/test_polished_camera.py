@@ -62,7 +62,7 @@ def test_a_pixel_is_the_mean_of_four_of_an_image_twice_as_large(tmp_path: Path) 
         camera = pair(simulation)[1]
         small, lens = camera.capture().astype(float), camera.intrinsics
         large = simulation.world.scenery.render_clean(
-            camera.world_from_camera, lens.resized(2 * lens.width, 2 * lens.height),
+            camera.world_from_camera, lens.with_size(2 * lens.width, 2 * lens.height),
             is_polished=True,
         ).colour  # fmt: skip
     assert large is not None

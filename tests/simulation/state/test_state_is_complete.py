@@ -22,7 +22,7 @@ import pytest
 import uwsim
 from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled
-from uwsim.base.record import Drawn
+from uwsim.base.record import GeneratorState
 from uwsim.messages import (
     JointState,
     Twist,
@@ -114,7 +114,7 @@ class Visitor:
             if isinstance(value, np.ndarray):
                 found[path] = value.tobytes()
             elif isinstance(value, np.random.Generator):
-                found[path] = Drawn.by(value)
+                found[path] = GeneratorState.by(value)
             elif value is None or isinstance(value, bool | int | float | str | bytes | np.generic):
                 found[path] = repr(value)
             elif isinstance(value, LEFT_OUT):

@@ -174,7 +174,7 @@ def test_the_inset_is_the_image_of_the_camera(small: Film, trial: RecordedTrial)
     try:
         puppets.put(0.6)
         camera = puppets.simulation.world.sensors.camera("bowtech1")
-        lens = camera.intrinsics.resized(width, height)
+        lens = camera.intrinsics.with_size(width, height)
         seen = puppets.simulation.world.scenery.render_clean(camera.world_from_camera, lens)
         assert seen.colour is not None
         off = np.abs(inset.astype(int) - seen.colour.astype(int)).max(axis=2) > 2

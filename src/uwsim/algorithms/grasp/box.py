@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.geometry import Array, Pose, rotation_x, rotation_y, rotation_z
-from ...base.numerics.linear import product, turned
+from ...base.numerics.linear import product, rotate
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,7 +41,7 @@ class BoxSpec:
 
     def grip(self, pose: BoxPose) -> Array:
         """Middle of the handle's bar in the navigation frame, (3,) [m]."""
-        place: Array = pose.place + turned(pose.rotation, np.array([0.0, 0.0, self.handle]))
+        place: Array = pose.place + rotate(pose.rotation, np.array([0.0, 0.0, self.handle]))
         return place
 
     def closes(self, pose: BoxPose) -> float:

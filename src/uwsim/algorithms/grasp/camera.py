@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.geometry import Array, Pose
-from ...base.numerics.linear import turned
+from ...base.numerics.linear import rotate
 from ...messages import CameraInfo
 
 
@@ -70,7 +70,7 @@ class View:
 
         None where the ray does not reach it.
         """
-        ray = turned(
+        ray = rotate(
             self.navigation_from_camera.rotation,
             np.array(
                 [

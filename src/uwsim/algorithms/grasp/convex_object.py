@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.geometry import Array
-from ...base.numerics.linear import inverse, placed, product, turned
+from ...base.numerics.linear import inverse, product, rotate, transform_points
 from .box import BoxPose, half_turn
 from .box_pose import LEAN, MIN_KNOWN, Sighting
 from .camera import View
@@ -64,7 +64,7 @@ class ConvexObject:
 
     def grip(self, pose: BoxPose) -> Array:
         """Return the point that the jaw takes in the navigation frame, (3,) [m]."""
-        place: Array = pose.place + turned(pose.rotation, self.grip_point)
+        place: Array = pose.place + rotate(pose.rotation, self.grip_point)
         return place
 
     def closes(self, pose: BoxPose) -> float:
@@ -154,6 +154,6 @@ def _jacobian(numbers: Array, depth: float, view: View, model: ConvexObject, fre
 def _support(numbers: Array, depth: float, view: View, model: ConvexObject) -> Array:
     """How far the projected object reaches along each direction, (directions,) [px]."""
     pose = BoxPose(place=np.array([*numbers[:2], depth]), heading=float(numbers[2]))
-    pixels = view.project(placed(model.points, pose.rotation, pose.place))
+    pixels = view.project(transform_points(model.points, pose.rotation, pose.place))
     reach: Array = product(pixels, DIRECTIONS.T).max(axis=0)
     return reach

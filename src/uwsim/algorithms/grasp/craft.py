@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from ...base.geometry import Array, Pose
-from ...base.numerics.linear import length, turned
+from ...base.numerics.linear import length, rotate
 from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
 from .arm import CLOSED, DOWN, FOLDED, JAW, JOINTS, OPEN, Kinematics
 from .station import Motion, StationLaw
@@ -138,7 +138,7 @@ class Craft:
 
     def base_for(self, grip: Array, posture: Array = DOWN) -> Array:
         """Return where the base should be for the grip of a posture to be at a place (3,) [m]."""
-        offset = turned(self.pose.rotation, self.kinematics.grip(posture).position)
+        offset = rotate(self.pose.rotation, self.kinematics.grip(posture).position)
         place: Array = grip - offset
         return place
 

@@ -24,7 +24,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array
 from ...base.numerics.linear import product
-from ...base.numerics.opencv import plain_opencv
+from ...base.numerics.opencv import deterministic_opencv
 from .background import Background, Layer
 from .camera import View
 
@@ -92,7 +92,7 @@ class ColourDetector:
         """
         self._band, self._least_size, self._most_size = band, least_size, most_size
 
-    @plain_opencv()
+    @deterministic_opencv()
     def detect(self, image: Pixels, view: View) -> list[Outline]:
         """Return the outlines, the largest first.
 

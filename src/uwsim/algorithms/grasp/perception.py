@@ -14,7 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from ...base.geometry import Array
-from ...base.numerics.linear import placed
+from ...base.numerics.linear import transform_points
 from ..esm.pyramid import Grey, grey
 from ..tracker import Tracker, quad_error
 from .box import BoxPose, BoxSpec
@@ -120,7 +120,7 @@ class Perception:
         if target.pose is None or target.deviation > SURE or self._tracker is not None:
             return
         pose = sighting.pose
-        quad = view.project(placed(self._box.face, pose.rotation, pose.place))
+        quad = view.project(transform_points(self._box.face, pose.rotation, pose.place))
         height, width = image.shape[:2]
         if not np.isfinite(quad).all() or quad_error(quad, width, height):
             return

@@ -23,7 +23,7 @@ from typing import Protocol
 import numpy as np
 
 from ...base.geometry import Array
-from ...base.numerics.linear import length, turned_back
+from ...base.numerics.linear import length, rotate_back
 
 LAG = 0.5
 """Of the velocity of the vehicle behind the command [s]."""
@@ -95,7 +95,7 @@ class Station:
             self._integral = integral
         command = correction + motion.wanted - self.current
         self._command = command
-        level = turned_back(motion.rotation, command)
+        level = rotate_back(motion.rotation, command)
         return level, float(np.clip(self._turn_gain * motion.turn, -0.3, 0.3))
 
     def _estimate(self, velocity: Array, dt: float) -> None:

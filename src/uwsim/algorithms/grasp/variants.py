@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from ...base.geometry import Array, Pose
-from ...base.numerics.linear import turned
+from ...base.numerics.linear import rotate
 from ...bus import Node
 from ...messages import (
     Image,
@@ -112,7 +112,7 @@ class TrueNavigator(Navigator):
         v = message.twist.twist.linear
         self._is_ready = True
         self._pose = Pose.from_quaternion(np.array([p.x, p.y, p.z]), np.array([q.w, q.x, q.y, q.z]))
-        self._velocity = turned(self._pose.rotation, np.array([v.x, v.y, v.z]))
+        self._velocity = rotate(self._pose.rotation, np.array([v.x, v.y, v.z]))
 
 
 class GraspNothing:

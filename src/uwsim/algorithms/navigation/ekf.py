@@ -27,7 +27,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...base.geometry import Array, rotation_from_quaternion
-from ...base.numerics.linear import cross, product, turned, turned_back
+from ...base.numerics.linear import cross, product, rotate, rotate_back
 from .kernel import corrected, distance, propagated, turn_between, turned_by
 
 POSITION, VELOCITY, ATTITUDE = slice(0, 3), slice(3, 6), slice(6, 9)
@@ -133,7 +133,7 @@ class NavigationFilter:
     def dvl(self, velocity: Array) -> None:
         """Take a velocity over ground in the axes of the base, (3,) [m/s]; NaN if not known."""
         place = np.array(self.spec.dvl_place)
-        expected = turned_back(self.rotation, self.velocity) + cross(self.rate, place)
+        expected = rotate_back(self.rotation, self.velocity) + cross(self.rate, place)
         jacobian = np.zeros((3, SIZE))
         jacobian[:, VELOCITY] = self.rotation.T
         jacobian[:, ATTITUDE] = product(self.rotation.T, _cross(self.velocity))
@@ -142,7 +142,7 @@ class NavigationFilter:
 
     def depth(self, depth: float) -> None:
         """Take the depth of the sensor below the surface [m]."""
-        arm = turned(self.rotation, np.array(self.spec.depth_place))
+        arm = rotate(self.rotation, np.array(self.spec.depth_place))
         jacobian = np.zeros((1, SIZE))
         jacobian[0, 2] = 1.0
         jacobian[0, ATTITUDE] = -_cross(arm)[2]
@@ -154,7 +154,7 @@ class NavigationFilter:
         # the IMU's place moves with the base: its centripetal force is not the base's own
         if any(spec.imu_place):
             force = force - cross(rate, cross(rate, np.array(spec.imu_place)))
-        acceleration = turned(self.rotation, force) + GRAVITY
+        acceleration = rotate(self.rotation, force) + GRAVITY
         self.covariance = propagated(
             self.covariance, self.rotation, acceleration - GRAVITY, step, self._noise
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ...base.files.input_files import read_bytes, record, recorded
+from ...base.files.input_files import read_bytes, record, record_inputs
 from ...errors import AssetError
 from ..mesh import Model
 from .by_trimesh import READABLE, read_meshes
@@ -72,7 +72,7 @@ def _stamps(model: Model) -> tuple[_Stamp, ...]:
 
 def _read(path: Path, name: str, within: tuple[Path, ...]) -> Model:
     suffix = path.suffix.lower()
-    with recorded() as files:
+    with record_inputs() as files:
         if suffix in READABLE:
             meshes, asset, remarks = read_meshes(path, name=name, within=within)
         elif suffix in BY_OSGCONV:

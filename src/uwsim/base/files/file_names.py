@@ -13,7 +13,7 @@ from collections.abc import Iterable
 
 MAX_NAME_LENGTH = 80
 """So many letters of a name stand in that of a file."""
-RESERVED = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
+RESERVED_NAMES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 """Names that no file on Windows may have."""
 DIGESTS = (8, 16, 32, 64)
 """Digits of a hash that tell two names apart: the first of these that is enough."""
@@ -56,7 +56,7 @@ def file_name(name: str) -> str:
 def _sanitised(name: str) -> str:
     plain = re.sub(r"[^A-Za-z0-9_.-]", "_", name.replace(":", "."))[:MAX_NAME_LENGTH]
     plain = plain.lstrip(".-").rstrip(".") or "_"
-    return f"_{plain}"[:MAX_NAME_LENGTH] if RESERVED.fullmatch(plain) else plain
+    return f"_{plain}"[:MAX_NAME_LENGTH] if RESERVED_NAMES.fullmatch(plain) else plain
 
 
 def _with_hash(plain: str, name: str, digits: int) -> str:

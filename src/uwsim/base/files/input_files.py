@@ -1,7 +1,7 @@
 """Input files: the one place where what a scene, a benchmark or a model names is opened.
 
-Every byte that goes into a result comes through `read_bytes`, so that inside `recorded` nothing is
-read without its hash:
+Every byte that goes into a result is read by `read_bytes`. Inside `record_inputs` nothing is read
+without its hash:
 
 .. code-block:: python
 
@@ -43,7 +43,7 @@ _records: ContextVar[tuple[list[InputFile], ...]] = ContextVar("records", defaul
 
 
 @contextmanager
-def recorded() -> Iterator[list[InputFile]]:
+def record_inputs() -> Iterator[list[InputFile]]:
     """Give the list of the input files that are read inside, each once; may be nested."""
     files: list[InputFile] = []
     token = _records.set((*_records.get(), files))
@@ -83,7 +83,7 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
     if len(data) != facts.st_size:
         raise AssetError(f"{path}: changed while it was read.", name=str(name))
     digest = f"sha256:{hashlib.sha256(data).hexdigest()}"
-    record([InputFile(portable(name or path.name), digest, path)])
+    record([InputFile(portable_name(name or path.name), digest, path)])
     return data
 
 
@@ -106,14 +106,14 @@ def hash_of(path: Path) -> str:
     return f"sha256:{digest.hexdigest()}"
 
 
-def portable(name: str | Path) -> str:
+def portable_name(name: str | Path) -> str:
     """Return a file's name as a result may say it: of an absolute path the last part alone."""
     text = str(name).strip().replace("\\", "/")
     is_local = text.startswith(("/", "~")) or bool(PureWindowsPath(text).drive)
     return PurePosixPath(text).name if is_local else str(PurePosixPath(text))
 
 
-def by_name(files: Iterable[InputFile]) -> dict[str, str]:
+def hashes_by_name(files: Iterable[InputFile]) -> dict[str, str]:
     """Return name -> hash, sorted; of several files of one name the second is ``NAME (2)``."""
     found: dict[str, str] = {}
     for file in sorted(set(files)):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from importlib.machinery import PathFinder
 
 
-def located(module: str) -> str:
+def find_module_file(module: str) -> str:
     """The file of a module on Python's path; empty for one that has none, as a package without.
 
     Raises:

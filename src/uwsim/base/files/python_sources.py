@@ -16,8 +16,8 @@ from contextlib import suppress
 from importlib.machinery import PathFinder
 from pathlib import Path
 
-OWN = "uwsim"
-INSTALLED = ("site-packages", "dist-packages")
+OWN_PACKAGE = "uwsim"
+INSTALL_FOLDERS = ("site-packages", "dist-packages")
 MAX_MODULES = 2000
 """So many modules are followed."""
 
@@ -37,7 +37,7 @@ def sources_of(module: str) -> dict[str, Path]:
             continue
         seen.add(name)
         todo.append(name.rpartition(".")[0])
-        path = None if name.partition(".")[0] == OWN else _file_of(name)
+        path = None if name.partition(".")[0] == OWN_PACKAGE else _file_of(name)
         if path is None or not (name.partition(".")[0] == top or _is_own(path)):
             continue
         stem = f"{name.replace('.', '/')}/__init__" if path.stem == "__init__" else name
@@ -68,7 +68,7 @@ def _is_own(path: Path) -> bool:
     whole = path.resolve()
     places = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
     places.add(site.getusersitepackages())
-    return not any(part in INSTALLED for part in whole.parts) and not any(
+    return not any(part in INSTALL_FOLDERS for part in whole.parts) and not any(
         whole.is_relative_to(Path(place).resolve()) for place in places if place
     )
 

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ...errors import RunFailed
 
-OWNER = "UWSIM_SCRATCH"
+SCRATCH_VARIABLE = "UWSIM_SCRATCH"
 """Environment variable with a folder's name: who has it is ended with the folder's process."""
 REMOVER = """
 import contextlib, os, shutil, sys, tempfile, time
@@ -40,7 +40,7 @@ for _ in range(1 if is_over else 30):  # what a killed process has started may s
 def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
     """Lend an empty folder, and remove it with all that is in it.
 
-    Should this process be killed, those that have `OWNER` in their environment are killed, too.
+    If this process is killed, those with `SCRATCH_VARIABLE` in their environment are killed, too.
 
     Args:
         prefix: how its name begins.
@@ -49,7 +49,16 @@ def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
     Raises:
         RunFailed: it cannot be made.
     """
-    command = [sys.executable, "-I", "-S", "-c", REMOVER, prefix, str(where or ""), OWNER]
+    command = [
+        sys.executable,
+        "-I",
+        "-S",
+        "-c",
+        REMOVER,
+        prefix,
+        str(where or ""),
+        SCRATCH_VARIABLE,
+    ]
     with subprocess.Popen(
         command,
         stdin=subprocess.PIPE,

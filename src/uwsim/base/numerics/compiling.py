@@ -4,26 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from ..interrupts import raise_if_one_waits
+from ..interrupts import raise_pending_interrupt
 
-MANY = 3
+SLOW_START_COUNT = 3
 """So many functions make a start a slow one; a single one takes less than a second or two."""
 _listeners: list[Callable[[], None]] = []
 _n_compiled = 0
 
 
-def when_many_are_compiled(tell: Callable[[], None]) -> None:
-    """Have ``tell`` called once if this process compiles `MANY` functions."""
+def on_slow_start(tell: Callable[[], None]) -> None:
+    """Have ``tell`` called once if this process compiles `SLOW_START_COUNT` functions."""
     _listeners[:] = [tell]
 
 
-def one_is_compiled() -> None:
+def count_compilation() -> None:
     """Count a function that is not on the disk: what follows compiles it.
 
     Between two functions is where an interrupt can come in: numba works for seconds at each.
     """
-    raise_if_one_waits()
+    raise_pending_interrupt()
     global _n_compiled
     _n_compiled += 1
-    if _n_compiled >= MANY and _listeners:
+    if _n_compiled >= SLOW_START_COUNT and _listeners:
         _listeners.pop()()

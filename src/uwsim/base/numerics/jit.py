@@ -31,7 +31,7 @@ from numba.core.serialize import dumps
 
 from ..files import disk_cache
 from .compiled_source import source_digest
-from .compiling import one_is_compiled
+from .compiling import count_compilation
 
 FORMAT = 4
 """The format of the files of compiled code."""
@@ -131,7 +131,7 @@ class Signatures:
         """Return the code compiled from this source for this key; None if there is none."""
         compiled = self._stored(key)
         if compiled is None:
-            one_is_compiled()
+            count_compilation()
         return compiled
 
     def _stored(self, key: object) -> object | None:
@@ -163,7 +163,7 @@ class NoCache(NullCache):
 
     def load_overload(self, sig: object, target_context: object) -> None:
         """Find nothing: it is compiled."""
-        one_is_compiled()
+        count_compilation()
 
 
 class CacheOnUse(NullCache):

@@ -29,16 +29,16 @@ def product(left: npt.ArrayLike, right: npt.ArrayLike) -> Array:
     if a.shape[-1] != b.shape[-2 if b.ndim > 1 else 0]:
         raise ValueError(f"{a.shape} and {b.shape} cannot be multiplied")
     if a.ndim == 2 and b.ndim == 2:
-        return matrices(a, b)
+        return multiply_matrices(a, b)
     if b.ndim == 3:
-        return _stacks(a[None] if a.ndim == 2 else a, b)
+        return _multiply_stacks(a[None] if a.ndim == 2 else a, b)
     columns = b[:, None] if b.ndim == 1 else b
-    found = matrices(a.reshape(math.prod(a.shape[:-1]), a.shape[-1]), columns)
+    found = multiply_matrices(a.reshape(math.prod(a.shape[:-1]), a.shape[-1]), columns)
     return found.reshape(a.shape[:-1] + b.shape[1:])
 
 
 @njit
-def turned(rotation: Array, vector: Array) -> Array:
+def rotate(rotation: Array, vector: Array) -> Array:
     """``rotation @ vector`` for (3, 3) and (3,), quickly."""
     found = np.empty(3)
     for i in range(3):
@@ -49,7 +49,7 @@ def turned(rotation: Array, vector: Array) -> Array:
 
 
 @njit
-def turned_back(rotation: Array, vector: Array) -> Array:
+def rotate_back(rotation: Array, vector: Array) -> Array:
     """``rotation.T @ vector`` for (3, 3) and (3,), quickly."""
     found = np.empty(3)
     for i in range(3):
@@ -60,9 +60,9 @@ def turned_back(rotation: Array, vector: Array) -> Array:
 
 
 @njit
-def turned_rows(rotation: Array, vectors: Array) -> Array:
+def rotate_rows(rotation: Array, vectors: Array) -> Array:
     """``vectors @ rotation.T`` for (3, 3) and (n, 3), as `product` computes it."""
-    return matrices(vectors, rotation.T.copy())
+    return multiply_matrices(vectors, rotation.T.copy())
 
 
 @njit
@@ -108,7 +108,7 @@ def solve(matrix: Array, right: Array) -> Array:
         numpy.linalg.LinAlgError: the matrix is singular.
     """
     columns = right if right.ndim == 2 else right[:, None]
-    found, is_regular = solved(matrix.astype(np.float64), columns.astype(np.float64))
+    found, is_regular = eliminate(matrix.astype(np.float64), columns.astype(np.float64))
     if not is_regular:
         raise np.linalg.LinAlgError("Singular matrix")
     return found if right.ndim == 2 else found[:, 0]
@@ -121,7 +121,7 @@ def inverse(matrix: Array) -> Array:
         numpy.linalg.LinAlgError: one is singular.
     """
     stack = np.array(matrix, dtype=np.float64, ndmin=3)
-    found, are_regular = _inverses(stack.reshape(-1, *matrix.shape[-2:]))
+    found, are_regular = _invert_all(stack.reshape(-1, *matrix.shape[-2:]))
     if not are_regular:
         raise np.linalg.LinAlgError("Singular matrix")
     return found.reshape(matrix.shape)
@@ -129,7 +129,7 @@ def inverse(matrix: Array) -> Array:
 
 def singular_values(matrix: Array) -> Array:
     """Of a matrix (m, n), largest first, (min(m, n),)."""
-    return _decomposed(matrix)[1]
+    return _decompose(matrix)[1]
 
 
 def rank(matrix: Array) -> int:
@@ -144,17 +144,17 @@ def pseudo_inverse(matrix: Array, *, rcond: float) -> Array:
 
     Singular values up to ``rcond`` times the largest count as zero.
     """
-    left, values, right = _decomposed(matrix)
+    left, values, right = _decompose(matrix)
     kept = values > rcond * values.max(initial=0.0)
     return product(right[:, kept] / values[kept], left[:, kept].T)
 
 
-def _decomposed(matrix: Array) -> tuple[Array, Array, Array]:
+def _decompose(matrix: Array) -> tuple[Array, Array, Array]:
     """``matrix = left @ diag(values) @ right.T`` by Jacobi's one-sided method (Hestenes 1958)."""
     is_wide = matrix.shape[0] < matrix.shape[1]
     tall = np.array(matrix.T if is_wide else matrix, dtype=np.float64, order="C")
     turn = np.eye(tall.shape[1])
-    _turn_until_orthogonal(tall, turn)
+    _rotate_until_orthogonal(tall, turn)
     values = np.linalg.norm(tall, axis=0)
     order = np.argsort(-values, kind="stable")
     values, tall, turn = values[order], tall[:, order], turn[:, order]
@@ -163,7 +163,9 @@ def _decomposed(matrix: Array) -> tuple[Array, Array, Array]:
 
 
 @njit
-def points_of(origins: Array, axes: Array, bodies: npt.NDArray[np.int64], points: Array) -> Array:
+def world_positions(
+    origins: Array, axes: Array, bodies: npt.NDArray[np.int64], points: Array
+) -> Array:
     """World positions of one point of each of some bodies, (n, 3).
 
     Args:
@@ -186,7 +188,7 @@ def points_of(origins: Array, axes: Array, bodies: npt.NDArray[np.int64], points
 
 
 @njit
-def matrices(a: Array, b: Array) -> Array:
+def multiply_matrices(a: Array, b: Array) -> Array:
     """Return ``a @ b`` of two matrices, row by row.
 
     The loop inside is along the rows of ``b`` where these are long.
@@ -214,7 +216,7 @@ def matrices(a: Array, b: Array) -> Array:
 
 
 @njit
-def _stacks(a: Array, b: Array) -> Array:
+def _multiply_stacks(a: Array, b: Array) -> Array:
     """Products of (n, i, j) and (n, j, k); either may be one for all, with n = 1."""
     n = max(a.shape[0], b.shape[0])
     found = np.empty((n, a.shape[1], b.shape[2]))
@@ -231,7 +233,9 @@ def _stacks(a: Array, b: Array) -> Array:
 
 
 @njit
-def composed(turn_a: Array, shift_a: Array, turn_b: Array, shift_b: Array) -> tuple[Array, Array]:
+def compose_transforms(
+    turn_a: Array, shift_a: Array, turn_b: Array, shift_b: Array
+) -> tuple[Array, Array]:
     """Shift and turn of ``a_from_b @ b_from_c``, from those of both."""
     turn, shift = np.empty((3, 3)), np.empty(3)
     for i in range(3):
@@ -243,7 +247,7 @@ def composed(turn_a: Array, shift_a: Array, turn_b: Array, shift_b: Array) -> tu
 
 
 @njit
-def placed(points: Array, rotation: Array, position: Array) -> Array:
+def transform_points(points: Array, rotation: Array, position: Array) -> Array:
     """``points @ rotation.T + position`` for (n, 3)."""
     found = np.empty((points.shape[0], 3))
     for n in range(points.shape[0]):
@@ -254,7 +258,7 @@ def placed(points: Array, rotation: Array, position: Array) -> Array:
 
 
 @njit
-def solved(a: Array, b: Array) -> tuple[Array, bool]:
+def eliminate(a: Array, b: Array) -> tuple[Array, bool]:
     """Eliminate with partial pivoting; overwrites both, returns the solution in ``b``."""
     n, m = b.shape
     for column in range(n):
@@ -285,24 +289,24 @@ def solved(a: Array, b: Array) -> tuple[Array, bool]:
 @njit
 def invert(matrix: Array, to: Array) -> bool:
     """Write the inverse of a matrix (n, n) to another; False if it is singular."""
-    found, is_regular = solved(matrix.copy(), np.eye(matrix.shape[0]))
+    found, is_regular = eliminate(matrix.copy(), np.eye(matrix.shape[0]))
     to[:] = found
     return is_regular
 
 
 @njit
-def _inverses(matrices: Array) -> tuple[Array, bool]:
+def _invert_all(matrices: Array) -> tuple[Array, bool]:
     """Of each of (n, k, k); overwrites them."""
     found, are_regular = np.empty(matrices.shape), True
     for i in range(matrices.shape[0]):
-        inverted, is_regular = solved(matrices[i], np.eye(matrices.shape[1]))
+        inverted, is_regular = eliminate(matrices[i], np.eye(matrices.shape[1]))
         found[i] = inverted
         are_regular = are_regular and is_regular
     return found, are_regular
 
 
 @njit
-def _turn_until_orthogonal(a: Array, turn: Array) -> None:
+def _rotate_until_orthogonal(a: Array, turn: Array) -> None:
     """Turn pairs of columns of ``a`` (m, n), and of ``turn`` (n, n) alike, until all are."""
     m, n = a.shape
     for _ in range(SWEEPS):

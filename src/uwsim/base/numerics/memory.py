@@ -32,42 +32,42 @@ carray: Any = numba.carray  # type: ignore[attr-defined]  # not in numba's list 
 
 
 @njit
-def floats(address: int, n: int) -> Floats:
+def view_doubles(address: int, n: int) -> Floats:
     """The ``n`` doubles that lie at ``address``."""
     view: Floats = carray(pointer(address), (n,), np.float64)
     return view
 
 
 @njit
-def ints(address: int, n: int) -> Ints:
+def view_int32s(address: int, n: int) -> Ints:
     """The ``n`` 32-bit integers that lie at ``address``."""
     view: Ints = carray(pointer(address), (n,), np.int32)
     return view
 
 
 @njit
-def longs(address: int, n: int) -> Ints64:
+def view_int64s(address: int, n: int) -> Ints64:
     """The ``n`` 64-bit integers that lie at ``address``."""
     view: Ints64 = carray(pointer(address), (n,), np.int64)
     return view
 
 
 @njit
-def word(address: int) -> int:
+def read_int64(address: int) -> int:
     """The 64-bit integer, or pointer, that lies at ``address``."""
     value: int = carray(pointer(address), (1,), np.int64)[0]
     return value
 
 
 @njit
-def small(address: int) -> int:
+def read_int32(address: int) -> int:
     """The 32-bit integer that lies at ``address``."""
     value: int = carray(pointer(address), (1,), np.int32)[0]
     return value
 
 
 @njit
-def real(address: int) -> float:
+def read_double(address: int) -> float:
     """The double that lies at ``address``."""
     value: float = carray(pointer(address), (1,), np.float64)[0]
     return value

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 
 @contextmanager
-def plain_opencv() -> Iterator[None]:
+def deterministic_opencv() -> Iterator[None]:
     """Have OpenCV use its generic code in one thread.
 
     It has several codes for most functions, and Intel's library for some, and chooses by the

@@ -27,7 +27,7 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.inbox import Inbox
-from ...base.numerics.linear import turned_back
+from ...base.numerics.linear import rotate_back
 from ...messages import Path
 from ...schema import element
 from ...world import Body, World
@@ -265,7 +265,7 @@ class PathFollowing(Measure):
         if self._frame is None:
             return position
         world_from_frame = self._frame.world_from_body
-        return turned_back(world_from_frame.rotation, position - world_from_frame.position)
+        return rotate_back(world_from_frame.rotation, position - world_from_frame.position)
 
     def _add(self, before: float, distance: float, duration: float) -> None:
         """Integrate between two samples [m, m, s]."""

@@ -20,7 +20,7 @@ import numpy as np
 
 from ...base.geometry import Array, Pose
 from ...base.inbox import Inbox
-from ...base.numerics.linear import turned
+from ...base.numerics.linear import rotate
 from ...messages import PoseStamped
 from ...schema import element
 from ...world import Body, World
@@ -141,7 +141,7 @@ class PositionError(Measure):
     def _position(self) -> Array:
         """Where the body is, in the frame of the components, (3,) [m]."""
         frame = self._frame_from_world
-        return turned(frame.rotation, self._body.world_from_body.position) + frame.position
+        return rotate(frame.rotation, self._body.world_from_body.position) + frame.position
 
     def _turn(self) -> tuple[float, ...]:
         w, x, y, z = (self._localized_from_world @ self._body.world_from_body).quaternion.tolist()

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
-from ...errors import AllErrors, BadSetting
+from ...errors import BadSetting, ErrorCollector
 from ...middleware.pacing import MIN_SPEED
 from .connections import ConnectionOptions, DomainOption, Ros1HostOption, Ros1Option, Ros2Option
 from .help_texts import CONNECTED, in_group
@@ -94,27 +94,27 @@ class ClientOptions:
     ros2: Ros2Option = False
     domain: DomainOption = None
 
-    def check(self, wrong: AllErrors, workers: str) -> None:
+    def check(self, wrong: ErrorCollector, workers: str) -> None:
         """Collect the errors of the options."""
         self._connections.check(wrong)
-        with wrong.kept():
+        with wrong.collect():
             if self.client is not None and not self.client.strip():
                 raise BadSetting("--client: expected a name.")
-        with wrong.kept():
+        with wrong.collect():
             if self.client is None and self._connections.is_connected:
                 name = self._connections.transports[0]
                 raise BadSetting(
                     f"--{name}: add --client NAME, the program outside that is scored; and --sync "
                     "none, if it knows nothing of lock-step."
                 )
-        with wrong.kept():
+        with wrong.collect():
             if self.client is not None and workers not in ("0", "1"):
                 raise BadSetting(
                     f"--workers {workers}: --client {self.client} is one program; expected 1."
                 )
         self._check_sync(wrong)
 
-    def _check_sync(self, wrong: AllErrors) -> None:
+    def _check_sync(self, wrong: ErrorCollector) -> None:
         """Collect what is wrong about what is waited for."""
         from ...middleware.lockstep.spec import sync_named
 
@@ -126,24 +126,24 @@ class ClientOptions:
             "--client-secret-file": (self.client_secret_file, ("ack",)),
         }
         for option, (value, kinds) in of.items():
-            with wrong.kept():
+            with wrong.collect():
                 if value is not None and sync not in kinds:
                     raise BadSetting(f"{option} is of --sync {' and '.join(kinds)}.")
-        with wrong.kept():
+        with wrong.collect():
             if self.sync is not None and self.client is None:
                 raise BadSetting(f"--sync {sync} is of --client NAME.")
-        with wrong.kept():
+        with wrong.collect():
             if sync_named(sync) == "output" and not self.output:
                 raise BadSetting(
                     "--sync output: add what the client publishes, as --output /cmd_vel=10Hz."
                 )
-        with wrong.kept():
+        with wrong.collect():
             if not MIN_SPEED <= (1.0 if self.speed is None else self.speed) < float("inf"):
                 raise BadSetting(f"--speed {self.speed:g}: expected a number >= {MIN_SPEED:g}.")
-        with wrong.kept():
+        with wrong.collect():
             if not 0.0 <= (self.settle or 0.0) < float("inf"):
                 raise BadSetting(f"--settle {self.settle:g}: expected a time >= 0 [s].")
-        with wrong.kept():
+        with wrong.collect():
             _outputs(self.output or ())
 
     def client_spec(self) -> ClientSpec | None:

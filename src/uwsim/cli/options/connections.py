@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
-from ...errors import AllErrors, BadSetting, RunFailed
+from ...errors import BadSetting, ErrorCollector, RunFailed
 from ...middleware.pacing import MIN_SPEED
 from .help_texts import CONNECTED, in_group
 from .secrets import client_secret
@@ -131,33 +131,33 @@ class ConnectionOptions:
         is_free = self.is_connected and not self.client
         return float(is_free) if self.speed is None else self.speed
 
-    def check(self, wrong: AllErrors) -> None:
+    def check(self, wrong: ErrorCollector) -> None:
         """Collect the errors of the options."""
-        with wrong.kept():
+        with wrong.collect():
             if self.domain is not None and not self.ros2:
                 raise BadSetting("--domain is of --ros2.")
-        with wrong.kept():
+        with wrong.collect():
             if self.ros1_host is not None and not self.ros1:
                 raise BadSetting("--ros1-host is of --ros1.")
-        with wrong.kept():
+        with wrong.collect():
             if not (self.pace == 0 or MIN_SPEED <= self.pace < float("inf")):
                 raise BadSetting(f"--speed {self.pace:g}: expected 0, or {MIN_SPEED:g} or more.")
-        with wrong.kept():
+        with wrong.collect():
             if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
                 raise BadSetting(f"--max-lag {self.max_lag:g}: expected a time > 0 [s].")
             if self.max_lag is not None and self.pace == 0:
                 raise BadSetting("--max-lag is of a run in real time; give its --speed.")
-        with wrong.kept():
+        with wrong.collect():
             if self.ros2:
                 from ...middleware.ros2.choice import check
 
                 check(os.environ, self.domain)
-        with wrong.kept():
+        with wrong.collect():
             if (web := self.web_options()) is not None:
                 web.check_free()
-        with wrong.kept():
+        with wrong.collect():
             check_clients(self.client or (), self.client_limit, self.transports)
-        with wrong.kept():
+        with wrong.collect():
             if self.client_secret_file is not None and not self.client:
                 raise BadSetting("--client-secret-file is of --client.")
             client_secret(self.client_secret_file)

@@ -12,7 +12,7 @@ from typing import Any
 import typer
 from typer.core import TyperCommand
 
-from ...errors import AllErrors, BadSetting
+from ...errors import BadSetting, ErrorCollector
 
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 """The help options of ``uwsim`` and of each command."""
@@ -46,12 +46,12 @@ class TaughtCommand(TyperCommand):
         try:
             return super().parse_args(ctx, args)
         except typer.TyperException as first:
-            wrong = AllErrors()
+            wrong = ErrorCollector()
             values, rest, _ = self.make_parser(ctx).parse_args(args=given)
             for parameter in self.get_params(ctx):
                 if parameter.is_eager:
                     continue
-                with wrong.kept():
+                with wrong.collect():
                     try:
                         parameter.handle_parse_result(ctx, values, rest)
                     except typer.TyperException as error:

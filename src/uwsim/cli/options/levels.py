@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...errors import AllErrors, BadSetting
+from ...errors import BadSetting, ErrorCollector
 from ...runs.planning.option_values import number_or_text, split
 
 
-def read_levels(texts: Sequence[str] | None, wrong: AllErrors) -> list[tuple[str, float]]:
+def read_levels(texts: Sequence[str] | None, wrong: ErrorCollector) -> list[tuple[str, float]]:
     """Read every ``--level``; collects errors."""
     levels = []
     for text in texts or ():
-        with wrong.kept():
+        with wrong.collect():
             levels.append(read_level(text))
     return levels
 

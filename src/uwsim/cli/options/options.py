@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ...errors import AllErrors, BadSetting
+from ...errors import BadSetting, ErrorCollector
 from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
 from ...runs.planning.plan_request import PlanRequest
 from ...scene.settings import OF_XACRO
@@ -88,10 +88,10 @@ CompatOption = Annotated[
 
 def existing_folders(folders: list[Path] | None) -> list[Path] | None:
     """Refuse what is no folder; raises BadSetting."""
-    wrong = AllErrors()
+    wrong = ErrorCollector()
     for folder in folders or ():
         if not folder.is_dir():
-            with wrong.kept():
+            with wrong.collect():
                 what = "is no folder" if folder.exists() else "there is no such folder"
                 raise BadSetting(f"--data-path {folder}: {what}.")
     wrong.check()

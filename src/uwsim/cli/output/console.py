@@ -8,7 +8,7 @@ import rich.console
 from rich.console import ConsoleOptions, RenderableType
 from rich.segment import Segment
 
-from ...base.terminal import legible
+from ...base.terminal import escape_control_characters
 
 UNWRAPPED = 1000
 """Columns for a reader that is a program: wide enough to leave every line whole."""
@@ -22,7 +22,9 @@ class Console(rich.console.Console):
     ) -> list[Segment]:
         """Turn something into pieces of text; those that are the console's own control it."""
         return [
-            segment if segment.control else Segment(legible(segment.text), segment.style)
+            segment
+            if segment.control
+            else Segment(escape_control_characters(segment.text), segment.style)
             for segment in super().render(renderable, options)
         ]
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from rosbags.rosbag1 import Writer
 
-from ...base.interrupts import ignoring_interrupts
+from ...base.interrupts import block_interrupts
 from ..bridge import LATCHED
 from ..encodings import to_ros1
 from ..types import WireType, ros1_store
@@ -55,7 +55,7 @@ class BagFile:
         """
         seq = self._n_written.get(topic, 0)
         data = bytes(to_ros1(message, seq=seq))
-        with ignoring_interrupts():
+        with block_interrupts():
             if topic not in self._connections:
                 self._connections[topic] = self._writer.add_connection(
                     topic,
@@ -74,6 +74,6 @@ class BagFile:
 
     def close(self) -> None:
         """Write the index and put the file in its place."""
-        with ignoring_interrupts():
+        with block_interrupts():
             self._writer.close()
             self._partial.replace(self._path)

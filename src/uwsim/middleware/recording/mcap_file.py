@@ -23,7 +23,7 @@ from rosbags.interfaces import (
 )
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 
-from ...base.interrupts import ignoring_interrupts
+from ...base.interrupts import block_interrupts
 from ..bridge import DEPTH, LATCHED, LATCHED_DEPTH
 from ..encodings import to_cdr
 from ..types import WireType, ros2_store
@@ -89,7 +89,7 @@ class McapFile:
             message: of that type.
         """
         data = to_cdr(message)
-        with ignoring_interrupts():
+        with block_interrupts():
             if topic not in self._channels:
                 self._channels[topic] = self._writer.add_connection(
                     topic,
@@ -108,7 +108,7 @@ class McapFile:
 
     def close(self) -> None:
         """Write the index and put the file in its place."""
-        with ignoring_interrupts():
+        with block_interrupts():
             self._writer.close()
             (self._folder / BAG / f"{BAG}{SUFFIX}").replace(self._path)
             shutil.rmtree(self._folder, ignore_errors=True)

@@ -21,7 +21,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
 from rclpy.node import Node
 
-from ...base.environment import environment
+from ...base.environment import set_environment
 from ...errors import UwsimError
 from ..log import Log
 from ..types import WireService
@@ -56,7 +56,7 @@ class RclpyNode:
         self._log, self._types = log, RclpyTypes()
         self._context = Context()
         try:
-            with environment(settings.variables):
+            with set_environment(settings.variables):
                 self._context.init([], initialize_logging=False, domain_id=settings.domain)
                 self._node: Any = Node(
                     NODE,

@@ -20,7 +20,7 @@ import numpy as np
 
 from ...assets.mesh import Model
 from ...base.geometry import Array, Pose
-from ...base.numerics.linear import placed, product, turned
+from ...base.numerics.linear import product, rotate, transform_points
 from ...scene.object import ObjectSpec, PhysicsSpec
 from ...scene.spec import SceneSpec
 from ...scene.urdf.kinematics import link_poses
@@ -146,7 +146,7 @@ def _solid_shapes(
     if stretch is not None:
         turn = link_from_solid.rotation
         solid_from_mesh[:3, :3] = product(turn.T, product(stretch, turn)) * scale
-        link_from_solid = Pose(turned(stretch, link_from_solid.position), turn)
+        link_from_solid = Pose(rotate(stretch, link_from_solid.position), turn)
     shapes = convex_shapes(model, solid_from_mesh) if is_finger else None
     if shapes is None:
         shapes = shapes_of(model, solid_from_mesh, "box", is_fixed=False)
@@ -181,7 +181,9 @@ def standing_faces(
     world_from_mesh = product(world_from_object.matrix, object_from_mesh)
     faces = np.concatenate([mesh.vertices[mesh.triangles] for mesh in model.meshes])
     corners = faces.astype(np.float64).reshape(-1, 3)
-    triangles = placed(corners, world_from_mesh[:3, :3], world_from_mesh[:3, 3]).reshape(-1, 3, 3)
+    triangles = transform_points(corners, world_from_mesh[:3, :3], world_from_mesh[:3, 3]).reshape(
+        -1, 3, 3
+    )
     return seen_from(np.array([0.0, 0.0, 1.0]), triangles) if thing.is_ground else triangles
 
 
@@ -193,7 +195,7 @@ def standing_box(
     model = _touched_model(thing, physics, object_models(scene, data_path))
     world_from_object = scene.world_from_localized @ thing.localized_from_object
     world_from_mesh = product(world_from_object.matrix, _object_from_mesh(thing))
-    corners = placed(model.box.corners(), world_from_mesh[:3, :3], world_from_mesh[:3, 3])
+    corners = transform_points(model.box.corners(), world_from_mesh[:3, :3], world_from_mesh[:3, 3])
     return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 

@@ -29,7 +29,7 @@ import numpy.typing as npt
 
 from ...assets.mesh import Model
 from ...base.geometry import Array, Pose
-from ...base.numerics.linear import placed, product
+from ...base.numerics.linear import product, transform_points
 from ...errors import UwsimError
 from .fixed_mesh import FixedMesh
 from .fixed_mesh_cache import cached_mesh
@@ -100,7 +100,9 @@ def shapes_of(
         UwsimError: a fixed trimesh has too many faces.
     """
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
-    parts = [placed(mesh.vertices.astype(np.float64), turn, shift) for mesh in model.meshes]
+    parts = [
+        transform_points(mesh.vertices.astype(np.float64), turn, shift) for mesh in model.meshes
+    ]
     if kind in TRIMESHES:
         if not is_fixed:
             return tuple(_hull(part) for part in parts)
@@ -131,7 +133,7 @@ def fixed_mesh_of(
     """Find what is touched of a fixed trimesh; the arguments are those of `shapes_of`."""
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     parts = [
-        placed(mesh.vertices.astype(np.float64), turn, shift)[mesh.triangles]
+        transform_points(mesh.vertices.astype(np.float64), turn, shift)[mesh.triangles]
         for mesh in model.meshes
     ]
     if up is not None:
@@ -152,7 +154,7 @@ def convex_shapes(
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     hulls = []
     for mesh in model.meshes:
-        points = placed(mesh.vertices.astype(np.float64), turn, shift)
+        points = transform_points(mesh.vertices.astype(np.float64), turn, shift)
         if len(mesh.triangles) > MAX_FACES or not is_convex(points[mesh.triangles]):
             return None
         hulls.append(box_around(points) if _is_box(points) else _hull(points))

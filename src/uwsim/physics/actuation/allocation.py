@@ -24,7 +24,7 @@ from functools import lru_cache
 import numpy as np
 
 from ...base.geometry import Array
-from ...base.numerics.linear import dot, length, product, pseudo_inverse, turned
+from ...base.numerics.linear import dot, length, product, pseudo_inverse, rotate
 from ...scene.hydrodynamics.spec import ThrusterSpec
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import RobotSpec
@@ -122,7 +122,7 @@ def thrusters_on_base(
         if thruster.link != robot.root:
             base_from_link = poses[thruster.link]
             x, y, z = base_from_link.transform(np.array([thruster.position]))[0].tolist()
-            a, b, c = turned(base_from_link.rotation, np.array(thruster.direction)).tolist()
+            a, b, c = rotate(base_from_link.rotation, np.array(thruster.direction)).tolist()
             thruster = replace(thruster, position=(x, y, z), direction=(a, b, c))
         found.append(thruster)
     return tuple(found)

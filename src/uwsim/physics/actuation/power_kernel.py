@@ -10,7 +10,7 @@ import numpy.typing as npt
 from ...base.geometry import Array
 from ...base.numerics.calls import address_of
 from ...base.numerics.jit import njit
-from ...base.numerics.memory import carray, floats, longs, pointer
+from ...base.numerics.memory import carray, pointer, view_doubles, view_int64s
 from ..hydrodynamics.columns import WATER_COLUMNS
 from ..hydrodynamics.kernel.thrusters import curve
 
@@ -192,27 +192,27 @@ def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArr
 def write_powers(parameters: int, values: int, time: float) -> None:
     """Write what `powers` returns; see `uwsim.base.numerics.calls`."""
     p = carray(pointer(parameters), (1,), POWERS)[0]
-    n, m, controls = p.n_rotors, p.n_motors, floats(p.controls, p.nu)
+    n, m, controls = p.n_rotors, p.n_motors, view_doubles(p.controls, p.nu)
     rotors = (
-        longs(p.rotors, 7 * n).reshape((n, 7)),
-        floats(p.rotor_traits, 3 * n).reshape((n, 3)),
-        floats(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
+        view_int64s(p.rotors, 7 * n).reshape((n, 7)),
+        view_doubles(p.rotor_traits, 3 * n).reshape((n, 3)),
+        view_doubles(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
         p.still,
         controls,
-        floats(p.states, p.na),
-        floats(p.userdata, p.n_userdata),
-        floats(p.sites, 3 * p.n_sites).reshape((p.n_sites, 3)),
+        view_doubles(p.states, p.na),
+        view_doubles(p.userdata, p.n_userdata),
+        view_doubles(p.sites, 3 * p.n_sites).reshape((p.n_sites, 3)),
     )
     motors = (
         p.timestep,
-        longs(p.motors, 4 * m).reshape((m, 4)),
-        floats(p.motor_traits, 3 * m).reshape((m, 3)),
-        floats(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
-        floats(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
+        view_int64s(p.motors, 4 * m).reshape((m, 4)),
+        view_doubles(p.motor_traits, 3 * m).reshape((m, 3)),
+        view_doubles(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
+        view_doubles(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
         controls,
-        floats(p.qpos, p.nq),
-        floats(p.qvel, p.nv),
-        floats(p.applied, p.nv),
+        view_doubles(p.qpos, p.nq),
+        view_doubles(p.qvel, p.nv),
+        view_doubles(p.applied, p.nv),
     )
-    tables = floats(p.tables, 2 * n * p.n_terms).reshape((n, 2, p.n_terms))
-    floats(values, n + m)[:] = powers(tables, rotors, motors)
+    tables = view_doubles(p.tables, 2 * n * p.n_terms).reshape((n, 2, p.n_terms))
+    view_doubles(values, n + m)[:] = powers(tables, rotors, motors)

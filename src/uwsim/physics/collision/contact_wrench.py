@@ -19,8 +19,17 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.calls import address_of, call_numbered, function_address
 from ...base.numerics.jit import njit
-from ...base.numerics.linear import cross, turned_back
-from ...base.numerics.memory import Ints64, carray, floats, ints, longs, pointer, small, word
+from ...base.numerics.linear import cross, rotate_back
+from ...base.numerics.memory import (
+    Ints64,
+    carray,
+    pointer,
+    read_int32,
+    read_int64,
+    view_doubles,
+    view_int32s,
+    view_int64s,
+)
 from ...base.sampling import Sampler
 from ..hydrodynamics import callback
 from ..hydrodynamics.kernel import fields as f
@@ -89,8 +98,8 @@ def sample_contacts(parameters: int, values: int, time: float) -> None:
     frame, sums = np.empty(12), np.zeros(6)
     mounted_frame(carray(pointer(wrench.mount), (1,), MOUNT)[0], frame)
     if wrench.has_contacts != 0:
-        add_contacts(wrench, longs(wrench.offsets, wrench.n_offsets), frame, sums)
-    rotate_wrench(frame, sums, floats(values, 6))
+        add_contacts(wrench, view_int64s(wrench.offsets, wrench.n_offsets), frame, sums)
+    rotate_wrench(frame, sums, view_doubles(values, 6))
 
 
 @njit
@@ -104,19 +113,19 @@ def add_contacts(wrench: Record, offsets: Ints64, point: Array, sums: Array) -> 
         sums: force and torque, in W, (6,) [N, N m].
     """
     m, d, body = wrench.model, wrench.data, wrench.body
-    bodies, contacts = word(m + offsets[f.GEOM_BODY]), word(d + offsets[f.CONTACTS])
+    bodies, contacts = read_int64(m + offsets[f.GEOM_BODY]), read_int64(d + offsets[f.CONTACTS])
     result, lever = np.empty(6), np.empty(3)
-    for i in range(small(d + offsets[f.N_CONTACTS])):
+    for i in range(read_int32(d + offsets[f.N_CONTACTS])):
         contact = contacts + offsets[f.CONTACT_SIZE] * i
-        geoms = ints(contact + offsets[f.CONTACT_GEOMS], 2)
-        is_second = small(bodies + 4 * geoms[1]) == body
-        if (small(bodies + 4 * geoms[0]) == body) == is_second:
+        geoms = view_int32s(contact + offsets[f.CONTACT_GEOMS], 2)
+        is_second = read_int32(bodies + 4 * geoms[1]) == body
+        if (read_int32(bodies + 4 * geoms[0]) == body) == is_second:
             continue
         call_numbered(wrench.contact_force, m, d, i, result.ctypes.data)
-        axes = floats(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
-        position = floats(contact + offsets[f.CONTACT_POINT], 3)
+        axes = view_doubles(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
+        position = view_doubles(contact + offsets[f.CONTACT_POINT], 3)
         sign = 1.0 if is_second else -1.0  # the first body pushes the second
-        force, torque = turned_back(axes, result[:3]), turned_back(axes, result[3:])
+        force, torque = rotate_back(axes, result[:3]), rotate_back(axes, result[3:])
         for k in range(3):
             force[k] *= sign
             lever[k] = position[k] - point[k]
@@ -130,4 +139,4 @@ def add_contacts(wrench: Record, offsets: Ints64, point: Array, sums: Array) -> 
 def rotate_wrench(frame: Array, wrench: Array, values: Array) -> None:
     """Write a wrench in W, (6,), in the axes of a frame, (12,), into ``values``, (6,)."""
     axes = frame[3:].reshape((3, 3))
-    values[:3], values[3:] = turned_back(axes, wrench[:3]), turned_back(axes, wrench[3:])
+    values[:3], values[3:] = rotate_back(axes, wrench[:3]), rotate_back(axes, wrench[3:])

@@ -14,8 +14,8 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
-from ...base.numerics.linear import composed
-from ...base.numerics.memory import carray, floats, ints, longs, pointer
+from ...base.numerics.linear import compose_transforms
+from ...base.numerics.memory import carray, pointer, view_doubles, view_int32s, view_int64s
 
 CHAIN = np.dtype(
     [
@@ -72,10 +72,10 @@ def mounted_frame(mount: Record, frame: Array) -> None:
 
     The scale of a vehicle moves the part and does not turn it.
     """
-    origin, axes = floats(mount.origin, 3), floats(mount.axes, 9).reshape((3, 3))
-    shift, turn = composed(axes, origin, mount.rotation, mount.position)
+    origin, axes = view_doubles(mount.origin, 3), view_doubles(mount.axes, 9).reshape((3, 3))
+    shift, turn = compose_transforms(axes, origin, mount.rotation, mount.position)
     if mount.base_axes != 0:
-        base = floats(mount.base_axes, 9).reshape((3, 3))
+        base = view_doubles(mount.base_axes, 9).reshape((3, 3))
         stretched = stretch(base, axes, mount.scale)
         for i in range(3):
             along = 0.0
@@ -138,8 +138,8 @@ def point_motion(chain: Record, point: Array, found: Array) -> None:
     if n == 0:
         return
     scratch = chain.scratch + 24 * chain.n_bodies
-    columns = floats(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
-    changes = floats(scratch + 48 * n, 6 * n).reshape((n, 6))  # how fast these change
+    columns = view_doubles(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
+    changes = view_doubles(scratch + 48 * n, 6 * n).reshape((n, 6))  # how fast these change
     centre, twist, offset = np.empty(3), np.zeros(6), np.empty(3)
     tree_centre(chain, centre)
     joint_columns(chain, centre, columns, changes, twist)
@@ -148,13 +148,13 @@ def point_motion(chain: Record, point: Array, found: Array) -> None:
     carried = np.empty(3)  # the velocity of the point, by the twist
     for i in range(3):
         carried[i] = twist[3 + i] - component(offset, twist, i)
-    dofs = longs(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
+    dofs = view_int64s(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
     for i in range(3):
         velocity, turn, pushed, bent = 0.0, 0.0, 0.0, 0.0
         for k in range(n):
             column, change = columns[k], changes[k]
-            speed = floats(chain.speeds + 8 * dofs[k, 0], 1)[0]
-            rate = floats(chain.rates + 8 * dofs[k, 0], 1)[0]
+            speed = view_doubles(chain.speeds + 8 * dofs[k, 0], 1)[0]
+            rate = view_doubles(chain.rates + 8 * dofs[k, 0], 1)[0]
             along = column[3 + i] + component(column, offset, i)
             velocity += along * speed
             turn += column[i] * speed
@@ -169,10 +169,13 @@ def point_motion(chain: Record, point: Array, found: Array) -> None:
 def tree_centre(chain: Record, centre: Array) -> None:
     """Write the centre of mass of the tree of links into (3,) [m]."""
     root, n = chain.root, chain.n_bodies
-    masses, parents = floats(chain.masses + 8 * root, n), ints(chain.parents + 4 * root, n)
-    centres = floats(chain.centres + 24 * root, 3 * n)
-    mass = floats(chain.tree_masses + 8 * root, 1)[0]
-    moments = floats(chain.scratch, 3 * n)
+    masses, parents = (
+        view_doubles(chain.masses + 8 * root, n),
+        view_int32s(chain.parents + 4 * root, n),
+    )
+    centres = view_doubles(chain.centres + 24 * root, 3 * n)
+    mass = view_doubles(chain.tree_masses + 8 * root, 1)[0]
+    moments = view_doubles(chain.scratch, 3 * n)
     for body in range(n):
         for i in range(3):
             moments[3 * body + i] = centres[3 * body + i] * masses[body]
@@ -191,12 +194,12 @@ def joint_columns(
 ) -> None:
     """Write the twist by each joint about the centre, its rate of change, and the link's twist."""
     n = chain.n_dofs
-    dofs = longs(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
+    dofs = view_int64s(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
     axis, offset, total = np.empty(3), np.empty(3), np.empty(6)
     k = 0
     while k < n:
         kind, body, joint = dofs[k, 1], dofs[k, 2], dofs[k, 3]
-        anchor = floats(chain.anchors + 24 * joint, 3)
+        anchor = view_doubles(chain.anchors + 24 * joint, 3)
         for i in range(3):
             offset[i] = centre[i] - anchor[i]
         width = 3 if kind in (SHIFT, TURN) else 1
@@ -208,11 +211,11 @@ def joint_columns(
                 column[3 + j] = 1.0
                 continue
             if kind == TURN:
-                matrix = floats(chain.axes + 72 * body, 9)
+                matrix = view_doubles(chain.axes + 72 * body, 9)
                 for i in range(3):
                     axis[i] = matrix[3 * i + j]
             else:
-                axis[:] = floats(chain.joint_axes + 24 * joint, 3)
+                axis[:] = view_doubles(chain.joint_axes + 24 * joint, 3)
             if kind == SLIDE:
                 column[3:] = axis
                 continue
@@ -224,7 +227,9 @@ def joint_columns(
         for i in range(6):
             total[i] = 0.0
             for j in range(width):
-                total[i] += columns[k + j, i] * floats(chain.speeds + 8 * dofs[k + j, 0], 1)[0]
+                total[i] += (
+                    columns[k + j, i] * view_doubles(chain.speeds + 8 * dofs[k + j, 0], 1)[0]
+                )
             twist[i] += total[i]
         for j in range(width):
             if kind == SHIFT:
@@ -252,10 +257,10 @@ def component(left: Array, right: Array, i: int) -> float:
 
 def place_mount(parameters: int, values: int, time: float) -> None:
     """Write the frame of a part; see `uwsim.base.numerics.calls`."""
-    mounted_frame(carray(pointer(parameters), (1,), MOUNT)[0], floats(values, 12))
+    mounted_frame(carray(pointer(parameters), (1,), MOUNT)[0], view_doubles(values, 12))
 
 
 def move_mount(parameters: int, values: int, time: float) -> None:
     """Write how a point of a part moves behind the point, (3,), in the same array, (12,)."""
     mount = carray(pointer(parameters), (1,), MOUNT)[0]
-    point_motion(mount.chain, floats(values, 3), floats(values + 24, 9))
+    point_motion(mount.chain, view_doubles(values, 3), view_doubles(values + 24, 9))

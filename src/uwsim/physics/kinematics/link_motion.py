@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array
 from ...base.numerics.calls import address_of
-from ...base.sampling import Addresses, addresses_in
+from ...base.sampling import Addresses, number_addresses
 from ...model.body_names import vehicle_joint
 from ...world import BodyMotion
 from ..poses import Poses
@@ -51,10 +51,10 @@ class LinkMotion:
         poses, body = self._poses, self._poses.base(index)
         dof = int(self._model.body_dofadr[body])
         place = (
-            addresses_in(poses.origins, np.arange(3 * body, 3 * body + 3)),
-            addresses_in(poses.axes, np.arange(9 * body, 9 * body + 9)),
+            number_addresses(poses.origins, np.arange(3 * body, 3 * body + 3)),
+            number_addresses(poses.axes, np.arange(9 * body, 9 * body + 9)),
         )
-        return np.concatenate(place), addresses_in(self._data.qvel, np.arange(dof, dof + 6))
+        return np.concatenate(place), number_addresses(self._data.qvel, np.arange(dof, dof + 6))
 
     def joint_addresses(self, index: int, names: Sequence[str], *, with_motion: bool) -> Addresses:
         """Return the addresses of the positions of some joints of a vehicle [rad or m], (n,).
@@ -65,10 +65,10 @@ class LinkMotion:
         model, data = self._model, self._data
         joints = [model.joint(vehicle_joint(index, name)).id for name in names]
         places, dofs = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
-        found = [addresses_in(data.qpos, places)]
+        found = [number_addresses(data.qpos, places)]
         if with_motion:
             moving = data.qvel, data.qfrc_actuator, data.qfrc_applied
-            found += [addresses_in(array, dofs) for array in moving]
+            found += [number_addresses(array, dofs) for array in moving]
         return np.concatenate(found)
 
     def led(self, index: int) -> tuple[Array, Array]:

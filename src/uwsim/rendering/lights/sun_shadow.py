@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array, Pose
 from ...base.numerics.jit import njit
-from ...base.numerics.linear import cross, matrices, product
+from ...base.numerics.linear import cross, multiply_matrices, product
 from ..instance import INSTANCE, Instances, Numbers
 from ..program import build
 from .caster_map import CasterMap
@@ -216,7 +216,7 @@ def _fit(spheres: Array, sun: Array) -> tuple[Array, float]:
     """
     axes = _axes(sun)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    centres = matrices(np.ascontiguousarray(spheres[:, :3]), np.ascontiguousarray(axes.T))
+    centres = multiply_matrices(np.ascontiguousarray(spheres[:, :3]), np.ascontiguousarray(axes.T))
     for n in range(len(spheres)):
         for k in range(3):
             low[k] = min(low[k], centres[n, k] - spheres[n, 3])

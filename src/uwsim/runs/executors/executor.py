@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
-from ...base.interrupts import is_of_user, raise_if_interrupted
+from ...base.interrupts import is_user_interrupt, raise_if_interrupted
 from ...base.system_errors import system_error_text
 from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimError
 from ...results.journal import path_of
@@ -207,7 +207,7 @@ class SerialExecutor:
                     raise_if_interrupted()
                     queue.failed(job, error)
                 except BaseException as error:
-                    if is_of_user(error):
+                    if is_user_interrupt(error):
                         raise
                     queue.failed(job, picklable(error))
                 else:

@@ -13,13 +13,13 @@ from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 
-from ...base.interrupts import ignoring_interrupts
+from ...base.interrupts import block_interrupts
 
 
 def start_ignoring_interrupts(process: BaseProcess) -> None:
     """Start a process that ignores Ctrl-C, which its parent handles."""
     resource_tracker.ensure_running()  # else it starts with the process, and lets Ctrl-C through
-    with ignoring_interrupts():
+    with block_interrupts():
         process.start()
 
 

@@ -19,8 +19,8 @@ from functools import partial
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 
-from ...base.environment import environment
-from ...base.interrupts import is_of_user
+from ...base.environment import set_environment
+from ...base.interrupts import is_user_interrupt
 from ...base.terminal import ignore_casts
 from ...simulation import BEFORE, Calls, Counter, Cut, open_call
 from ..own_process.process import TOO_LONG, how
@@ -131,7 +131,7 @@ class WorkerProcess:
             if forks is not None
             else context.Process(target=work, args=arguments)
         )
-        with environment(settings):
+        with set_environment(settings):
             if forks is not None:
                 forks.start(self._process)
             else:
@@ -234,7 +234,7 @@ def work(
                 for _ in run_and_record(job, cache, Calls(counter, job.cut, limit=limit)):
                     pipe.send(LevelKept())
             except BaseException as error:
-                if is_of_user(error):
+                if is_user_interrupt(error):
                     raise
                 pipe.send(TrialFailed(picklable(error)))
             else:

@@ -23,8 +23,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from ...base.environment import environment, not_chosen
-from ...base.files.scratch import OWNER, scratch_folder
+from ...base.environment import select_unset, set_environment
+from ...base.files.scratch import SCRATCH_VARIABLE, scratch_folder
 from ...errors import BadSetting, MissingExtra, RunFailed, UwsimError
 from ...results.stored.stored_row import Record
 from ..planning.plan import Trial
@@ -76,7 +76,7 @@ class RayExecutor:
         with self._cluster(), redirect_stdout(io.StringIO()):
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
             remote = ray.remote(num_cpus=1, max_restarts=0)(RayWorker)
-            remote = remote.options(runtime_env={"env_vars": not_chosen(ENVIRONMENT)})
+            remote = remote.options(runtime_env={"env_vars": select_unset(ENVIRONMENT)})
             idle: list[tuple[Any, str]] = []  # and the only algorithm that it runs
             tasks: dict[Any, AssignedJob] = {}
             try:
@@ -136,7 +136,7 @@ class RayExecutor:
             return
         with scratch_folder("uwsim-ray-", _short_folder()) as folder:
             try:
-                with environment({**QUIET, OWNER: str(folder)}), _signals_kept():
+                with set_environment({**QUIET, SCRATCH_VARIABLE: str(folder)}), _signals_kept():
                     self._connect(str(folder))
                 yield
             finally:

@@ -34,9 +34,9 @@ import numpy as np
 
 from ... import errors
 from ...base.files.source_module import source_module
-from ...base.message_fields import unfit
-from ...base.raised import what_was_raised
-from ...base.read_parameters import ReadParameters, unasked
+from ...base.message_fields import find_invalid_field
+from ...base.raised import describe_exception
+from ...base.read_parameters import TrackedParameters, untracked_parameters
 from ...base.terminal import ignore_casts
 from ...bus import Bus
 from ...errors import BadSetting, NotAllowed, UwsimError
@@ -66,7 +66,7 @@ class ChildNode:
         """The rule that a thread of the algorithm has broken."""
         self.now = 0.0
         """Simulation time [s]."""
-        self.parameters = ReadParameters({})
+        self.parameters = TrackedParameters({})
         """The parameters that the user set."""
         self.random = np.random.default_rng(0)
         """The algorithm's own random stream."""
@@ -87,7 +87,7 @@ class ChildNode:
             self._published.append(frame)
             self._n_bytes += len(frame)
             is_full = len(self._published) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
-            if is_full or may_refuse or unfit(message, converts=False):
+            if is_full or may_refuse or find_invalid_field(message, converts=False):
                 self._asked("take")
 
         return publish
@@ -150,7 +150,7 @@ class Child:
             message = str(error) if isinstance(error, UwsimError) else ""
             trace = error.__traceback__
             error.__traceback__ = trace and trace.tb_next  # the first is that of this function
-            text = what_was_raised(error, self._class)
+            text = describe_exception(error, self._class)
             raised = (type(error).__name__, message, text)
             frame = encode(["raised", self._node.published(), *raised])
         self._send(frame)
@@ -171,7 +171,7 @@ class Child:
         bits = getattr(np.random, name)()
         bits.state = state
         self._node.random = np.random.Generator(bits)
-        self._node.now, self._node.parameters = now, ReadParameters(parameters)
+        self._node.now, self._node.parameters = now, TrackedParameters(parameters)
         self._algorithm.start(self._node)
 
     def _call(self, number: int, now: float, *arguments: Any) -> object:
@@ -179,11 +179,11 @@ class Child:
         return self._node.callbacks[number](*arguments)
 
     def _parameters(self, given: dict[str, Any]) -> object:
-        reported: object = unasked(getattr(self._algorithm, "parameters", given))
+        reported: object = untracked_parameters(getattr(self._algorithm, "parameters", given))
         return dict(reported) if isinstance(reported, Mapping) else reported
 
     def _asked(self) -> list[str]:
-        return list(self._node.parameters.asked)
+        return list(self._node.parameters.names_read)
 
     def _ask(self, method: str, *arguments: object) -> Any:
         """Ask the simulation for something; calls that come in between are answered."""

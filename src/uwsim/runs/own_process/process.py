@@ -22,10 +22,10 @@ from multiprocessing.connection import Connection
 from types import TracebackType
 from typing import Any, Self
 
-from ...base.environment import without_secrets
-from ...base.interrupts import ignoring_interrupts
-from ...base.raised import RaisedElsewhere
-from ...base.read_parameters import unasked
+from ...base.environment import remove_secrets
+from ...base.interrupts import block_interrupts
+from ...base.raised import RemoteError
+from ...base.read_parameters import untracked_parameters
 from ...benchmark.plugin import Plugin
 from ...bus import Node
 from ...errors import BadSetting, RunFailed, UwsimError
@@ -54,13 +54,13 @@ class OwnProcess:
 
     def __init__(self, limit: float | None = None) -> None:
         ours, theirs = socket.socketpair()
-        with theirs, ignoring_interrupts():
+        with theirs, block_interrupts():
             self._process = subprocess.Popen(
                 [sys.executable, "-m", MODULE, str(theirs.fileno()), str(os.getpid())],
                 pass_fds=(theirs.fileno(),),
                 stdin=subprocess.DEVNULL,
                 env={
-                    **without_secrets(os.environ),
+                    **remove_secrets(os.environ),
                     "PYTHONPATH": os.pathsep.join(filter(None, sys.path)),
                 },
             )
@@ -102,7 +102,7 @@ class OwnProcess:
                 first what has come with the frame that asks.
 
         Raises:
-            RaisedElsewhere: the algorithm raised, or broke a rule.
+            RemoteError: the algorithm raised, or broke a rule.
             BadSetting: it refused a parameter in its start.
             Stopped: its process has ended, sent what is no frame, or took too long.
         """
@@ -115,11 +115,11 @@ class OwnProcess:
                 self._send(_answered(answer, published, rest))
                 continue
             if refused := _refused(answer, published):
-                raise RaisedElsewhere(f"{refused[1]}: {refused[2]}")
+                raise RemoteError(f"{refused[1]}: {refused[2]}")
             if kind == "done" and len(rest) == 2:
                 value, broken = rest
                 if broken is not None:
-                    raise RaisedElsewhere(f"NotAllowed: {broken}")
+                    raise RemoteError(f"NotAllowed: {broken}")
                 return value
             if kind == "raised" and len(rest) == 3:
                 raise _raised(str(frame[0]), *map(str, rest))
@@ -186,7 +186,7 @@ class ProcessAlgorithm:
             waits at each.
 
     Raises:
-        RaisedElsewhere: the algorithm cannot be made.
+        RemoteError: the algorithm cannot be made.
     """
 
     def __init__(
@@ -219,7 +219,7 @@ class ProcessAlgorithm:
         self._node = node
         bits = node.random.bit_generator
         random = [type(bits).__name__, dict(bits.state)]
-        self._request("start", node.now, unasked(node.parameters), random)
+        self._request("start", node.now, untracked_parameters(node.parameters), random)
 
     def _request(self, *frame: object) -> Any:
         return self._process.request(list(frame), self._do)
@@ -305,7 +305,7 @@ def _raised(request: str, kind: str, message: str, text: str) -> Exception:
     """Return what the algorithm raised, as the simulation's process would have it."""
     if request == "start" and kind == "BadSetting":
         return BadSetting(message)
-    return RaisedElsewhere(text)
+    return RemoteError(text)
 
 
 def how(exit_code: int | None) -> str:

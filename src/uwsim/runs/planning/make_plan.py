@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from ...assets.bundled import benchmark_file, scene_file
 from ...base.terminal import print_warnings
 from ...checks.benchmark_tables import read_plugins
-from ...errors import AllErrors, AssetNotFound, BadSetting
+from ...errors import AssetNotFound, BadSetting, ErrorCollector
 from ...scene.settings import OF_XACRO, xacro_arguments
 from ...schema.source_line import line_of
 from ...world import TIMESTEP
@@ -57,9 +57,9 @@ def make_plan(request: PlanRequest) -> Plan:
     """
     from .plan import AlgorithmUnderTest, Plan
 
-    wrong = AllErrors()
+    wrong = ErrorCollector()
     inputs: dict[int, bytes] = {}
-    with wrong.kept():
+    with wrong.collect():
         request, inputs = with_stored_pilot(request)
     pairs = pairs_of(request.settings, wrong)
     read = _read_files(request, xacro_arguments(pairs), wrong)
@@ -71,24 +71,24 @@ def make_plan(request: PlanRequest) -> Plan:
     read = _with_settings(read, pairs, wrong)
     spec, scene = read.benchmark, read.scene
     kind: type[Algorithm] | None = None
-    with wrong.kept():
+    with wrong.collect():
         if scene is not None and request.no_code:
             refuse_code(scene)
-    with wrong.kept():
+    with wrong.collect():
         kind = request.algorithm_class
         name = request.algorithm or ""
         if kind is None and not name.startswith(PREFIX):  # else it has been said what is wrong
             kind = _algorithm(request, read)
-    with wrong.kept():
+    with wrong.collect():
         check_client(request, parameters)
     check_parameters(kind, parameters, wrong)
     mode: Mode = "sequential"
-    with wrong.kept():
+    with wrong.collect():
         mode = mode_of(request.mode or (None if spec is None else spec.mode))
     of_file = () if spec is None else spec.compatibility
     quirks = compatibility_of([*of_file, *request.compat], wrong)
     chosen = levels_of(request.levels, spec, wrong)
-    with wrong.kept():
+    with wrong.collect():
         check_length(spec, chosen, request.repeat)
     wrong.check()
     assert spec is not None
@@ -137,7 +137,9 @@ def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
     return (ALGORITHMS[name],) if name in ALGORITHMS else ()
 
 
-def _read_files(request: PlanRequest, arguments: Mapping[str, str], wrong: AllErrors) -> _Files:
+def _read_files(
+    request: PlanRequest, arguments: Mapping[str, str], wrong: ErrorCollector
+) -> _Files:
     """Read plugins, benchmark and scene, with xacro arguments; collects their errors."""
     plugins: tuple[Plugin, ...] = ()
     tables: Tables | None = None
@@ -145,20 +147,20 @@ def _read_files(request: PlanRequest, arguments: Mapping[str, str], wrong: AllEr
     spec: BenchmarkSpec | None = None
     scene: SceneSpec | None = None
     data_path = tuple(request.data_path)
-    with wrong.kept():
+    with wrong.collect():
         plugins, tables = read_plugins(request.plugins)
-    with wrong.kept():
+    with wrong.collect():
         path = benchmark_file(request.benchmark, data_path)
         if tables is not None:
             if named := named_plugins(path, request):
                 plugins, tables = read_plugins([*request.plugins, *named])
             spec = benchmark_of(path, plugins, tables)
-    with wrong.kept():
+    with wrong.collect():
         scene = scene_of(request.scene, path, spec, data_path, arguments)
     return _Files(plugins=plugins, tables=tables, benchmark=spec, scene=scene)
 
 
-def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErrors) -> _Files:
+def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: ErrorCollector) -> _Files:
     """Apply every ``--set`` of scene and updaters; collects errors."""
     from ...benchmark.updater_settings import (
         apply_updater_setting,
@@ -169,7 +171,7 @@ def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: AllErr
 
     spec, scene = read.benchmark, read.scene
     for name, value in pairs:
-        with wrong.kept():
+        with wrong.collect():
             if name.startswith((OF_ALGORITHM, OF_XACRO)):
                 continue
             if spec is not None and leads_to_updater(spec, name):
@@ -293,14 +295,14 @@ def check_client(request: PlanRequest, parameters: Mapping[str, float | str]) ->
 
 
 def check_parameters(
-    kind: type[Algorithm] | None, parameters: Mapping[str, float | str], wrong: AllErrors
+    kind: type[Algorithm] | None, parameters: Mapping[str, float | str], wrong: ErrorCollector
 ) -> None:
     """Collect errors for parameters that the algorithm does not have."""
     from ... import algorithms
     from ...simulation import latency_of
 
     for name, value in parameters.items():
-        with wrong.kept():
+        with wrong.collect():
             latency_of({name: value})
             if kind is not None:
                 algorithms.check_parameters(kind, {name: value})

@@ -5,18 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ...errors import AllErrors, BadSetting, did_you_mean
+from ...errors import BadSetting, ErrorCollector, did_you_mean
 
 if TYPE_CHECKING:
     from ...benchmark.spec import BenchmarkSpec
     from .plan import Mode
 
 
-def pairs_of(settings: Sequence[str], wrong: AllErrors) -> list[tuple[str, str]]:
+def pairs_of(settings: Sequence[str], wrong: ErrorCollector) -> list[tuple[str, str]]:
     """Split every ``--set`` into name and value; collects errors."""
     pairs = []
     for setting in settings:
-        with wrong.kept():
+        with wrong.collect():
             pairs.append(split(setting, "--set"))
     return pairs
 
@@ -31,19 +31,19 @@ def mode_of(mode: str | None) -> Mode:
     raise BadSetting(f"--mode is {mode!r}; expected sequential or independent.{near}")
 
 
-def compatibility_of(compat: Sequence[str], wrong: AllErrors) -> frozenset[str]:
+def compatibility_of(compat: Sequence[str], wrong: ErrorCollector) -> frozenset[str]:
     """Return the quirks of ``--compat``; an unknown name goes into ``wrong``."""
     from ...base.compatibility import compatibility
 
     found: frozenset[str] = frozenset()
     for name in [word for words in compat for word in words.replace(",", " ").split()]:
-        with wrong.kept():
+        with wrong.collect():
             found |= compatibility([name])
     return found
 
 
 def levels_of(
-    wanted: Sequence[tuple[str, float]], spec: BenchmarkSpec | None, wrong: AllErrors
+    wanted: Sequence[tuple[str, float]], spec: BenchmarkSpec | None, wrong: ErrorCollector
 ) -> tuple[tuple[str, float], ...]:
     """Return the wanted levels that the sweep has; collects errors for the others."""
     from ...benchmark import updaters
@@ -52,7 +52,7 @@ def levels_of(
     levels = () if spec is None or not wanted else updaters.levels(spec.scene_updater)
     chosen = []
     for pair in wanted:
-        with wrong.kept():
+        with wrong.collect():
             if levels:
                 chosen_levels(levels, [pair])
             chosen.append(pair)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from ...base.interrupts import is_of_user
-from ...base.raised import RaisedElsewhere
-from ...base.read_parameters import unread_note
+from ...base.interrupts import is_user_interrupt
+from ...base.raised import RemoteError
+from ...base.read_parameters import describe_unread_parameters
 from ...benchmark.plugin_checks import parameters_of
 from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError
@@ -29,7 +29,7 @@ def make_algorithm(
             return program(parameters)
     except BaseException as error:
         is_outside = plan.algorithm.client is not None
-        if is_of_user(error) or (is_outside and isinstance(error, UwsimError)):
+        if is_user_interrupt(error) or (is_outside and isinstance(error, UwsimError)):
             raise
         raise NeverStarted(
             f"Algorithm {plan.algorithm.name!r} cannot be made: "
@@ -51,7 +51,7 @@ def parameters_said(
     except UwsimError:
         raise
     except BaseException as error:
-        if is_of_user(error):
+        if is_user_interrupt(error):
             raise
         message = legible(what_broke(error, plan.algorithm.cls))
         raise RunFailed(
@@ -67,11 +67,11 @@ def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> 
     given = [name for name in plan.algorithm.parameters if name != "latency_s"]
     if not given or node.error is not None:
         return ()
-    asked: Iterable[str] = node.parameters.asked
+    asked: Iterable[str] = node.parameters.names_read
     if isinstance(algorithm, ProcessAlgorithm):
         try:
             asked = algorithm.asked
-        except (RaisedElsewhere, Stopped):
+        except (RemoteError, Stopped):
             return ()
-    note = unread_note(plan.algorithm.name, given, asked)
+    note = describe_unread_parameters(plan.algorithm.name, given, asked)
     return (note,) if note else ()

@@ -246,7 +246,7 @@ def _check_name(
         diagnostics.error(
             spec,
             f"the robot has no {what} {name!r}."
-            + choices(name, known, called=f"{what.split()[-1].capitalize()}s"),
+            + choices(name, known, heading=f"{what.split()[-1].capitalize()}s"),
         )
 
 

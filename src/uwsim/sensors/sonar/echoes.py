@@ -25,7 +25,7 @@ import numpy.typing as npt
 from ...acoustics import MATERIALS, Material
 from ...base.geometry import Array, Pose
 from ...base.numerics.elementwise import log
-from ...base.numerics.linear import product, turned_back
+from ...base.numerics.linear import product, rotate_back
 from ...rays import Hits
 from ...world import SensorWorld
 from .kernel import Singles, add_echoes, received
@@ -157,7 +157,7 @@ class Echoes:
         pose, reach = ping.world_from_sonar, self._spec.range
         hits = self._world.rays.cast(pose, directions, reach)
         normal = product(hits.normal, pose.rotation)
-        up = turned_back(pose.rotation, np.array([0.0, 0.0, 1.0]))
+        up = rotate_back(pose.rotation, np.array([0.0, 0.0, 1.0]))
         above = self._world.surface_height - pose.position[2]
         rise = product(directions, up)
         to_surface = np.full(len(rise), np.inf)

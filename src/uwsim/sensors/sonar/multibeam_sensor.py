@@ -115,7 +115,7 @@ class BeamFan:
         spec = self._spec
         ranges = self._ranges()
         if spec.std > 0.0:
-            noise = spec.std * self.state.random.standard_normal(len(ranges))
+            noise = spec.std * self.state.rng.standard_normal(len(ranges))
             ranges = np.where(ranges < spec.range, ranges + noise, ranges)
         last = len(ranges) - 1
         return LaserScan(

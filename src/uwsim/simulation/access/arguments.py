@@ -12,7 +12,7 @@ from ...base.external_values import finite_float
 from ...base.geometry import Pose
 from ...currents.constant import Constant
 from ...currents.current import MAX_SPEED
-from ...errors import BadSetting, shown
+from ...errors import BadSetting, short_repr
 from ...world import Flow
 from .program_flow import ProgramFlow
 
@@ -23,7 +23,7 @@ FARTHEST = 1e6
 def checked_seed(seed: int, method: str = "reset") -> int:
     """Return a seed; BadSetting if it is not a whole number of at least 0."""
     if isinstance(seed, bool) or not isinstance(seed, Integral) or seed < 0:
-        raise BadSetting(f"{method}(seed={shown(seed)}): expected a whole number >= 0.")
+        raise BadSetting(f"{method}(seed={short_repr(seed)}): expected a whole number >= 0.")
     return int(seed)
 
 
@@ -31,7 +31,7 @@ def whole_steps(seconds: float, timestep: float) -> int:
     """Return the steps in a time to advance [s]; BadSetting if it is negative or not finite."""
     n_steps = _float_of(seconds) / timestep
     if not 0.0 <= n_steps < math.inf:
-        raise BadSetting(f"advance({shown(seconds)}): expected a time >= 0 [s].")
+        raise BadSetting(f"advance({short_repr(seconds)}): expected a time >= 0 [s].")
     return round(n_steps)
 
 
@@ -43,14 +43,14 @@ def checked_algorithm(algorithm: object) -> None:
             f"attach({algorithm.__name__}())."
         )
     if not callable(getattr(algorithm, "start", None)):
-        raise BadSetting(f"attach({shown(algorithm)}): it has no method start(node).")
+        raise BadSetting(f"attach({short_repr(algorithm)}): it has no method start(node).")
 
 
 def checked_number(method: str, number: float) -> float:
     """Return a number; BadSetting if it is negative or not finite."""
     found = _float_of(number)
     if not 0.0 <= found < math.inf:
-        raise BadSetting(f"{method}({shown(number)}): expected a finite number >= 0.")
+        raise BadSetting(f"{method}({short_repr(number)}): expected a finite number >= 0.")
     return found
 
 
@@ -66,7 +66,7 @@ def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Po
     """Return a pose in W; BadSetting if it is not finite or too far from the origin."""
     if not isinstance(frame_from_body, Pose):
         raise BadSetting(
-            f"set_pose({name!r}, {shown(frame_from_body)}): expected a Pose, as "
+            f"set_pose({name!r}, {short_repr(frame_from_body)}): expected a Pose, as "
             "Pose([0.0, 0.0, -2.0]) of uwsim.base.geometry."
         )
     world_from_body = world_from_frame @ frame_from_body
@@ -99,7 +99,7 @@ def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
         x = y = z = math.nan
     if not all(abs(component) <= MAX_SPEED for component in (x, y, z)):
         raise BadSetting(
-            f"set_current({shown(velocity)}): expected three numbers between {-MAX_SPEED:g} and "
-            f"{MAX_SPEED:g} [m/s]."
+            f"set_current({short_repr(velocity)}): expected three numbers between "
+            f"{-MAX_SPEED:g} and {MAX_SPEED:g} [m/s]."
         )
     return Constant((x, y, z))

@@ -10,7 +10,7 @@ import numpy as np
 from ...base.geometry import Array
 from ...currents.current import Current, compiled
 from ...currents.flow_function import FlowFunction
-from ...errors import BadSetting, UwsimError, shown, type_and_text
+from ...errors import BadSetting, UwsimError, short_repr, type_and_text
 from ...world import Flow
 
 
@@ -84,7 +84,7 @@ class ProgramFlow(Current):
     def _wrong(self, method: str, answer: object, time: float, expected: str) -> BadSetting:
         kind = type(self._flow).__name__
         return BadSetting(
-            f"set_current: {kind}.{method} returned {shown(answer)} at {time:.6g} s; "
+            f"set_current: {kind}.{method} returned {short_repr(answer)} at {time:.6g} s; "
             f"expected {expected}."
         )
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from ...base.inbox import Inbox
-from ...base.record import Live, Record, of_another_scene
+from ...base.record import ExternalValue, Record, wrong_scene_error
 from ...base.terminal import warn
 from ...bus import Bus
 from ...errors import UnknownName
 
 
-class Newest(Live):
+class Newest(ExternalValue):
     """The newest message of each topic that is read, and the step at which it came.
 
     Args:
@@ -33,7 +33,7 @@ class Newest(Live):
     def set(self, value: object) -> None:
         """Set the newest messages; topics that are not read yet are read from now on."""
         if not isinstance(value, dict):
-            raise of_another_scene()
+            raise wrong_scene_error()
         for topic in (topic for topic in self._inboxes if topic not in value):
             self._inboxes[topic].clear()
         for topic, (last, step) in value.items():

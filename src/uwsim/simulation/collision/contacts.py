@@ -13,7 +13,7 @@ from functools import partial
 from typing import Literal
 
 from ...base.geometry import Array, Pose
-from ...base.record import Lazy, Record
+from ...base.record import LazyPart, Record
 from ...errors import UwsimError
 from ...model.scene_model import SceneModel
 from ...physics.collision.kinematic_contacts import KinematicContacts
@@ -26,7 +26,7 @@ from ..bodies import touchable, untouchable
 class ContactsState(Record):
     """What is known of contacts besides the engine's."""
 
-    overlaps: Lazy[KinematicContacts]
+    overlaps: LazyPart[KinematicContacts]
     """The overlaps of kinematic bodies, from the first request on."""
     step: int = 0
     """The present step."""
@@ -43,7 +43,7 @@ class Contacts:
     def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._model, self._engine = model, engine
         self._found: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
-        self._overlaps = Lazy(self._lay)
+        self._overlaps = LazyPart(self._lay)
         self.state = ContactsState(self._overlaps)
         """What is known besides the engine's."""
 
@@ -80,8 +80,8 @@ class Contacts:
         contacts = self._engine.contacts.of(kind, index)
         if contacts is None:
             if self._overlaps.part is None:
-                self._overlaps.made().record(self.state.step)
-            contacts = self._overlaps.made().contacts(kind, index)
+                self._overlaps.get_or_make().record(self.state.step)
+            contacts = self._overlaps.get_or_make().contacts(kind, index)
         if contacts is None:
             what = "none of its links has a <collision> or a <visual>"
             raise untouchable(name, what if kind == "vehicle" else "its mesh is empty")

@@ -13,7 +13,7 @@ import warnings
 from ... import messages
 from ...base.external_values import EXPECTED_POSE, read_pose
 from ...base.geometry import Pose, quaternion_from_rotation
-from ...base.numerics.linear import turned
+from ...base.numerics.linear import rotate
 from ...bus import Bus
 from ...messages import Marker, SpawnMarker, Twist, Vector3
 from ...messages.build import header
@@ -99,7 +99,7 @@ class Entities:
             world.vehicles.find(name).index
         ):
             twist = self._simulation.velocity(name)
-            linear, angular = turned(pose.rotation, twist[:3]), turned(pose.rotation, twist[3:])
+            linear, angular = rotate(pose.rotation, twist[:3]), rotate(pose.rotation, twist[3:])
             state.twist = Twist(linear=Vector3(*linear), angular=Vector3(*angular))
         return GetEntityStateResponse(state=state)
 

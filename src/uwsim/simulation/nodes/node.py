@@ -10,11 +10,11 @@ from typing import NoReturn, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
-from ...base.interrupts import is_of_user
-from ...base.message_fields import copied
-from ...base.raised import what_was_raised
-from ...base.read_parameters import ReadParameters
-from ...base.record import Live, Record, of_another_scene
+from ...base.interrupts import is_user_interrupt
+from ...base.message_fields import copy_message
+from ...base.raised import describe_exception
+from ...base.read_parameters import TrackedParameters
+from ...base.record import ExternalValue, Record, wrong_scene_error
 from ...base.terminal import warn
 from ...bus import Algorithm, Bus
 from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed, UwsimError
@@ -36,7 +36,7 @@ def latency_of(parameters: Mapping[str, float | str]) -> float:
 
 def what_broke(error: BaseException, algorithm: type) -> str:
     """Describe what a third-party program raised, or why it was stopped."""
-    return str(error) if isinstance(error, Stopped) else what_was_raised(error, algorithm)
+    return str(error) if isinstance(error, Stopped) else describe_exception(error, algorithm)
 
 
 @runtime_checkable
@@ -50,7 +50,7 @@ class SavesItself(Protocol):
         """Go back, or on, to a state that `save` has returned."""
 
 
-class AlgorithmState(Live):
+class AlgorithmState(ExternalValue):
     """The state of an attached algorithm.
 
     Args:
@@ -79,7 +79,7 @@ class AlgorithmState(Live):
     def set(self, value: object) -> None:
         """Hand it to the ``restore`` of the algorithm."""
         if not isinstance(value, bytes) or not isinstance(self._algorithm, SavesItself):
-            raise of_another_scene()
+            raise wrong_scene_error()
         self._algorithm.restore(value)
 
 
@@ -155,7 +155,7 @@ class InProcessNode:
         self.state = NodeState(name, random)
         """What changes of it."""
         own = {key: value for key, value in parameters.items() if key != "latency_s"}
-        self._parameters = ReadParameters(own)
+        self._parameters = TrackedParameters(own)
         self._timers: list[_Timer] = []
         self._delay_steps = round(latency_of(parameters) / timestep)
         self._close: list[Callable[[], None]] = []
@@ -179,7 +179,7 @@ class InProcessNode:
         return self._bus.step * self._timestep
 
     @property
-    def parameters(self) -> ReadParameters:
+    def parameters(self) -> TrackedParameters:
         """The parameters that the user set; the algorithm has its own defaults."""
         return self._parameters
 
@@ -232,7 +232,7 @@ class InProcessNode:
                 self._undelivered.add(message, step=self._bus.step, delay_steps=self._delay_steps)
             except NotAllowed as refused:
                 self._break_rule(str(refused))
-            give(copied(message))
+            give(copy_message(message))
 
         return publish
 
@@ -309,7 +309,7 @@ class InProcessNode:
 
     def _broken_by(self, error: BaseException) -> None:
         """Keep what a third-party program raised; called in its except clause."""
-        if is_of_user(error) or isinstance(error, ClientLost):
+        if is_user_interrupt(error) or isinstance(error, ClientLost):
             raise error
         self.state.error = what_broke(error, self._algorithm)
         if isinstance(error, Stopped):

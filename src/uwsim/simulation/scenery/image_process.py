@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...base.record import assign_fields, copied_fields
+from ...base.record import assign_fields, copy_fields
 from ...messages import image
 from ...model.scene_model import SceneModel
 from ...topics.virtual_camera_to_ros_image import ImagePublisher
@@ -129,7 +129,7 @@ class ImageProcess:
 
     def _seen(self) -> bytes:
         """What of the state is seen, as bytes."""
-        return pack(copied_fields(self._simulation.state, SEEN))
+        return pack(copy_fields(self._simulation.state, SEEN))
 
     def _take(self, publisher: ImagePublisher, time: float) -> bool:
         """Have an image drawn; False: it has to be drawn here."""

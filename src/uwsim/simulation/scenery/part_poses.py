@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
-from ...base.numerics.linear import matrices, product
+from ...base.numerics.linear import multiply_matrices, product
 from ...model.parts import Part
 from ...physics.poses import Poses
 
@@ -76,4 +76,4 @@ def _place(
     for n in range(len(bodies)):
         if bodies[n] >= 0:
             frame[:3, :3], frame[:3, 3] = axes[bodies[n]], origins[bodies[n]]
-            world_from_mesh[n] = matrices(frame, frame_from_mesh[n])
+            world_from_mesh[n] = multiply_matrices(frame, frame_from_mesh[n])

@@ -264,7 +264,7 @@ class Scenery:
             )
         drawn = self._draw(
             world_from_camera,
-            intrinsics.resized(intrinsics.width * samples, intrinsics.height * samples),
+            intrinsics.with_size(intrinsics.width * samples, intrinsics.height * samples),
             water,
             light=light,
             targets=frozenset({"colour"}),

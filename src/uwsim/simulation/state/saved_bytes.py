@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ...base.record import Drawn, Live, changing_fields, fields_of
+from ...base.record import ExternalValue, GeneratorState, changing_fields, fields_of
 from ...errors import UwsimError
 from ...version import __version__
 
@@ -90,7 +90,7 @@ class _Flat(dict[type, Callable[[Any], Any]]):
     """
 
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
-        if issubclass(kind, Live):
+        if issubclass(kind, ExternalValue):
             self[kind] = lambda part: _flat(part.value())
         elif _is_allowed(kind) and "__slots__" in vars(kind):
             self[kind] = _record_flattener(kind)
@@ -135,7 +135,7 @@ def _flat_array(array: Any) -> list[Any]:
 _FLAT: _Flat = _Flat(
     {
         np.ndarray: _flat_array,
-        np.random.Generator: lambda value: _flat(Drawn.by(value)),
+        np.random.Generator: lambda value: _flat(GeneratorState.by(value)),
         list: lambda value: [LIST, *[_FLAT[type(each)](each) for each in value]],
         dict: lambda value: [DICT, *value, *[_FLAT[type(each)](each) for each in value.values()]],
         deque: lambda value: [QUEUE, value.maxlen, *[_FLAT[type(each)](each) for each in value]],

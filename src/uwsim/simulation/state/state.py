@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Self
 
-from ...base.record import Live, Record, copied_record, is_same, of_another_scene
+from ...base.record import ExternalValue, Record, copy_record, is_same, wrong_scene_error
 from ...bus.bus import BusState
 from ...errors import UwsimError
 from ...model.scene_model import SceneModel
@@ -39,7 +39,7 @@ class Identity:
     """The hash of the scene, with its variations."""
 
 
-class OwnIdentity(Live):
+class OwnIdentity(ExternalValue):
     """The identity of a running simulation.
 
     Args:
@@ -62,7 +62,7 @@ class OwnIdentity(Live):
         """Raise UwsimError where a state is of another simulation."""
         own = self.value()
         if not isinstance(value, Identity):
-            raise of_another_scene()
+            raise wrong_scene_error()
         for name in ("seed", "timestep", "compatibility"):
             mine, theirs = getattr(own, name), getattr(value, name)
             if mine != theirs:
@@ -71,7 +71,7 @@ class OwnIdentity(Live):
                     f"The saved simulation has {name} {theirs}{unit}; this one has {mine}{unit}."
                 )
         if own.scene != value.scene:
-            raise of_another_scene()
+            raise wrong_scene_error()
 
 
 @dataclass(slots=True, eq=False)
@@ -128,7 +128,7 @@ class State(Record):
 
     def copy(self) -> Self:
         """Return a state of values alone, which the simulation does not change."""
-        return copied_record(self)
+        return copy_record(self)
 
     def to_bytes(self) -> bytes:
         """Return it as bytes, for the same version of uwsim.

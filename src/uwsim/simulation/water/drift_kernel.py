@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Pose, write_quaternion
 from ...base.numerics.calls import FUNCTION, address_of, call, function_address
-from ...base.numerics.memory import carray, floats, pointer
+from ...base.numerics.memory import carray, pointer, view_doubles
 from ...currents.flow_function import QUERY, FlowFunction, query_of
 from ...physics.hydrodynamics.water_function import DriftFunction
 from ...physics.step_kernel import rotation_of
@@ -52,8 +52,11 @@ def drift(parameters: int, values: int, time: float) -> None:
     """Move vehicles by a step; see `DriftFunction`."""
     drifting = carray(pointer(parameters), (1,), DRIFT)[0]
     query = carray(pointer(drifting.query), (1,), QUERY)[0]
-    poses = floats(values, 7 * query.n).reshape((query.n, 7))
-    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    poses = view_doubles(values, 7 * query.n).reshape((query.n, 7))
+    points, velocities = (
+        view_doubles(query.points, 3 * query.n),
+        view_doubles(query.velocity, 3 * query.n),
+    )
     for i in range(query.n):
         x, y, z = poses[i, 0], poses[i, 1], poses[i, 2]
         for k in range(3):

@@ -6,7 +6,7 @@ import numpy as np
 
 from ...base.geometry import Pose
 from ...base.numerics.calls import FUNCTION, CompiledFunction, address_of, call, function_address
-from ...base.numerics.memory import carray, floats, pointer
+from ...base.numerics.memory import carray, pointer, view_doubles
 from ...currents.flow_function import QUERY, FlowFunction, query_of
 from .water_kernel import turn_into
 
@@ -49,11 +49,14 @@ def write_velocities(parameters: int, values: int, time: float) -> None:
     """Write velocities behind the points, see `uwsim.world.mounts.read_water`."""
     water = carray(pointer(parameters), (1,), POINTS)[0]
     query = carray(pointer(water.query), (1,), QUERY)[0]
-    found = floats(values, 6 * query.n).reshape((2, query.n, 3))
+    found = view_doubles(values, 6 * query.n).reshape((2, query.n, 3))
     found[1] = 0.0
     if water.flow.function == 0:
         return
-    points, velocities = floats(query.points, 3 * query.n), floats(query.velocity, 3 * query.n)
+    points, velocities = (
+        view_doubles(query.points, 3 * query.n),
+        view_doubles(query.velocity, 3 * query.n),
+    )
     for i in range(query.n):
         for k in range(3):
             turn = water.rotation[k]

@@ -19,7 +19,7 @@ import numpy.typing as npt
 from ...base.geometry import Array, Pose
 from ...base.numerics.calls import FUNCTION, address_of, call, function_address
 from ...base.numerics.jit import njit
-from ...base.numerics.memory import carray, floats, pointer
+from ...base.numerics.memory import carray, pointer, view_doubles
 from ...currents.flow_function import QUERY, FlowFunction, query_of
 from ...physics.hydrodynamics.water_function import (
     ACCELERATION,
@@ -114,7 +114,10 @@ def write_next_rows(parameters: int, values: int, time: float) -> None:
     if table.n_left == 0:
         return
     size = WATER_ROW - VELOCITY
-    ready, rows = floats(table.rows, size * table.n), floats(values, WATER_ROW * table.n)
+    ready, rows = (
+        view_doubles(table.rows, size * table.n),
+        view_doubles(values, WATER_ROW * table.n),
+    )
     for i in range(table.n):
         for k in range(size):
             rows[WATER_ROW * i + VELOCITY + k] = ready[size * i + k]
@@ -126,14 +129,14 @@ def write_water(parameters: int, values: int, time: float) -> None:
     """Write how the water moves; see `WaterFunction`."""
     water = carray(pointer(parameters), (1,), WATER)[0]
     query = carray(pointer(water.at_bodies), (1,), QUERY)[0]
-    rows = floats(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
+    rows = view_doubles(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
     if water.is_uniform == 0:
-        localize(water, rows, floats(query.points, 3 * water.n))
+        localize(water, rows, view_doubles(query.points, 3 * water.n))
     call(water.flow.function, water.flow.parameters, water.at_bodies, time)
-    velocities = floats(query.velocity, 3 * water.n)
-    accelerations = floats(query.acceleration, 3 * water.n)
+    velocities = view_doubles(query.velocity, 3 * water.n)
+    accelerations = view_doubles(query.acceleration, 3 * water.n)
     if water.is_uniform == 0:
-        shear(water, rows, floats(query.points, 3 * water.n), velocities, accelerations, time)
+        shear(water, rows, view_doubles(query.points, 3 * water.n), velocities, accelerations, time)
     for i in range(water.n):
         turn_into(water.rotation, velocities[3 * i : 3 * i + 3], rows[i, VELOCITY:ACCELERATION])
         turn_into(water.rotation, accelerations[3 * i : 3 * i + 3], rows[i, ACCELERATION:ROTATION])
@@ -155,7 +158,7 @@ def shear(
 ) -> None:
     """Add to the accelerations in L what comes of shear, and write the rotations into the rows."""
     query = carray(pointer(water.around_them), (1,), QUERY)[0]
-    around = floats(query.points, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
+    around = view_doubles(query.points, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
     for i in range(water.n):
         for j in range(3):
             for side in range(2):
@@ -164,7 +167,7 @@ def shear(
                 around[i, j, side, j] += NEARBY if side == 0 else -NEARBY
     query.acceleration = 0
     call(water.flow.function, water.flow.parameters, water.around_them, time)
-    found = floats(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
+    found = view_doubles(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
     gradient, rotation = np.empty((3, 3)), np.empty(3)  # rows of the gradient are components
     for i in range(water.n):
         for k in range(3):

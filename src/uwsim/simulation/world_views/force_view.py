@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.geometry import Array, Pose
-from ...base.numerics.linear import turned
+from ...base.numerics.linear import rotate
 from ...errors import UnknownName
 from ...scene.attachable import attachable_bodies
 from ...world import BodyMotion
@@ -104,7 +104,7 @@ class ForceView:
         engine, thing = self._scene.engine, self._scene.model.scene.objects[index]
         body, mesh = engine.poses.loose_body(index), thing.object_from_mesh
         origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
-        object_from_frame = Pose(origin + turned(mesh.rotation, position), mesh.rotation)
+        object_from_frame = Pose(origin + rotate(mesh.rotation, position), mesh.rotation)
 
         def pose() -> Pose:
             return engine.poses.object(index) @ object_from_frame

@@ -17,7 +17,7 @@ from typing import IO, Protocol
 import cv2
 from PIL import Image
 
-from ...errors import BadSetting, MissingExtra, RunFailed, did_you_mean, names_file
+from ...errors import BadSetting, MissingExtra, RunFailed, did_you_mean, name_file_in_errors
 from ...results.atomic_file import atomic_write
 from .overlay import Pixels
 
@@ -134,7 +134,7 @@ class FfmpegEncoder:
         folder = Path(self._folder.name)
         self._draft = folder / f"film{path.suffix.lower()}"
         self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - the film's disk may be full
-        with names_file(path):
+        with name_file_in_errors(path):
             (folder / "chapters").write_text(_metadata(chapters), encoding="utf-8")
         command = [
             *(self._ffmpeg, "-y", "-nostdin", "-loglevel", "error"),

@@ -410,7 +410,7 @@ def record(film: Recordable, path: Path, on_frame: Callable[[], object] = lambda
 def fitted(lens: Intrinsics, size: tuple[int, int]) -> Intrinsics:
     """Return a camera's pinhole with as many pixels as there is room for, in its own shape."""
     scale = min(size[0] / lens.width, size[1] / lens.height)
-    return lens.resized(max(1, round(scale * lens.width)), max(1, round(scale * lens.height)))
+    return lens.with_size(max(1, round(scale * lens.width)), max(1, round(scale * lens.height)))
 
 
 def centred(image: Pixels, size: tuple[int, int]) -> Pixels:

@@ -12,7 +12,7 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from multiprocessing.context import SpawnProcess
 
-from ...base.environment import environment
+from ...base.environment import set_environment
 from ...errors import RunFailed
 from ...runs.executors.executor import ENVIRONMENT
 from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_interrupts
@@ -63,7 +63,7 @@ class DrawingProcesses:
 
     def _start(self, pack: Packing) -> None:
         context = multiprocessing.get_context("spawn")
-        with environment(ENVIRONMENT):
+        with set_environment(ENVIRONMENT):
             for k in range(self._n):
                 pipe, theirs = context.Pipe(duplex=False)
                 watched, parent = context.Pipe(duplex=False)

@@ -18,7 +18,7 @@ import numpy.typing as npt
 
 from ...base.external_values import MAX_COORDINATE, read_number
 from ...base.geometry import Pose, rotation_from_quaternion
-from ...base.record import assign_fields, copied_fields
+from ...base.record import assign_fields, copy_fields
 from ...benchmark.updaters import Level
 from ...errors import BadSetting
 from ...messages import Marker
@@ -91,7 +91,7 @@ class LiveView:
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
         self._prompt = math.inf  # when a row that follows an input is due
-        self._first = copied_fields(simulation.state, MOVED if resets else ())
+        self._first = copy_fields(simulation.state, MOVED if resets else ())
         self._readings = Readings(simulation, vehicle)
         self._topics = HeardTopics(simulation.bus, lambda: simulation.time, wall)
         head = head_of(simulation, title, self._state)
@@ -234,7 +234,7 @@ class LiveView:
                     seen = cv2.resize(seen, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
                 return seen
         if is_smaller:  # what nobody will see is not drawn
-            lens = lens.resized(*size)
+            lens = lens.with_size(*size)
         colour = world.scenery.render_clean(
             view.world_from_camera, lens, targets={"colour"}, is_polished=view.is_polished
         ).colour

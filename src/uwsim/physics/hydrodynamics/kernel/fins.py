@@ -25,7 +25,14 @@ from __future__ import annotations
 import math
 
 from ....base.numerics.jit import njit
-from ....base.numerics.memory import Floats, Ints64, floats, real, small, word
+from ....base.numerics.memory import (
+    Floats,
+    Ints64,
+    read_double,
+    read_int32,
+    read_int64,
+    view_doubles,
+)
 from ..columns import (
     AREA,
     COEFFICIENTS,
@@ -65,13 +72,15 @@ def add_fin(m: int, d: int, at: Ints64, i: int, table: Floats, ahead: float, wor
         ahead: the time [s].
         work: the rows of the bodies.
     """
-    nbody, step = word(m + at[f.NBODY]), real(m + at[f.TIMESTEP])
-    wanted = real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * nbody + i))
-    angle = real(word(d + at[f.ACT]) + 8 * small(word(m + at[f.ACTUATOR_ACT]) + 4 * i))
-    is_rate = small(m + at[f.INTEGRATOR]) == _RK4  # its stages integrate the rate of a time
+    nbody, step = read_int64(m + at[f.NBODY]), read_double(m + at[f.TIMESTEP])
+    wanted = read_double(read_int64(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * nbody + i))
+    angle = read_double(
+        read_int64(d + at[f.ACT]) + 8 * read_int32(read_int64(m + at[f.ACTUATOR_ACT]) + 4 * i)
+    )
+    is_rate = read_int32(m + at[f.INTEGRATOR]) == _RK4  # its stages integrate the rate of a time
     speed = servo_speed(table, angle, wanted, step, is_rate)
-    control = small(word(m + at[f.ACTUATOR_CTRL]) + 4 * i)
-    floats(word(d + at[f.CTRL]) + 8 * control, 1)[0] = speed
+    control = read_int32(read_int64(m + at[f.ACTUATOR_CTRL]) + 4 * i)
+    view_doubles(read_int64(d + at[f.CTRL]) + 8 * control, 1)[0] = speed
     site, body = site_of(m, at, i)
     wet = wet_share(m, d, at, site, body, 0.5 * math.sqrt(table[AREA]))
     if wet <= 0.0:

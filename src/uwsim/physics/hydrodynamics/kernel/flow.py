@@ -3,7 +3,14 @@
 from __future__ import annotations
 
 from ....base.numerics.jit import njit
-from ....base.numerics.memory import Floats, Ints64, floats, real, small, word
+from ....base.numerics.memory import (
+    Floats,
+    Ints64,
+    read_double,
+    read_int32,
+    read_int64,
+    view_doubles,
+)
 from ..columns import (
     BODY_COLUMNS,
     CENTRE,
@@ -21,19 +28,19 @@ from .equations import Three, relative_twist
 @njit
 def site_of(m: int, at: Ints64, actuator: int) -> tuple[int, int]:
     """The site that an actuator acts at, and its body."""
-    site = small(word(m + at[f.ACTUATOR_TARGET]) + 8 * actuator)
-    return site, small(word(m + at[f.SITE_BODY]) + 4 * site)
+    site = read_int32(read_int64(m + at[f.ACTUATOR_TARGET]) + 8 * actuator)
+    return site, read_int32(read_int64(m + at[f.SITE_BODY]) + 4 * site)
 
 
 @njit
 def velocity_at(m: int, d: int, at: Ints64, site: int, body: int) -> Three:
     """Velocity of a site through the water that turns round its body, axes of the site [m/s]."""
-    place = floats(word(d + at[f.SITE_XPOS]) + 24 * site, 3)
-    axes = floats(word(d + at[f.SITE_XMAT]) + 72 * site, 9)
-    root = small(word(m + at[f.BODY_ROOT]) + 4 * body)
-    com = floats(word(d + at[f.COM]) + 24 * root, 3)
-    twist = floats(word(d + at[f.CVEL]) + 48 * body, 6)
-    water = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, WATER_COLUMNS)
+    place = view_doubles(read_int64(d + at[f.SITE_XPOS]) + 24 * site, 3)
+    axes = view_doubles(read_int64(d + at[f.SITE_XMAT]) + 72 * site, 9)
+    root = read_int32(read_int64(m + at[f.BODY_ROOT]) + 4 * body)
+    com = view_doubles(read_int64(d + at[f.COM]) + 24 * root, 3)
+    twist = view_doubles(read_int64(d + at[f.CVEL]) + 48 * body, 6)
+    water = view_doubles(read_int64(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, WATER_COLUMNS)
     lever = (place[0] - com[0], place[1] - com[1], place[2] - com[2])
     u, v, w, _, _, _ = relative_twist(axes, lever, twist, water)
     tx, ty, tz = water[TURN], water[TURN + 1], water[TURN + 2]
@@ -51,13 +58,13 @@ def velocity_at(m: int, d: int, at: Ints64, site: int, body: int) -> Three:
 @njit
 def _from_felt(m: int, d: int, at: Ints64, place: Floats, body: int) -> Three:
     """To a place from where the motion of the water at a body is given, world axes [m]."""
-    table = floats(word(m + at[f.BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
+    table = view_doubles(read_int64(m + at[f.BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
     share = 1.0 if table[DISPLACED] > 0.0 else 0.0
     x = table[REFERENCE] + share * table[CENTRE]
     y = table[REFERENCE + 1] + share * table[CENTRE + 1]
     z = table[REFERENCE + 2] + share * table[CENTRE + 2]
-    origin = floats(word(d + at[f.XPOS]) + 24 * body, 3)
-    axes = floats(word(d + at[f.XMAT]) + 72 * body, 9)
+    origin = view_doubles(read_int64(d + at[f.XPOS]) + 24 * body, 3)
+    axes = view_doubles(read_int64(d + at[f.XMAT]) + 72 * body, 9)
     return (
         place[0] - origin[0] - (axes[0] * x + axes[1] * y + axes[2] * z),
         place[1] - origin[1] - (axes[3] * x + axes[4] * y + axes[5] * z),
@@ -68,22 +75,22 @@ def _from_felt(m: int, d: int, at: Ints64, place: Floats, body: int) -> Three:
 @njit
 def height_of(d: int, at: Ints64, site: int) -> float:
     """Height of a site in W [m]."""
-    return real(word(d + at[f.SITE_XPOS]) + 8 * (3 * site + 2))
+    return read_double(read_int64(d + at[f.SITE_XPOS]) + 8 * (3 * site + 2))
 
 
 @njit
 def wet_share(m: int, d: int, at: Ints64, site: int, body: int, reach: float) -> float:
     """How much of a thing that reaches so far [m] about a site is under water, 0..1."""
     height = height_of(d, at, site)
-    surface = real(word(m + at[f.BODY_USER]) + 8 * SURFACE)
-    surface += real(word(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * body + 6))
+    surface = read_double(read_int64(m + at[f.BODY_USER]) + 8 * SURFACE)
+    surface += read_double(read_int64(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * body + 6))
     return min(max(0.5 + 0.5 * (surface - height) / reach, 0.0), 1.0)
 
 
 @njit
 def water_density(m: int, at: Ints64) -> float:
     """Of the water [kg/m3]."""
-    density: float = real(word(m + at[f.BODY_USER]) + 8 * DENSITY)
+    density: float = read_double(read_int64(m + at[f.BODY_USER]) + 8 * DENSITY)
     return density
 
 
@@ -104,10 +111,10 @@ def push_at(
         torque: about the force per force [m].
         work: the rows of the bodies.
     """
-    place = floats(word(d + at[f.SITE_XPOS]) + 24 * site, 3)
-    axes = floats(word(d + at[f.SITE_XMAT]) + 72 * site, 9)
-    root = small(word(m + at[f.BODY_ROOT]) + 4 * body)
-    com = floats(word(d + at[f.COM]) + 24 * root, 3)
+    place = view_doubles(read_int64(d + at[f.SITE_XPOS]) + 24 * site, 3)
+    axes = view_doubles(read_int64(d + at[f.SITE_XMAT]) + 72 * site, 9)
+    root = read_int32(read_int64(m + at[f.BODY_ROOT]) + 4 * body)
+    com = view_doubles(read_int64(d + at[f.COM]) + 24 * root, 3)
     x, y, z = force
     fx = axes[0] * x + axes[1] * y + axes[2] * z
     fy = axes[3] * x + axes[4] * y + axes[5] * z

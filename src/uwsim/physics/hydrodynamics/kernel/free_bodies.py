@@ -12,7 +12,15 @@ import math
 import numpy as np
 
 from ....base.numerics.jit import njit
-from ....base.numerics.memory import Floats, Ints64, floats, ints, real, small, word
+from ....base.numerics.memory import (
+    Floats,
+    Ints64,
+    read_double,
+    read_int32,
+    read_int64,
+    view_doubles,
+    view_int32s,
+)
 from ..columns import BODY_COLUMNS, DRY, KIND, WATER_COLUMNS
 from . import fields as f
 from .equations import Six, Three, to_body
@@ -46,17 +54,21 @@ def keep_energy(m: int, d: int, at: Ints64, work: Floats) -> None:
         at: offsets of the fields.
         work: the rows of the bodies, summed up the trees.
     """
-    n, nbody, nv = word(m + at[f.NTREE]), word(m + at[f.NBODY]), word(m + at[f.NV])
-    h = real(m + at[f.TIMESTEP])
-    first = ints(word(m + at[f.TREE_BODY]), n)
-    n_bodies = ints(word(m + at[f.TREE_BODYNUM]), n)
-    awake = ints(word(d + at[f.AWAKE]), n)
-    n_joints = ints(word(m + at[f.BODY_JNTNUM]), nbody)
-    n_dofs = ints(word(m + at[f.BODY_DOFNUM]), nbody)
-    start = ints(word(m + at[f.TREE_DOFADR]), n)
-    length = ints(word(m + at[f.TREE_DOFNUM]), n)
-    passive = floats(word(d + at[f.PASSIVE]), nv)
-    is_gyroscopic = small(m + at[f.INTEGRATOR]) == _IMPLICITFAST
+    n, nbody, nv = (
+        read_int64(m + at[f.NTREE]),
+        read_int64(m + at[f.NBODY]),
+        read_int64(m + at[f.NV]),
+    )
+    h = read_double(m + at[f.TIMESTEP])
+    first = view_int32s(read_int64(m + at[f.TREE_BODY]), n)
+    n_bodies = view_int32s(read_int64(m + at[f.TREE_BODYNUM]), n)
+    awake = view_int32s(read_int64(d + at[f.AWAKE]), n)
+    n_joints = view_int32s(read_int64(m + at[f.BODY_JNTNUM]), nbody)
+    n_dofs = view_int32s(read_int64(m + at[f.BODY_DOFNUM]), nbody)
+    start = view_int32s(read_int64(m + at[f.TREE_DOFADR]), n)
+    length = view_int32s(read_int64(m + at[f.TREE_DOFNUM]), n)
+    passive = view_doubles(read_int64(d + at[f.PASSIVE]), nv)
+    is_gyroscopic = read_int32(m + at[f.INTEGRATOR]) == _IMPLICITFAST
     b = np.empty(NUMBERS)
     for tree in range(n):
         body = first[tree]
@@ -70,8 +82,8 @@ def keep_energy(m: int, d: int, at: Ints64, work: Floats) -> None:
         solve_rate(b, h)
         _bring_to_force(lever, h, b)
         if is_gyroscopic and length[tree] == 6:
-            _undo_gyroscopic(floats(word(d + at[f.CRB]) + 80 * body, 10), lever, h, b)
-        cdof = floats(word(d + at[f.CDOF]) + 48 * start[tree], 36)
+            _undo_gyroscopic(view_doubles(read_int64(d + at[f.CRB]) + 80 * body, 10), lever, h, b)
+        cdof = view_doubles(read_int64(d + at[f.CDOF]) + 48 * start[tree], 36)
         for k in range(6):
             for i in range(6):
                 passive[start[tree] + k] += cdof[6 * k + i] * b[SIDE + i]
@@ -101,33 +113,33 @@ def to_the_end(m: int, d: int, at: Ints64) -> None:
 @njit
 def _half_a_step(m: int, d: int, at: Ints64, sign: float) -> None:
     """Half a step at a free body's own twist, whose linear part turns with the body."""
-    if small(m + at[f.INTEGRATOR]) == _RK4:
+    if read_int32(m + at[f.INTEGRATOR]) == _RK4:
         return
-    n, nbody = word(m + at[f.NTREE]), word(m + at[f.NBODY])
-    h = real(m + at[f.TIMESTEP])
-    first = ints(word(m + at[f.TREE_BODY]), n)
-    n_joints = ints(word(m + at[f.BODY_JNTNUM]), nbody)
-    n_dofs = ints(word(m + at[f.BODY_DOFNUM]), nbody)
-    start = ints(word(m + at[f.TREE_DOFADR]), n)
-    awake = ints(word(d + at[f.AWAKE]), n)
+    n, nbody = read_int64(m + at[f.NTREE]), read_int64(m + at[f.NBODY])
+    h = read_double(m + at[f.TIMESTEP])
+    first = view_int32s(read_int64(m + at[f.TREE_BODY]), n)
+    n_joints = view_int32s(read_int64(m + at[f.BODY_JNTNUM]), nbody)
+    n_dofs = view_int32s(read_int64(m + at[f.BODY_DOFNUM]), nbody)
+    start = view_int32s(read_int64(m + at[f.TREE_DOFADR]), n)
+    awake = view_int32s(read_int64(d + at[f.AWAKE]), n)
     for tree in range(n):
         body = first[tree]
         if n_joints[body] != 1 or n_dofs[body] != 6 or awake[tree] == 0:
             continue
-        if real(word(m + at[f.BODY_USER]) + 8 * (BODY_COLUMNS * body + KIND)) == DRY:
+        if read_double(read_int64(m + at[f.BODY_USER]) + 8 * (BODY_COLUMNS * body + KIND)) == DRY:
             continue
-        v = floats(word(d + at[f.QVEL]) + 8 * start[tree], 6)
-        joint = small(word(m + at[f.BODY_JNTADR]) + 4 * body)
-        address = small(word(m + at[f.JNT_QPOSADR]) + 4 * joint)
-        q = floats(word(d + at[f.QPOS]) + 8 * address, 7)
-        water = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, 6)
+        v = view_doubles(read_int64(d + at[f.QVEL]) + 8 * start[tree], 6)
+        joint = read_int32(read_int64(m + at[f.BODY_JNTADR]) + 4 * body)
+        address = read_int32(read_int64(m + at[f.JNT_QPOSADR]) + 4 * joint)
+        q = view_doubles(read_int64(d + at[f.QPOS]) + 8 * address, 7)
+        water = view_doubles(read_int64(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, 6)
         before = 0.5 * h if sign > 0.0 else -h  # when the water is what the velocity is turned in
         dof = 8 * start[tree]
         all_in, without = (
-            floats(word(d + at[f.ACCELERATION]) + dof, 3),
-            floats(word(d + at[f.UNCONSTRAINED]) + dof, 3),
+            view_doubles(read_int64(d + at[f.ACCELERATION]) + dof, 3),
+            view_doubles(read_int64(d + at[f.UNCONSTRAINED]) + dof, 3),
         )
-        pushed = h if sign < 0.0 and small(d + at[f.N_ROWS]) > 0 else 0.0
+        pushed = h if sign < 0.0 and read_int32(d + at[f.N_ROWS]) > 0 else 0.0
         jx = pushed * (all_in[0] - without[0])
         jy = pushed * (all_in[1] - without[1])
         jz = pushed * (all_in[2] - without[2])
@@ -209,10 +221,10 @@ def _gather(
     water at its base, which counts as one all round. The lever leads to the body's origin [m].
     """
     base = f.ROW * body
-    twist = floats(word(d + at[f.CVEL]) + 48 * body, 6)
-    water = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, 6)
-    place = floats(word(d + at[f.XPOS]) + 24 * body, 3)
-    com = floats(word(d + at[f.COM]) + 24 * body, 3)
+    twist = view_doubles(read_int64(d + at[f.CVEL]) + 48 * body, 6)
+    water = view_doubles(read_int64(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, 6)
+    place = view_doubles(read_int64(d + at[f.XPOS]) + 24 * body, 3)
+    com = view_doubles(read_int64(d + at[f.COM]) + 24 * body, 3)
     rx, ry, rz = place[0] - com[0], place[1] - com[1], place[2] - com[2]
     for i in range(3):
         b[TWIST + i] = twist[i]
@@ -238,10 +250,10 @@ def _gather(
 @njit
 def _rigid(m: int, d: int, at: Ints64, work: Floats, first: int, n: int, b: Floats) -> None:
     """Add the momentum of the rigid bodies of a tree, their weight, and what turns them."""
-    inertias = floats(word(d + at[f.CINERT]) + 80 * first, 10 * n)
-    twists = floats(word(d + at[f.CVEL]) + 48 * first, 6 * n)
-    gravity = floats(m + at[f.GRAVITY], 3)
-    weight = 0.0 if (small(m + at[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
+    inertias = view_doubles(read_int64(d + at[f.CINERT]) + 80 * first, 10 * n)
+    twists = view_doubles(read_int64(d + at[f.CVEL]) + 48 * first, 6 * n)
+    gravity = view_doubles(m + at[f.GRAVITY], 3)
+    weight = 0.0 if (read_int32(m + at[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
     # what the water at the base moves with
     sx, sy, sz = twists[3] - b[TWIST + 3], twists[4] - b[TWIST + 4], twists[5] - b[TWIST + 5]
     for i in range(n):
@@ -289,8 +301,8 @@ def _momentum(own: Floats, wx: float, wy: float, wz: float, vx: float, vy: float
 @njit
 def _applied(m: int, d: int, at: Ints64, body: int, dof: int, lever: Three, b: Floats) -> None:
     """Add ``qfrc_applied`` of the six degrees of freedom."""
-    force = floats(word(d + at[f.APPLIED]) + 8 * dof, 6)
-    axes = floats(word(d + at[f.XMAT]) + 72 * body, 9)
+    force = view_doubles(read_int64(d + at[f.APPLIED]) + 8 * dof, 6)
+    axes = view_doubles(read_int64(d + at[f.XMAT]) + 72 * body, 9)
     rx, ry, rz = lever
     for i in range(3):
         b[SIDE + i] += (
@@ -305,8 +317,8 @@ def _applied(m: int, d: int, at: Ints64, body: int, dof: int, lever: Three, b: F
 @njit
 def _inertia(m: int, d: int, at: Ints64, work: Floats, tree: int, b: Floats) -> None:
     """The inertia of water and rigid bodies of a tree, with and without implicit drag."""
-    body = ints(word(m + at[f.TREE_BODY]), tree + 1)[tree]
-    rigid = floats(word(d + at[f.CRB]) + 80 * body, 10)
+    body = view_int32s(read_int64(m + at[f.TREE_BODY]), tree + 1)[tree]
+    rigid = view_doubles(read_int64(d + at[f.CRB]) + 80 * body, 10)
     _unpack(work, f.ROW * body + f.FF, b, SUM)
     b[SUM] += rigid[0]
     b[SUM + 1] += rigid[3]
@@ -316,7 +328,7 @@ def _inertia(m: int, d: int, at: Ints64, work: Floats, tree: int, b: Floats) -> 
     b[SUM + 14] += rigid[2]
     for i in range(21, 36, 7):
         b[SUM + i] += rigid[9]
-    behind = f.ROW * word(m + at[f.NBODY]) + f.SCRATCH
+    behind = f.ROW * read_int64(m + at[f.NBODY]) + f.SCRATCH
     _unpack(work, behind + f.DRAG * tree, b, INERTIA)
     for i in range(6):
         for j in range(i, 6):
@@ -410,15 +422,15 @@ def _hold_joints(
 ) -> None:  # fmt: skip
     """Apply the additional acceleration to the joints, so that they do not move by it."""
     rx, ry, rz = lever
-    axes = floats(word(d + at[f.XMAT]) + 72 * body, 9)
+    axes = view_doubles(read_int64(d + at[f.XMAT]) + 72 * body, 9)
     x, y, z = b[STEP], b[STEP + 1], b[STEP + 2]
     a0 = b[STEP + 3] + y * rz - z * ry
     a1 = b[STEP + 4] + z * rx - x * rz
     a2 = b[STEP + 5] + x * ry - y * rx
     a3, a4, a5 = to_body(axes, x, y, z)
-    rows = ints(word(m + at[f.ROW_START]) + 4 * start, length)
+    rows = view_int32s(read_int64(m + at[f.ROW_START]) + 4 * start, length)
     for k in range(6, length):
-        row = floats(word(d + at[f.M]) + 8 * rows[k], 6)
+        row = view_doubles(read_int64(d + at[f.M]) + 8 * rows[k], 6)
         passive[start + k] += (
             row[0] * a0 + row[1] * a1 + row[2] * a2 + row[3] * a3 + row[4] * a4 + row[5] * a5
         )

@@ -32,7 +32,15 @@ from __future__ import annotations
 import numpy as np
 
 from ....base.numerics.jit import njit
-from ....base.numerics.memory import Floats, Ints64, floats, ints, real, small, word
+from ....base.numerics.memory import (
+    Floats,
+    Ints64,
+    read_double,
+    read_int32,
+    read_int64,
+    view_doubles,
+    view_int32s,
+)
 from ..columns import (
     ACTUATOR_COLUMNS,
     BODY_COLUMNS,
@@ -94,48 +102,48 @@ _RK4, _PGS = 1, 0
 @njit
 def has_tables(m: int, at: Ints64) -> bool:
     """Whether a model carries our tables."""
-    if word(m + at[f.NUSER_BODY]) != BODY_COLUMNS:
+    if read_int64(m + at[f.NUSER_BODY]) != BODY_COLUMNS:
         return False
-    return real(word(m + at[f.BODY_USER]) + 8 * MAGIC) == MAGIC_NUMBER
+    return read_double(read_int64(m + at[f.BODY_USER]) + 8 * MAGIC) == MAGIC_NUMBER
 
 
 @njit
 def needs_projection(m: int, at: Ints64) -> bool:
     """Whether the constraint solver keeps products with the inverse of M that are now stale."""
     return (
-        small(m + at[f.SOLVER]) == _PGS
-        or small(m + at[f.NOSLIP]) > 0
-        or (small(m + at[f.ENABLE]) & _DIAGEXACT) != 0
+        read_int32(m + at[f.SOLVER]) == _PGS
+        or read_int32(m + at[f.NOSLIP]) > 0
+        or (read_int32(m + at[f.ENABLE]) & _DIAGEXACT) != 0
     )
 
 
 @njit
 def has_water(d: int, at: Ints64) -> bool:
     """Whether ``d.M`` has had its water since MuJoCo made it; if so it must be made anew."""
-    return real(word(d + at[f.CRB])) == _WET
+    return read_double(read_int64(d + at[f.CRB])) == _WET
 
 
 @njit
 def add_water(m: int, d: int, at: Ints64) -> None:
     """Add the water to ``d.M`` and ``d.qfrc_passive``; both must be as MuJoCo made them."""
-    nv, nbody = word(m + at[f.NV]), word(m + at[f.NBODY])
-    work = np.zeros(f.ROW * nbody + f.SCRATCH + f.DRAG * word(m + at[f.NTREE]))
-    step = real(m + at[f.TIMESTEP])
-    if small(m + at[f.INTEGRATOR]) == _RK4:
+    nv, nbody = read_int64(m + at[f.NV]), read_int64(m + at[f.NBODY])
+    work = np.zeros(f.ROW * nbody + f.SCRATCH + f.DRAG * read_int64(m + at[f.NTREE]))
+    step = read_double(m + at[f.TIMESTEP])
+    if read_int32(m + at[f.INTEGRATOR]) == _RK4:
         step = 0.0
-    floats(word(d + at[f.CRB]), 1)[0] = _WET
+    view_doubles(read_int64(d + at[f.CRB]), 1)[0] = _WET
     _bias(m, d, at, work)
     _bodies(m, d, at, step, work, True)
     _actuators(m, d, at, work, 0.5 * step)
     _sum_up(m, at, work)
-    cdof = floats(word(d + at[f.CDOF]), 6 * nv)
-    dof_body = ints(word(m + at[f.DOF_BODY]), nv)
-    length = ints(word(m + at[f.ROW_LENGTH]), nv)
-    start = ints(word(m + at[f.ROW_START]), nv)
-    passive = floats(word(d + at[f.PASSIVE]), nv)
+    cdof = view_doubles(read_int64(d + at[f.CDOF]), 6 * nv)
+    dof_body = view_int32s(read_int64(m + at[f.DOF_BODY]), nv)
+    length = view_int32s(read_int64(m + at[f.ROW_LENGTH]), nv)
+    start = view_int32s(read_int64(m + at[f.ROW_START]), nv)
+    passive = view_doubles(read_int64(d + at[f.PASSIVE]), nv)
     n_entries = start[nv - 1] + length[nv - 1] if nv > 0 else 0
-    column = ints(word(m + at[f.COLUMN]), n_entries)
-    mass = floats(word(d + at[f.M]), n_entries)
+    column = view_int32s(read_int64(m + at[f.COLUMN]), n_entries)
+    mass = view_doubles(read_int64(d + at[f.M]), n_entries)
     for k in range(nv):
         base = f.ROW * dof_body[k]
         if work[base + f.TOUCHED] == 0.0:
@@ -166,7 +174,7 @@ def add_water(m: int, d: int, at: Ints64) -> None:
                 cdof[j] * tx + cdof[j + 1] * ty + cdof[j + 2] * tz
                 + cdof[j + 3] * fx + cdof[j + 4] * fy + cdof[j + 5] * fz
             )  # fmt: skip
-    if small(m + at[f.INTEGRATOR]) != _RK4:
+    if read_int32(m + at[f.INTEGRATOR]) != _RK4:
         keep_energy(m, d, at, work)
 
 
@@ -183,18 +191,18 @@ def water_wrenches(m: int, d: int, at: Ints64, wrenches: Floats) -> None:
         wrenches: (nbody, 6), receives torque [N m] and force [N] of each subtree in world axes,
             about the centre of mass of its tree.
     """
-    nbody = word(m + at[f.NBODY])
-    work = np.zeros(f.ROW * nbody + f.SCRATCH + f.DRAG * word(m + at[f.NTREE]))
-    cacc = floats(word(d + at[f.CACC]), 6 * nbody)
-    gravity = floats(m + at[f.GRAVITY], 3)
+    nbody = read_int64(m + at[f.NBODY])
+    work = np.zeros(f.ROW * nbody + f.SCRATCH + f.DRAG * read_int64(m + at[f.NTREE]))
+    cacc = view_doubles(read_int64(d + at[f.CACC]), 6 * nbody)
+    gravity = view_doubles(m + at[f.GRAVITY], 3)
     for body in range(1, nbody):
         for i in range(6):
             work[f.ROW * body + f.BIAS + i] = cacc[6 * body + i]
-        if (small(m + at[f.DISABLE]) & _GRAVITY_OFF) == 0:
+        if (read_int32(m + at[f.DISABLE]) & _GRAVITY_OFF) == 0:
             for i in range(3):
                 work[f.ROW * body + f.BIAS + 3 + i] += gravity[i]
     _bodies(m, d, at, 0.0, work, False)
-    _actuators(m, d, at, work, 0.5 * real(m + at[f.TIMESTEP]))
+    _actuators(m, d, at, work, 0.5 * read_double(m + at[f.TIMESTEP]))
     _sum_up(m, at, work)
     for body in range(nbody):
         for i in range(6):
@@ -204,12 +212,12 @@ def water_wrenches(m: int, d: int, at: Ints64, wrenches: Floats) -> None:
 @njit
 def _bias(m: int, d: int, at: Ints64, work: Floats) -> None:
     """Spatial acceleration of every body when no joint accelerates: Jdot qvel."""
-    nv, nbody = word(m + at[f.NV]), word(m + at[f.NBODY])
-    parent = ints(word(m + at[f.BODY_PARENT]), nbody)
-    dof_number = ints(word(m + at[f.BODY_DOFNUM]), nbody)
-    dof_start = ints(word(m + at[f.BODY_DOFADR]), nbody)
-    cdof_dot = floats(word(d + at[f.CDOF_DOT]), 6 * nv)
-    qvel = floats(word(d + at[f.QVEL]), nv)
+    nv, nbody = read_int64(m + at[f.NV]), read_int64(m + at[f.NBODY])
+    parent = view_int32s(read_int64(m + at[f.BODY_PARENT]), nbody)
+    dof_number = view_int32s(read_int64(m + at[f.BODY_DOFNUM]), nbody)
+    dof_start = view_int32s(read_int64(m + at[f.BODY_DOFADR]), nbody)
+    cdof_dot = view_doubles(read_int64(d + at[f.CDOF_DOT]), 6 * nv)
+    qvel = view_doubles(read_int64(d + at[f.QVEL]), nv)
     for body in range(1, nbody):
         base, above = f.ROW * body + f.BIAS, f.ROW * parent[body] + f.BIAS
         for i in range(6):
@@ -222,8 +230,8 @@ def _bias(m: int, d: int, at: Ints64, work: Floats) -> None:
 @njit
 def _sum_up(m: int, at: Ints64, work: Floats) -> None:
     """Add every body's wrench and inertia to its parent's."""
-    nbody = word(m + at[f.NBODY])
-    parent = ints(word(m + at[f.BODY_PARENT]), nbody)
+    nbody = read_int64(m + at[f.NBODY])
+    parent = view_int32s(read_int64(m + at[f.BODY_PARENT]), nbody)
     for body in range(nbody - 1, 0, -1):
         base, above = f.ROW * body, f.ROW * parent[body]
         if work[base + f.TOUCHED] != 0.0 and above > 0:
@@ -235,11 +243,11 @@ def _sum_up(m: int, at: Ints64, work: Floats) -> None:
 @njit
 def _actuators(m: int, d: int, at: Ints64, work: Floats, ahead: float) -> None:
     """Add the forces of all thrusters and fins, by their state some time ahead."""
-    if word(m + at[f.NUSER_ACTUATOR]) != ACTUATOR_COLUMNS:
+    if read_int64(m + at[f.NUSER_ACTUATOR]) != ACTUATOR_COLUMNS:
         return
-    tables = word(m + at[f.ACTUATOR_USER])
-    for i in range(word(m + at[f.NACTUATOR])):
-        table = floats(tables + 8 * ACTUATOR_COLUMNS * i, ACTUATOR_COLUMNS)
+    tables = read_int64(m + at[f.ACTUATOR_USER])
+    for i in range(read_int64(m + at[f.NACTUATOR])):
+        table = view_doubles(tables + 8 * ACTUATOR_COLUMNS * i, ACTUATOR_COLUMNS)
         if table[ROLE] == PROPELLER:
             add_thrust(m, d, at, i, table, ahead, work)
         elif table[ROLE] == FIN:
@@ -249,25 +257,29 @@ def _actuators(m: int, d: int, at: Ints64, work: Floats, ahead: float) -> None:
 @njit
 def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass: bool) -> None:
     """Wrench of the water on every body, and its inertia when ``with_mass``."""
-    nbody = word(m + at[f.NBODY])
-    tree = ints(word(m + at[f.BODY_TREE]), nbody)
-    root = ints(word(m + at[f.BODY_ROOT]), nbody)
-    still = real(word(m + at[f.BODY_USER]) + 8 * SURFACE)
-    gravity = floats(m + at[f.GRAVITY], 3)
-    weight = 0.0 if (small(m + at[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
-    is_stratified = real(word(m + at[f.BODY_USER]) + 8 * N_LEVELS) > 0.0
+    nbody = read_int64(m + at[f.NBODY])
+    tree = view_int32s(read_int64(m + at[f.BODY_TREE]), nbody)
+    root = view_int32s(read_int64(m + at[f.BODY_ROOT]), nbody)
+    still = read_double(read_int64(m + at[f.BODY_USER]) + 8 * SURFACE)
+    gravity = view_doubles(m + at[f.GRAVITY], 3)
+    weight = 0.0 if (read_int32(m + at[f.DISABLE]) & _GRAVITY_OFF) != 0 else 1.0
+    is_stratified = read_double(read_int64(m + at[f.BODY_USER]) + 8 * N_LEVELS) > 0.0
     scratch = f.ROW * nbody
     for body in range(1, nbody):
-        table = floats(word(m + at[f.BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS)
+        table = view_doubles(
+            read_int64(m + at[f.BODY_USER]) + 8 * BODY_COLUMNS * body, BODY_COLUMNS
+        )
         if table[KIND] == DRY or tree[body] < 0:
             continue
-        if small(word(d + at[f.AWAKE]) + 4 * tree[body]) == 0:
+        if read_int32(read_int64(d + at[f.AWAKE]) + 4 * tree[body]) == 0:
             continue
-        water = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, WATER_COLUMNS)
-        place = floats(word(d + at[f.XPOS]) + 24 * body, 3)
-        axes = floats(word(d + at[f.XMAT]) + 72 * body, 9)
-        com = floats(word(d + at[f.COM]) + 24 * root[body], 3)
-        twist = floats(word(d + at[f.CVEL]) + 48 * body, 6)
+        water = view_doubles(
+            read_int64(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * body, WATER_COLUMNS
+        )
+        place = view_doubles(read_int64(d + at[f.XPOS]) + 24 * body, 3)
+        axes = view_doubles(read_int64(d + at[f.XMAT]) + 72 * body, 9)
+        com = view_doubles(read_int64(d + at[f.COM]) + 24 * root[body], 3)
+        twist = view_doubles(read_int64(d + at[f.CVEL]) + 48 * body, 6)
         height, lever = reference_point(table, place, axes, com)
         up, depth = (axes[6], axes[7], axes[8]), still + water[6] - height
         wet, centre = wet_part(table, up, depth)
@@ -277,7 +289,7 @@ def _bodies(m: int, d: int, at: Ints64, theta_h: float, work: Floats, with_mass:
         growth = 0.0
         x, y, z = centre
         if depth - (up[0] * x + up[1] * y + up[2] * z) < 2.0 * table[REACH]:
-            timestep = real(m + at[f.TIMESTEP])
+            timestep = read_double(m + at[f.TIMESTEP])
             growth = entered(table, up, depth, wet, nu, timestep) / timestep
         if is_stratified:
             centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z

@@ -8,7 +8,7 @@ that moves through layers does to them.
 from __future__ import annotations
 
 from ....base.numerics.jit import njit
-from ....base.numerics.memory import Floats, Ints64, floats, word
+from ....base.numerics.memory import Floats, Ints64, read_int64, view_doubles
 from ..columns import BODY_COLUMNS, LEVELS, N_LEVELS, SURFACE
 from . import fields as f
 
@@ -16,7 +16,7 @@ from . import fields as f
 @njit
 def density_ratio(m: int, at: Ints64, height: float) -> float:
     """Density at a height in W [m], relative to that of the model's water."""
-    world = floats(word(m + at[f.BODY_USER]), BODY_COLUMNS)
+    world = view_doubles(read_int64(m + at[f.BODY_USER]), BODY_COLUMNS)
     if world[N_LEVELS] == 0.0:
         return 1.0
     return 1.0 + excess(world, world[SURFACE] - height)

@@ -17,7 +17,14 @@ from __future__ import annotations
 import math
 
 from ....base.numerics.jit import njit
-from ....base.numerics.memory import Floats, Ints64, floats, real, small, word
+from ....base.numerics.memory import (
+    Floats,
+    Ints64,
+    read_double,
+    read_int32,
+    read_int64,
+    view_doubles,
+)
 from ..columns import (
     ADVANCE,
     BACKWARD,
@@ -52,15 +59,15 @@ def add_thrust(
         ahead: the time [s].
         work: the rows of the bodies.
     """
-    n, nbody = word(m + at[f.NACTUATOR]), word(m + at[f.NBODY])
-    state = small(word(m + at[f.ACTUATOR_ACT]) + 4 * i)
-    control = small(word(m + at[f.ACTUATOR_CTRL]) + 4 * i)
-    limits = floats(word(m + at[f.ACTUATOR_RANGE]) + 16 * control, 2)
-    command = min(max(real(word(d + at[f.CTRL]) + 8 * control), limits[0]), limits[1])
+    n, nbody = read_int64(m + at[f.NACTUATOR]), read_int64(m + at[f.NBODY])
+    state = read_int32(read_int64(m + at[f.ACTUATOR_ACT]) + 4 * i)
+    control = read_int32(read_int64(m + at[f.ACTUATOR_CTRL]) + 4 * i)
+    limits = view_doubles(read_int64(m + at[f.ACTUATOR_RANGE]) + 16 * control, 2)
+    command = min(max(read_double(read_int64(d + at[f.CTRL]) + 8 * control), limits[0]), limits[1])
     if state >= 0:  # MuJoCo clamps what it integrates the rotor with, too
-        rotor = real(word(d + at[f.ACT]) + 8 * state)
+        rotor = read_double(read_int64(d + at[f.ACT]) + 8 * state)
         command = rotor + share_of_lag(table[LAG], ahead) * (command - rotor)
-    losses = floats(word(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * nbody, 2 * n)
+    losses = view_doubles(read_int64(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * nbody, 2 * n)
     thrust = (1.0 - losses[i]) * curve(table, command)
     site, body = site_of(m, at, i)
     if table[N_ADVANCE] > 0.0:
