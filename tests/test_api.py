@@ -20,7 +20,7 @@ from uwsim.cli import main
 from uwsim.currents import Constant
 from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Empty, TwistStamped, Vector3
-from uwsim.results.directory import alone_in
+from uwsim.results.directory import lock_directory
 
 CLEAR = {"fog": [0]}
 
@@ -262,7 +262,7 @@ def test_all_that_is_wrong_with_a_benchmark_is_reported_at_once(tmp_path: Path) 
 
 def test_a_directory_into_which_another_run_writes_is_refused(tmp_path: Path) -> None:
     with (
-        alone_in(tmp_path / "out"),
+        lock_directory(tmp_path / "out"),
         pytest.raises(uwsim.UwsimError, match="another run is writing into it"),
     ):
         uwsim.bench(write_benchmark(tmp_path, "0.2"), levels=CLEAR, out=tmp_path / "out")

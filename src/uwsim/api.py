@@ -149,7 +149,7 @@ def _execute_request(
     """Run what is requested, in a result directory that is kept if ``out`` names it."""
     from .analysis.load_reporter import load_reporter
     from .results.directory import check as check_directory
-    from .results.directory import prepared
+    from .results.directory import prepare_directory
     from .runs.execute import Callbacks, execute, plan_all, prepare_execution
     from .runs.executors.background import BackgroundProcess, Jobs
     from .runs.executors.choose import CALLBACK_LIMIT
@@ -165,7 +165,7 @@ def _execute_request(
         open_jobs = partial(BackgroundProcess if workers else Jobs, load_reporter)
         (result,) = execute(
             execution,
-            prepared(directory, resume=False, overwrite=False),
+            prepare_directory(directory, resume=False, overwrite=False),
             None if out is None else open_jobs,
             Callbacks(progress=partial(_counted, on_progress)),
         )

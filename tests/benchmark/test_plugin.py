@@ -229,7 +229,7 @@ def test_a_plan_brings_its_plugins_to_a_process_that_has_never_seen_them(folder:
 
 def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
     inputs, _ = hash_inputs(plan_of("visibility"))
-    assert set(inputs.stored()) == {"benchmark", "scene", "assets"}
+    assert set(inputs.as_dict()) == {"benchmark", "scene", "assets"}
 
 
 @pytest.mark.parametrize(

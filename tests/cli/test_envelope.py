@@ -11,7 +11,7 @@ import pytest
 
 from uwsim.cli import main
 from uwsim.envelope.search_request import round_down
-from uwsim.results.directory import alone_in
+from uwsim.results.directory import lock_directory
 
 PARTS = '''
 from dataclasses import dataclass
@@ -196,7 +196,7 @@ def test_runs_that_another_search_writes_are_not_overwritten(
     (folder / "out" / "units").mkdir(parents=True)
     (folder / "out" / "units" / "00000.jsonl").touch()
     given = ["--plugin", "own.py", "--over", "load", "--until", "strain > 5", "--overwrite"]
-    with alone_in(folder / "out"):
+    with lock_directory(folder / "out"):
         assert main(["envelope", "b.xml", *given, "--out", "out"]) == 2
     assert "another run is writing into it" in capsys.readouterr().err
     assert (folder / "out" / "units" / "00000.jsonl").exists()

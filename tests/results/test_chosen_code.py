@@ -15,10 +15,10 @@ from tests.support.stored_rows import stored_row
 from uwsim.analysis.report.configuration import machine as shown
 from uwsim.errors import ReplayDiffers
 from uwsim.results import journal
-from uwsim.results.chosen_code import chosen_code, names_text, other_code
+from uwsim.results.chosen_code import chosen_code, code_differences, names_text
 from uwsim.results.provenance import (
-    carried,
     codes_of,
+    lasting_provenance,
     load_provenance,
     machine,
     save_beginning,
@@ -42,12 +42,12 @@ def test_an_unchanged_choice_is_not_reported() -> None:
     assert set(here) == {"numpy", "OpenBLAS", "OpenCV", "numba"}
     assert all(here["OpenBLAS"])
     assert here["numba"]
-    assert other_code(here) == other_code(None) == other_code({}) == ""
+    assert code_differences(here) == code_differences(None) == code_differences({}) == ""
 
 
 def test_what_another_processor_had_chosen_is_named() -> None:
     here = chosen_code()
-    said = other_code({**here, "numba": [*here["numba"], "avx99"], "OpenBLAS": ["Katmai"]})
+    said = code_differences({**here, "numba": [*here["numba"], "avx99"], "OpenBLAS": ["Katmai"]})
     blas = here["OpenBLAS"][0]
     assert said == f"OpenBLAS Katmai there, {blas} here; numba avx99 there, nothing more here"
     assert names_text("abcdefghi") == "a b c d e f and 3 more"
@@ -68,7 +68,7 @@ def test_what_environment_variables_make_libraries_choose_is_seen() -> None:
         [sys.executable, "-c", program],
         env={**os.environ, **variables}, capture_output=True, text=True, check=True,
     )  # fmt: skip
-    said = other_code(json.loads(done.stdout))
+    said = code_differences(json.loads(done.stdout))
     assert [each.split()[0] for each in said.split("; ")] == ["OpenBLAS", "OpenCV", "numba"]
 
 
@@ -85,7 +85,9 @@ def test_a_run_that_goes_on_elsewhere_records_both_and_says_so(tmp_path: Path) -
     assert now["command"] == ["bench", "x"]
     assert [code["OpenBLAS"] for code in codes_of(now)] == [chosen_code()["OpenBLAS"], ["Katmai"]]
     assert save_beginning(["bench", "x", "--resume"], tmp_path) == ""
-    assert [code["OpenBLAS"] for code in carried(tmp_path)["code_before"]] == [["Katmai"]]
+    assert [code["OpenBLAS"] for code in lasting_provenance(tmp_path)["code_before"]] == [
+        ["Katmai"]
+    ]
 
 
 def test_a_row_that_cannot_be_played_again_names_the_other_code(tmp_path: Path) -> None:
@@ -97,7 +99,7 @@ def test_a_row_that_cannot_be_played_again_names_the_other_code(tmp_path: Path) 
             file.close()
 
     play(1.0)
-    with pytest.raises(ReplayDiffers, match=r"in total.*chance of its own"):
+    with pytest.raises(ReplayDiffers, match=r"in total.*random numbers of its own"):
         play(2.0)
     begun_elsewhere(tmp_path)
     with pytest.raises(ReplayDiffers, match="chosen other code paths for the processor") as caught:

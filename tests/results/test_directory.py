@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.errors import BadSetting
-from uwsim.results.directory import alone_in, check, prepared
+from uwsim.results.directory import check, lock_directory, prepare_directory
 
 RESULT = (
     "result.json", "result.dat", "summary.csv", "provenance.json", "report.html",
@@ -34,17 +34,17 @@ def content(directory: Path) -> dict[str, str]:
 
 
 def enter(directory: Path, *, resume: bool = False, overwrite: bool = False) -> None:
-    with prepared(directory, resume=resume, overwrite=overwrite):
+    with prepare_directory(directory, resume=resume, overwrite=overwrite):
         pass
 
 
 def enter_several(directory: Path, *results: str) -> None:
-    with prepared(directory, resume=True, overwrite=False, results=results):
+    with prepare_directory(directory, resume=True, overwrite=False, results=results):
         pass
 
 
 def test_a_result_is_overwritten_whole(tmp_path: Path) -> None:
-    with prepared(make(tmp_path, *RESULT), resume=False, overwrite=True):
+    with prepare_directory(make(tmp_path, *RESULT), resume=False, overwrite=True):
         assert list(tmp_path.iterdir()) == []
 
 
@@ -53,9 +53,9 @@ def test_nothing_is_removed_while_another_run_writes(tmp_path: Path, place: str)
     results = [place] if place else []
     make(tmp_path / place, *RESULT)
     with (
-        alone_in(tmp_path / place),
+        lock_directory(tmp_path / place),
         pytest.raises(BadSetting, match="another run is writing"),
-        prepared(tmp_path, resume=False, overwrite=True, results=results),
+        prepare_directory(tmp_path, resume=False, overwrite=True, results=results),
     ):
         pass
     assert all((tmp_path / place / name).exists() for name in RESULT)
@@ -64,9 +64,9 @@ def test_nothing_is_removed_while_another_run_writes(tmp_path: Path, place: str)
 def test_several_results_are_overwritten_and_kept_for_oneself(tmp_path: Path) -> None:
     names = ["esm", "frozen"]
     make(tmp_path / "esm", *RESULT)
-    with prepared(tmp_path, resume=False, overwrite=True, results=names):
+    with prepare_directory(tmp_path, resume=False, overwrite=True, results=names):
         assert sorted(path.name for path in tmp_path.rglob("*")) == names
-        with pytest.raises(BadSetting, match="another run"), alone_in(tmp_path / "esm"):
+        with pytest.raises(BadSetting, match="another run"), lock_directory(tmp_path / "esm"):
             pass
 
 
@@ -90,7 +90,7 @@ def test_a_link_is_not_followed(tmp_path: Path) -> None:
 
 
 def test_a_directory_that_is_not_empty_needs_a_word(tmp_path: Path) -> None:
-    with pytest.raises(BadSetting, match="--resume to go on, or --overwrite"):
+    with pytest.raises(BadSetting, match="--resume to continue, or --overwrite"):
         enter(make(tmp_path, *RESULT))
     with pytest.raises(BadSetting, match="exclude each other"):
         enter(tmp_path, resume=True, overwrite=True)
@@ -100,12 +100,12 @@ def test_a_directory_that_is_not_empty_needs_a_word(tmp_path: Path) -> None:
 
 def test_two_runs_at_once_do_not_share_a_directory(tmp_path: Path) -> None:
     with (
-        alone_in(tmp_path / "a"),
+        lock_directory(tmp_path / "a"),
         pytest.raises(BadSetting, match="another run"),
-        alone_in(tmp_path / "a"),
+        lock_directory(tmp_path / "a"),
     ):
         pass
-    with alone_in(tmp_path / "a"):
+    with lock_directory(tmp_path / "a"):
         assert (tmp_path / "a").is_dir()
 
 
@@ -136,7 +136,7 @@ def test_to_go_on_where_no_run_was_begun_is_refused(tmp_path: Path, name: str) -
 
 def test_a_folder_with_a_result_in_it_is_not_one_itself(tmp_path: Path) -> None:
     make(tmp_path / "visibility.result", *RESULT)
-    with pytest.raises(BadSetting, match=r"holds 'visibility.result', and no run"):
+    with pytest.raises(BadSetting, match=r"holds 'visibility.result', but no run"):
         enter(tmp_path, resume=True)
 
 
@@ -145,9 +145,9 @@ def test_several_results_are_gone_on_with_if_each_is_ours_or_not_there(tmp_path:
     make(tmp_path, "notes.txt")
     check(tmp_path, resume=True, overwrite=False, results=["esm", "orb"])
     make(tmp_path / "orb", "notes.txt")
-    with pytest.raises(BadSetting, match=r"orb: holds 'notes.txt', and no run"):
+    with pytest.raises(BadSetting, match=r"orb: holds 'notes.txt', but no run"):
         check(tmp_path, resume=True, overwrite=False, results=["esm", "orb"])
-    with pytest.raises(BadSetting, match=r"holds 'esm', and no run"):
+    with pytest.raises(BadSetting, match=r"holds 'esm', but no run"):
         check(tmp_path, resume=True, overwrite=False, results=["p", "pi"])
 
 

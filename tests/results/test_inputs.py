@@ -17,7 +17,7 @@ from tests.support.opened import open_scene
 from uwsim.base.files.input_files import record_inputs
 from uwsim.errors import ResultError
 from uwsim.results import journal
-from uwsim.results.inputs import Inputs, differing
+from uwsim.results.inputs import Inputs, input_differences
 from uwsim.runs.inputs_read import inputs_of
 from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan import Plan
@@ -159,11 +159,11 @@ SOURCES = ["own_parts/__init__.py", "own_parts/filter.py", "own_parts/numbers.py
 
 def test_every_file_that_is_read_is_among_the_inputs(folder: Path) -> None:
     inputs = _inputs()
-    assert list(inputs.stored()) == ["benchmark", "scene", "assets", "algorithm"]
+    assert list(inputs.as_dict()) == ["benchmark", "scene", "assets", "algorithm"]
     assert (list(inputs.assets or ()), list(inputs.algorithm or ())) == (ASSETS, SOURCES)
     assert str(folder) not in str(inputs)
-    assert "algorithm" not in inputs.without_algorithm().stored()
-    assert "algorithm" not in _inputs("p").stored()
+    assert "algorithm" not in inputs.drop_algorithm().as_dict()
+    assert "algorithm" not in _inputs("p").as_dict()
 
 
 def test_a_file_that_was_changed_is_named(folder: Path) -> None:
@@ -172,22 +172,22 @@ def test_a_file_that_was_changed_is_named(folder: Path) -> None:
         for name in names:
             kept = (folder / name).read_bytes()
             (folder / name).write_bytes(_edited(name, kept))
-            said = differing(before, _inputs())
+            said = input_differences(before, _inputs())
             file = name if role == "assets" else f"{role} {name}"
             assert [line.partition(" (")[0] for line in said] == [f"{file} is another file now"]
             (folder / name).write_bytes(kept)
-    assert differing(before, _inputs()) == []
+    assert input_differences(before, _inputs()) == []
 
 
 def test_inputs_are_compared_as_json_has_them_and_as_python_has_them() -> None:
     stored = {"scene": ("a.xml", "sha256:1"), "plugins": (("p.py", "sha256:2"),), "assets": {}}
     now = {"scene": ["a.xml", "sha256:1"], "plugins": [["p.py", "sha256:3"]], "assets": {"x": "y"}}
-    before, after = Inputs.of(stored), Inputs.of(now)
+    before, after = Inputs.from_dict(stored), Inputs.from_dict(now)
     assert list(before.files()) == [
         ("scene", "a.xml", "sha256:1"),
         ("plugins", "p.py", "sha256:2"),
     ]
-    assert differing(before, after) == [
+    assert input_differences(before, after) == [
         "plugins p.py is another file now (2 then, 3 now)",
         "x was not used then",
     ]
@@ -216,4 +216,4 @@ def test_a_resumed_run_says_what_of_it_is_another(folder: Path) -> None:
 def test_a_shape_without_a_hash_of_an_earlier_version_is_no_input() -> None:
     inputs = Inputs(assets={"box": "sha256:", "rov.urdf": "sha256:" + 64 * "a"})
     assert [name for _, name, _ in inputs.files()] == ["rov.urdf"]
-    assert differing(inputs, Inputs(assets={"rov.urdf": "sha256:" + 64 * "a"})) == []
+    assert input_differences(inputs, Inputs(assets={"rov.urdf": "sha256:" + 64 * "a"})) == []

@@ -6,7 +6,7 @@ import pytest
 
 from tests.support.stored_rows import end_record, row_record, stored_end, stored_row
 from uwsim.errors import ReplayDiffers, ResultError
-from uwsim.results.journal import Journal, Stored, path_of, read
+from uwsim.results.journal import Journal, StoredTrial, path_of, read
 
 HEAD = {"seed": 1}
 
@@ -25,11 +25,11 @@ def play(folder: Path, rows: list[dict[str, object]], *, end: bool = True) -> No
 def test_rows_come_back_as_they_were_added(tmp_path: Path) -> None:
     rows = stored_row(total=0.1), stored_row(total=None)
     play(tmp_path, [*rows])
-    assert read(tmp_path, 0, HEAD) == Stored(rows, stored_end(notes=["2 rows"]))
+    assert read(tmp_path, 0, HEAD) == StoredTrial(rows, stored_end(notes=["2 rows"]))
 
 
 def test_nothing_stored_is_nothing_finished(tmp_path: Path) -> None:
-    assert read(tmp_path, 3, HEAD) == Stored((), None)
+    assert read(tmp_path, 3, HEAD) == StoredTrial((), None)
 
 
 @pytest.mark.parametrize("cut", range(1, 700, 53))
@@ -58,7 +58,7 @@ def test_what_is_behind_the_end_of_a_trial_is_refused(tmp_path: Path, line: int)
     path = path_of(tmp_path, 0)
     lines = path.read_text().splitlines()
     path.write_text("".join(f"{each}\n" for each in [*lines, lines[line]]))
-    with pytest.raises(ResultError, match=r"00000\.jsonl:4: it is behind the end of its trial"):
+    with pytest.raises(ResultError, match=r"00000\.jsonl:4: it follows the end of its trial"):
         read(tmp_path, 0, HEAD)
 
 

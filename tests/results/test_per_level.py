@@ -7,8 +7,8 @@ import io
 
 from tests.support.synthetic_results import one_level, visibility
 from uwsim.results.inputs import Inputs
-from uwsim.results.per_level import per_level, rows_by_level, seeds_of, success_per_level
-from uwsim.results.result import Column, Missing, Result
+from uwsim.results.per_level import intervals_of, rows_by_level, seeds_of, success_rates
+from uwsim.results.result import Column, MissingValue, Result
 from uwsim.results.run_info import RunInfo
 from uwsim.results.summary import summary_text
 from uwsim.statistics import mean_interval, rate
@@ -30,21 +30,21 @@ def two_seeds() -> Result:
             (2, 0.0, 4.0, "ok"),
             (2, 0.5, None, "lost"),
         ),
-        missing=(Missing(row=3, column="corners", why="lost at 3 s"),),
+        missing=(MissingValue(row=3, column="corners", why="lost at 3 s"),),
     )
 
 
 def test_repeats_are_gathered_by_level_and_what_is_missing_is_counted() -> None:
     result = two_seeds()
-    clear, foggy = per_level(result, "corners")
+    clear, foggy = intervals_of(result, "corners")
     assert rows_by_level(result) == {(0.0,): [0, 2], (0.5,): [1, 3]}
     assert (clear.interval.n, clear.interval.mean, clear.n_missing) == (2, 3.0, 0)
     assert (foggy.interval.n, foggy.interval.mean, foggy.n_missing) == (1, 8.0, 1)
-    assert foggy.why == "lost at 3 s"
+    assert foggy.reason == "lost at 3 s"
 
 
 def test_success_is_what_ended_ok_with_exact_limits_and_its_seeds() -> None:
-    clear, foggy = success_per_level(two_seeds())
+    clear, foggy = success_rates(two_seeds())
     assert (clear.success, foggy.success) == (rate(2, 2), rate(1, 2))
     assert clear.seeds == foggy.seeds == (1, 2)
 
@@ -54,7 +54,7 @@ def test_a_row_without_seed_or_status_has_those_of_the_run_or_none() -> None:
     bare = Result(
         inputs=Inputs(), run=RunInfo(), columns=(Column(name="none", kind="level"),), rows=((1.0,),)
     )
-    assert success_per_level(bare)[0].success is None
+    assert success_rates(bare)[0].success is None
     assert seeds_of(bare) == (None,)
 
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from uwsim.errors import ResultError, UnknownName
 from uwsim.results.inputs import Inputs
-from uwsim.results.result import MAX_VALUE, Column, ImageStream, Missing, Result, SavedImage
+from uwsim.results.result import MAX_VALUE, Column, ImageStream, MissingValue, Result, SavedImage
 from uwsim.results.result_file import dumps, load, loads, save
 from uwsim.results.run_info import RunInfo
 
@@ -35,8 +35,8 @@ def make(**changes: object) -> Result:
         columns=COLUMNS,
         rows=((0.0, 1.83, 1.79, 1.83, "ok", 2.0), (1.2, None, None, None, "lost", 4.0)),
         missing=(
-            Missing(row=1, column="corners", why="tracker lost at 3.6 s"),
-            Missing(row=1, column="total", why="corners is missing"),
+            MissingValue(row=1, column="corners", why="tracker lost at 3.6 s"),
+            MissingValue(row=1, column="total", why="corners is missing"),
         ),
         facts={"S": [31.25, "grey level"], "f_star": [1.083, "1/m"]},
         image_streams=(ImageStream(seed=7, level=None, topic="/c", frames=120, sha256="ab"),),
@@ -83,7 +83,7 @@ def test_numbers_of_numpy_become_plain_ones() -> None:
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_a_result_never_holds_what_is_not_a_number(value: float) -> None:
-    with pytest.raises(ResultError, match=r"rows\[0\]\[1\].*nothing to measure is null"):
+    with pytest.raises(ResultError, match=r"rows\[0\]\[1\].*a missing value is null"):
         make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing=())
     with pytest.raises(ResultError, match=r"facts\.S\[0\]"):
         make(facts={"S": [value, "grey level"]})
@@ -175,4 +175,4 @@ def test_what_a_run_says_that_this_version_does_not_know_is_kept() -> None:
     other = replace(result, run=replace(result.run, others={"host": "abacus"}))
     assert loads(dumps(other)) == other
     assert '"host": "abacus"' in dumps(other)
-    assert result.run.stored() == {k: v for k, v in other.run.stored().items() if k != "host"}
+    assert result.run.as_dict() == {k: v for k, v in other.run.as_dict().items() if k != "host"}

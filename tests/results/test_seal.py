@@ -40,16 +40,16 @@ def written(folder: Path, seal: Seal | None, index: int = 0, *, ends: bool = Tru
 @pytest.mark.parametrize("n", [0, 1, 31, 32, 33, 1_000_003])
 def test_what_is_sealed_is_opened_by_the_same_key_alone(n: int) -> None:
     seal, data = Seal(), os.urandom(n)
-    closed = seal.closed(data)
-    assert seal.opened(closed) == data
+    closed = seal.encrypt(data)
+    assert seal.decrypt(closed) == data
     assert n < 16 or data not in closed
-    assert seal.closed(data) != closed
+    assert seal.encrypt(data) != closed
     for wrong in (closed[:-1], closed + b"\0", closed[:40] + b"\0" + closed[41:], b""):
         if wrong != closed:
             with pytest.raises(ValueError, match="changed"):
-                seal.opened(wrong)
+                seal.decrypt(wrong)
     with pytest.raises(ValueError, match="changed"):
-        Seal().opened(closed)
+        Seal().decrypt(closed)
 
 
 def test_rows_are_read_with_the_key_and_do_not_exist_without_it(tmp_path: Path) -> None:
@@ -57,7 +57,7 @@ def test_rows_are_read_with_the_key_and_do_not_exist_without_it(tmp_path: Path) 
     path = written(tmp_path, seal)
     assert b"17.125" not in path.read_bytes()
     assert len(journal.read(tmp_path, 0, HEAD, seal).rows) == 1
-    assert journal.read(tmp_path, 0, HEAD) == journal.NOTHING
+    assert journal.read(tmp_path, 0, HEAD) == journal.EMPTY_JOURNAL
     assert journal.head_of(path) == HEAD
     with pytest.raises(ResultError, match="sealed row cannot be read"):
         journal.read(tmp_path, 0, HEAD, Seal())

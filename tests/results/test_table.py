@@ -57,7 +57,7 @@ def test_repeats_are_gathered_into_mean_and_interval() -> None:
     assert re.fullmatch(r"\d\.\d+ \[\d\.\d+, \d\.\d+\]", str(drawn[0].cells[1]))
     assert drawn[0].status_text == "4 of 4 ok, 40 to 100 %"
     assert drawn[26].status_text == "0 of 4 ok, 0 to 60 %"
-    assert drawn[26].why == "4 lost"
+    assert drawn[26].reason == "4 lost"
 
 
 def test_a_benchmark_that_measured_nothing_still_has_its_table() -> None:
@@ -185,7 +185,7 @@ def test_a_remark_stands_beside_the_status_of_a_row_that_has_all_values() -> Non
 def test_over_repeats_it_is_said_of_how_many_a_remark_is() -> None:
     rows = [Remark(row=row, text=REMARK) for row in (0, 27)]
     drawn = lines(replace(visibility(seeds=(1, 2, 3, 4)), remarks=tuple(rows)))
-    assert [line.why for line in drawn if line.why.endswith(REMARK)] == [f"2 of 4: {REMARK}"]
+    assert [line.reason for line in drawn if line.reason.endswith(REMARK)] == [f"2 of 4: {REMARK}"]
 
 
 def test_a_remark_about_a_row_that_is_not_there_is_an_error() -> None:

@@ -11,7 +11,7 @@ from tests.benchmark.test_plugin import BENCHMARK, PARTS
 from uwsim.cli import main
 from uwsim.cli.verify import same_sample
 from uwsim.errors import UwsimError
-from uwsim.results.interrupted import resuming
+from uwsim.results.interrupted import resume_command
 from uwsim.results.provenance import save_provenance
 from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan_request import PlanRequest
@@ -111,7 +111,7 @@ def test_the_command_that_resumes_writes_to_where_the_result_is_now(
     (directory / "units").mkdir(parents=True)
     (directory / "units" / "00000.jsonl").write_text('{"unit":{"run":{"seed":0},"seed":0}}\n')
     save_provenance({"command": shlex.split(typed)}, directory)
-    command = resuming(directory)
+    command = resume_command(directory)
     assert command is not None
     words = shlex.split(command.replace("--out=", "--out "))
     assert words[words.index("--out") + 1] == str(directory)

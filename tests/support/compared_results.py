@@ -9,7 +9,7 @@ import numpy as np
 
 from uwsim.analysis.comparison import Entry
 from uwsim.results.inputs import Inputs
-from uwsim.results.result import Cell, Column, Missing, Result
+from uwsim.results.result import Cell, Column, MissingValue, Result
 from uwsim.results.result_file import save
 from uwsim.results.run_info import RunInfo
 
@@ -41,7 +41,7 @@ def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
         for i, (fog, found) in enumerate(values.items()):
             value = found[repeat]
             if value is None:
-                missing.append(Missing(row=len(rows), column="total", why="lost at 3.1 s"))
+                missing.append(MissingValue(row=len(rows), column="total", why="lost at 3.1 s"))
             status = "ok" if value is not None else "lost"
             rows.append((repeat, seed + repeat, fog, value, value, status, 2.0 * (i + 1)))
     run = RunInfo(
@@ -55,7 +55,11 @@ def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
         version="0.1.0",
     )
     return Result(
-        inputs=Inputs.of(INPUTS), run=run, columns=columns, rows=tuple(rows), missing=tuple(missing)
+        inputs=Inputs.from_dict(INPUTS),
+        run=run,
+        columns=columns,
+        rows=tuple(rows),
+        missing=tuple(missing),
     )
 
 

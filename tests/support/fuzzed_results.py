@@ -19,7 +19,7 @@ from uwsim.base.terminal import clean_text
 from uwsim.cli.exit_status import one_line
 from uwsim.cli.verify import head
 from uwsim.errors import UwsimError
-from uwsim.results.interrupted import instead_of_a_result, resuming
+from uwsim.results.interrupted import describe_missing_result, resume_command
 from uwsim.results.journal_check import check_rows
 from uwsim.results.provenance import machine, save_provenance
 from uwsim.results.result_file import load
@@ -159,8 +159,8 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
 
 def read_for_resume(sound: Sound, directory: Path) -> None:
     """What ``uwsim bench --resume`` does but play; and what is said of an interrupted run."""
-    resuming(directory)
-    instead_of_a_result(directory)
+    resume_command(directory)
+    describe_missing_result(directory)
     bench = replace(sound.bench, out=directory)
     bench.begin()
     bench.write()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from uwsim.results.inputs import Inputs
-from uwsim.results.result import Cell, Column, Missing, Result
+from uwsim.results.result import Cell, Column, MissingValue, Result
 from uwsim.results.run_info import RunInfo
 
 FOGS, CURRENTS = (0.0, 0.5, 1.0), (0.0, 0.1, 0.2, 0.3)
@@ -32,7 +32,7 @@ def grasping(n_seeds: int = 4) -> Result:
         Column(name="ended_at", kind="time", unit="s"),
     ]
     rows: list[tuple[Cell, ...]] = []
-    missing: list[Missing] = []
+    missing: list[MissingValue] = []
     for seed in range(n_seeds):
         for fog in FOGS:
             for current in CURRENTS:
@@ -43,7 +43,7 @@ def grasping(n_seeds: int = 4) -> Result:
                     rows.append((*level, 1.0, *details, took, took, "ok", took))
                     continue
                 names = ("success.slip", "success.time_done", "total")
-                missing += [Missing(row=len(rows), column=n, why="not held") for n in names]
+                missing += [MissingValue(row=len(rows), column=n, why="not held") for n in names]
                 status = "not found" if fog == 1.0 else "dropped"
                 details = (None, None, 1.0, 100.0, 0.0)
                 rows.append((*level, 0.0, *details, 240.0, None, status, 240.0))

@@ -31,9 +31,9 @@ def end_record(**given: Any) -> dict[str, Any]:
 
 def stored_row(**given: Any) -> StoredRow:
     """A row of one level; ``given`` are values as they are written."""
-    return StoredRow.of(row_record(**given))
+    return StoredRow.from_dict(row_record(**given))
 
 
 def stored_end(**given: Any) -> StoredEnd:
     """The end of a trial; ``given`` are values as they are written."""
-    return StoredEnd.of(end_record(**given))
+    return StoredEnd.from_dict(end_record(**given))

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from uwsim.results.inputs import Inputs
-from uwsim.results.result import Cell, Column, ImageStream, Missing, Result
+from uwsim.results.result import Cell, Column, ImageStream, MissingValue, Result
 from uwsim.results.run_info import RunInfo
 
 S, SIGMA, D, ZNCC = 30.8, 5.1, 1.304, 0.5
@@ -39,7 +39,7 @@ def visibility(
     if several:
         columns = [Column(name="repeat", kind="run"), Column(name="seed", kind="run"), *columns]
     rows: list[tuple[Cell, ...]] = []
-    missing: list[Missing] = []
+    missing: list[MissingValue] = []
     for repeat, seed in enumerate(seeds):
         random = np.random.Generator(np.random.Philox(seed))
         loss = lost_at + 0.05 * int(random.integers(-1, 2)) * several
@@ -48,7 +48,7 @@ def visibility(
             lead = (repeat, seed) if several else ()
             if fog > loss - 1e-9:
                 missing += [
-                    Missing(row=len(rows), column=name, why=WHY)
+                    MissingValue(row=len(rows), column=name, why=WHY)
                     for name in ("corners", "centroid", "total")
                 ]
                 rows.append((*lead, fog, *(None,) * 6, "lost", 2.0 * (i + 1)))

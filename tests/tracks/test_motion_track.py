@@ -11,8 +11,8 @@ from tests.support.short_benchmark import run, write_benchmark
 from uwsim.errors import ResultError
 from uwsim.results.journal import track_path
 from uwsim.results.motion import Signal, TrackLevel, load_track, read_track, track_bytes
-from uwsim.results.motion.motion_track import quantised, steps_of
-from uwsim.results.motion.packing import shuffled, unshuffled
+from uwsim.results.motion.motion_track import quantise, steps_of
+from uwsim.results.motion.packing import pack_table, unpack_table
 
 LEVELS = (TrackLevel(values={"fog": 0.5}, began=1.0, duration=2.0, status="ok"),)
 SIGNALS = (Signal(name="fog", unit="1/m"),)
@@ -22,7 +22,7 @@ SIGNALS = (Signal(name="fog", unit="1/m"),)
 def test_packing_loses_nothing(shape: tuple[int, int]) -> None:
     random = np.random.default_rng(0)
     table = random.integers(-(2**31), 2**31, shape, dtype=np.int64).astype(np.int32)
-    assert (unshuffled(shuffled(table), *shape) == table).all()
+    assert (unpack_table(pack_table(table), *shape) == table).all()
 
 
 def written(n: int = 900) -> tuple[bytes, np.ndarray]:
@@ -32,7 +32,7 @@ def written(n: int = 900) -> tuple[bytes, np.ndarray]:
     rows[:, 3], rows[:, 6] = np.cos(0.1 * time), np.sin(0.1 * time)
     rows[:, 7] = 0.5
     rows[n // 2, 7] = np.nan
-    table = quantised(rows, steps_of(1, SIGNALS))
+    table = quantise(rows, steps_of(1, SIGNALS))
     return track_bytes(["rov/base"], SIGNALS, table, LEVELS), rows
 
 

@@ -19,8 +19,8 @@ from uwsim.errors import ResultError
 from uwsim.messages import Marker, Point, SpawnMarker
 from uwsim.results.journal import track_path
 from uwsim.results.motion import (
+    DrawnMarker,
     MarkerChange,
-    MarkerLook,
     load_track,
     markers_at,
     read_track,
@@ -72,7 +72,7 @@ def test_a_film_draws_them(result: Path) -> None:
 def test_the_page_draws_them(tab: Any, result: Path, tmp_path: Path) -> None:
     tab.goto(Replay(result).save(tmp_path / "replay.html").as_uri())
     tab.wait_for_function("window.uwsim !== undefined")
-    look = load_track(track_path(result, 0)).markers[0].look
+    look = load_track(track_path(result, 0)).markers[0].marker
     assert look is not None
     for time, names in TIMES.items():
         tab.evaluate("t => uwsim.seek(t)", time)
@@ -90,7 +90,9 @@ def test_the_switch_of_the_original_offers_no_markers(tmp_path: Path) -> None:
     assert load_track(track_path(tmp_path / "out", 0)).markers == ()
 
 
-LOOK = MarkerLook(colour="#00ff00", pose=(0.0, 0, 0, 1, 0, 0, 0), lines=(((0.0, 0, 0), (1, 0, 0)),))
+LOOK = DrawnMarker(
+    colour="#00ff00", pose=(0.0, 0, 0, 1, 0, 0, 0), lines=(((0.0, 0, 0), (1, 0, 0)),)
+)
 
 
 def test_a_marker_that_moves_takes_few_bytes_and_a_track_without_any_is_of_version_1() -> None:
@@ -99,7 +101,7 @@ def test_a_marker_that_moves_takes_few_bytes_and_a_track_without_any_is_of_versi
         MarkerChange(
             frame=3 * k,
             name="1+goal",
-            look=MarkerLook(
+            marker=DrawnMarker(
                 colour="#00ff00",
                 pose=(round(0.01 * k, 4), round(float(np.sin(0.1 * k)), 4), 0, 1, 0, 0, 0),
                 lines=LOOK.lines,
@@ -124,7 +126,11 @@ def test_a_marker_that_moves_takes_few_bytes_and_a_track_without_any_is_of_versi
 )
 def test_damaged_markers_of_a_track_are_an_error(changes: Any) -> None:
     data = track_bytes(
-        (), (), np.zeros((2, 0), np.int32), (), markers=[MarkerChange(frame=0, name="a", look=LOOK)]
+        (),
+        (),
+        np.zeros((2, 0), np.int32),
+        (),
+        markers=[MarkerChange(frame=0, name="a", marker=LOOK)],
     )
     line, _, rest = gzip.decompress(data).partition(b"\n")
     head = json.loads(line)
@@ -155,6 +161,6 @@ def test_a_program_cannot_make_a_track_grow_without_bounds(monkeypatch: pytest.M
             simulation.call("SpawnMarker", SpawnMarker(marker=new))
             log.look(k)
         assert len(log.changes) == 51
-        assert log.changes[-1].look is None
-        looks = [change.look for change in log.changes if change.look is not None]
+        assert log.changes[-1].marker is None
+        looks = [change.marker for change in log.changes if change.marker is not None]
         assert sum(len(line) for look in looks for line in look.lines) <= 300

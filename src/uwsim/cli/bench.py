@@ -138,7 +138,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes.
     --resume continues an interrupted run; trials that are run again are recorded anew.
     """
-    from ..results.directory import check, prepared
+    from ..results.directory import check, prepare_directory
     from ..runs.execute import execute, plan_all, prepare_execution
     from ..runs.executors.background import BackgroundProcess
 
@@ -184,7 +184,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
             execution = replace(execution, executor=SerialExecutor(onlooker, callback_limit=limit))
         execute(
             execution,
-            prepared(options.directory, **how, results=folders),
+            prepare_directory(options.directory, **how, results=folders),
             partial(BackgroundProcess, load_reporter),
             RunOutput(execution.runs, options.by.at_once).callbacks(),
         )

@@ -95,7 +95,7 @@ def compare(
     from ..analysis.comparison.document import json_text
     from ..analysis.comparison.terminal import drawn
     from ..analysis.comparison.write import FOLDERS, OURS
-    from ..results.directory import make_room
+    from ..results.directory import clear_directory
 
     paths, baseline = with_baseline(each_of(results), options.baseline)
     comparison = compare_files(
@@ -106,7 +106,7 @@ def compare(
         force=options.force,
     )
     out = place.out
-    make_room(out, overwrite=place.overwrite, ours=OURS, folders=FOLDERS)
+    clear_directory(out, overwrite=place.overwrite, pattern=OURS, folders=FOLDERS)
     if comparison.forced:
         warning = f"warning: not of one experiment: {'; '.join(comparison.forced)}"
         print(clean_text(warning), file=sys.stderr)

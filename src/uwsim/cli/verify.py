@@ -73,12 +73,12 @@ class SampleOptions:
         Raises:
             ResultError: none is finished.
         """
-        from ..results.interrupted import resuming
+        from ..results.interrupted import resume_command
         from ..verify.verify import choose, finished
 
         whole = finished(run.out, run.plan, stored)
         if not whole:
-            command = resuming(run.out)
+            command = resume_command(run.out)
             how = f" Resume with: {command}" if command else ""
             raise ResultError(f"{run.out}: no trial of it is finished: nothing to verify.{how}")
         drawn = secrets.randbelow(SEEDS) if self.sample_seed is None else self.sample_seed

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..errors import BadSetting
-from ..results.directory import alone_in, check_begun, check_room, discard_drafts, empty
+from ..results.directory import check_output, check_resume, discard_drafts, empty, lock_directory
 
 OURS = re.compile(
     r"""(?x)
@@ -25,16 +25,16 @@ def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     if resume:
-        check_begun(directory, ours=OURS, folders=FOLDERS)
+        check_resume(directory, pattern=OURS, folders=FOLDERS)
     else:
         hint = "Use --resume to use its runs, or --overwrite to start anew."
-        check_room(directory, overwrite=overwrite, ours=OURS, folders=FOLDERS, hint=hint)
+        check_output(directory, overwrite=overwrite, pattern=OURS, folders=FOLDERS, hint=hint)
 
 
 @contextmanager
 def prepared(directory: Path, *, resume: bool, overwrite: bool) -> Iterator[None]:
     """Lock the directory and remove an earlier envelope unless its runs are reused."""
-    with alone_in(directory):
+    with lock_directory(directory):
         check_out(directory, resume=resume, overwrite=overwrite)
         if not resume:
             empty(directory)

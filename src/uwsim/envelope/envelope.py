@@ -152,8 +152,8 @@ class Envelope:
         asked, median = self.asked, self.median
         return {
             "format": FORMAT,
-            "inputs": self.inputs.stored(),
-            "run": self.run.stored(),
+            "inputs": self.inputs.as_dict(),
+            "run": self.run.as_dict(),
             "over": asked.over,
             "unit": None if asked.unit == "1" else asked.unit,
             "until": asked.until,

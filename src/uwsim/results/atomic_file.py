@@ -11,7 +11,7 @@ from pathlib import Path
 from ..errors import name_file_in_errors
 
 DRAFT = re.compile(r"\.(.+)\.[0-9]+\.part")
-"""Name of a draft: the file's name and the process that writes it."""
+"""The name of a draft: the file's name and the process that writes it."""
 
 
 def write_text(path: Path, text: str) -> None:
@@ -26,7 +26,7 @@ def write_text(path: Path, text: str) -> None:
 def atomic_write(path: Path) -> Iterator[Path]:
     """Yield a temporary path; it replaces the file when the block ends without error.
 
-    Two processes may write the same file at once: there is a draft each, and the last one stays.
+    Two processes may write the same file at once: each has a draft, and the last one replaces it.
     """
     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
@@ -38,6 +38,6 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def name_of_draft(name: str) -> str | None:
-    """Return the name of the file that a draft is of; None where it is no draft of ours."""
-    found = DRAFT.fullmatch(name)
-    return None if found is None else found[1]
+    """Return the name of the file whose draft this is; None where the name is no draft's."""
+    match = DRAFT.fullmatch(name)
+    return None if match is None else match[1]

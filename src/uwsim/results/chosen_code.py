@@ -1,9 +1,9 @@
 """The code paths that numerical libraries have chosen for this processor.
 
-numpy, OpenCV, OpenBLAS and numba hold several codes for one function, or compile it, and take what
-suits the processor, or what environment variables say. What makes numbers here gives the same bytes
-with any of them (``tests/test_same_bytes.py``); an algorithm or a measure of one's own may not. So
-a result says what was chosen, and a comparison that finds other bytes reports a difference here.
+numpy, OpenCV, OpenBLAS and numba have several codes for one function, or compile it. They choose
+one for the processor, or as environment variables set. The numbers of `uwsim` have the same bytes
+with any of them (``tests/test_same_bytes.py``); a user's own algorithm or measure may not. So a
+result states the choice, and a comparison that finds other bytes reports a different choice.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from contextlib import suppress
 import numpy as np
 
 Code = dict[str, list[str]]
-"""Library -> names of what it has chosen."""
+"""The names of the code paths that each library has chosen."""
 BLAS_NAMES = (
     "scipy_openblas_get_corename64_",
     "scipy_openblas_get_corename",
     "openblas_get_corename",
 )
 """The function of OpenBLAS that names its kernels, as builds of numpy call it."""
-SHOWN = 6
-"""Greatest number of names listed."""
+MAX_NAMES = 6
+"""The greatest number of names listed."""
 
 
 def chosen_code() -> Code:
-    """Return what each library has chosen in this process."""
+    """Return the code paths that each library has chosen in this process."""
     import cv2
     from numba.core.registry import cpu_target
 
@@ -43,32 +43,32 @@ def chosen_code() -> Code:
     }
 
 
-def other_code(recorded: object) -> str:
-    """Return the differences between a recorded choice and that of this process.
+def code_differences(recorded_code: object) -> str:
+    """Return the differences between recorded code paths and those of this process.
 
-    Empty where both are the same, or nothing is recorded.
+    The text is empty where both are the same, or nothing is recorded.
     """
-    if not isinstance(recorded, Mapping):
+    if not isinstance(recorded_code, Mapping):
         return ""
     messages = []
-    for library, here in chosen_code().items():
-        there = recorded.get(library)
-        if not isinstance(there, list) or there == here:
+    for library, current_names in chosen_code().items():
+        recorded_names = recorded_code.get(library)
+        if not isinstance(recorded_names, list) or recorded_names == current_names:
             continue
-        before = names_text([name for name in there if name not in here])
-        now = names_text([name for name in here if name not in there])
-        messages.append(f"{library} {before} there, {now} here")
+        recorded_text = names_text([name for name in recorded_names if name not in current_names])
+        current_text = names_text([name for name in current_names if name not in recorded_names])
+        messages.append(f"{library} {recorded_text} there, {current_text} here")
     return "; ".join(messages)
 
 
 def names_text(names: Sequence[object]) -> str:
-    """Say some names, not all of very many."""
-    more = f" and {len(names) - SHOWN} more" if len(names) > SHOWN else ""
-    return f"{' '.join(map(str, names[:SHOWN]))}{more}" if names else "nothing more"
+    """List names, up to `MAX_NAMES`."""
+    rest = f" and {len(names) - MAX_NAMES} more" if len(names) > MAX_NAMES else ""
+    return f"{' '.join(map(str, names[:MAX_NAMES]))}{rest}" if names else "nothing more"
 
 
 def _blas_kernels() -> str:
-    """Name OpenBLAS's kernels; ``unknown`` with another BLAS."""
+    """Return the name of OpenBLAS's kernels; ``unknown`` with another BLAS."""
     library = ctypes.CDLL(importlib.import_module("numpy._core._multiarray_umath").__file__)
     for name in BLAS_NAMES:
         with suppress(AttributeError):

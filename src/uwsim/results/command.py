@@ -1,4 +1,4 @@
-"""The command line that leads to a result, from what the result says of its run."""
+"""The command line that leads to a result, from the run that the result describes."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .run_info import RunInfo
 def bench_words(
     run: RunInfo, inputs: Inputs, *, algorithms: Sequence[str], repeats: int
 ) -> list[str]:
-    """Return the words of ``uwsim bench ...``, without those that say where the result goes.
+    """Return the words of ``uwsim bench ...``, without the output directory.
 
     Args:
-        run: of one of the algorithms.
+        run: the run of one of the algorithms.
         inputs: its inputs.
-        algorithms: what is tested; several are run together.
+        algorithms: the algorithms under test; several are run together.
         repeats: number of repeats.
     """
     words = ["uwsim", "bench", _benchmark(inputs)]
@@ -41,7 +41,7 @@ def bench_words(
 
 
 def _benchmark(inputs: Inputs) -> str:
-    """The benchmark's file; by its bare name where it is bundled."""
+    """Return the benchmark's file, or its bare name if it is bundled."""
     if inputs.benchmark is None:
         return "BENCHMARK"
     name = inputs.benchmark[0]

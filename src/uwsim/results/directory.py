@@ -16,12 +16,12 @@ from .atomic_file import name_of_draft
 from .provenance import load_provenance
 
 CONTROL = "control"
-"""Folder of the control's own result."""
+"""The folder of the control's own result."""
 REPORT = "report.html"
-"""What a reader opens first."""
+"""The report, the first page for a reader."""
 REPLAY = "replay.html"
-"""The page in which the trials are seen again; made on request (``uwsim replay``)."""
-OURS = re.compile(
+"""The page that replays the trials; ``uwsim replay`` writes it."""
+FILE_NAMES = re.compile(
     r"""(?x) ((?!units/|plots/|pictures/)[^/]+/)? (control/)? (
         result\.json | measures\.json | result\.dat | summary\.csv | provenance\.json
       | report\.html | replay\.html
@@ -31,78 +31,76 @@ OURS = re.compile(
       | pictures/\d+-[^/]+\.png(\.part)?
     )"""
 )
-"""Files that uwsim writes into a result directory, or into folders of it for each algorithm; each
+"""The files that uwsim writes into a result directory, or into its folders for each algorithm; each
 may have drafts next to it."""
 FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL)
 
 
 @contextmanager
-def prepared(
+def prepare_directory(
     directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()
 ) -> Iterator[None]:
     """Lock ``directory`` and empty it for one or several results.
 
-    Nothing is removed before the directory is one's own, and nothing is gone on with that uwsim
-    has not begun.
+    Nothing is removed before the lock is held. Only a run that uwsim has begun is resumed.
 
     Args:
-        directory: need not be there.
-        resume: whether what is there is to be gone on with.
-        overwrite: whether what is there is to be replaced.
-        results: names of the folders of several results.
+        directory: the directory, which need not exist.
+        resume: whether to continue the run in the directory.
+        overwrite: whether to replace the content of the directory.
+        results: the names of the folders of several results.
 
     Raises:
-        BadSetting: it is not empty and neither option was given; or it is to be overwritten and
-        holds
-            anything that uwsim did not write; or it is to be gone on with and holds no run; or
+        BadSetting: the directory is not empty and neither option is set; or it is to be
+            overwritten and holds files that uwsim did not write; or it holds no run to resume; or
             another run is writing into it.
     """
     with ExitStack() as stack:
-        stack.enter_context(alone_in(directory))
+        stack.enter_context(lock_directory(directory))
         check(directory, resume=resume, overwrite=overwrite, results=results)
         for name in results:
-            stack.enter_context(alone_in(directory / name))
+            stack.enter_context(lock_directory(directory / name))
         if not resume:
             for name in results:
                 empty(directory / name)
             empty(directory, keep=results)
-        discard_drafts(directory, OURS, (*FOLDERS, *results))
+        discard_drafts(directory, FILE_NAMES, (*FOLDERS, *results))
         yield
 
 
 def check(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()) -> None:
-    """Make the checks of `prepared` but that of the lock; changes nothing."""
+    """Make the checks of `prepare_directory`, except that of the lock; change nothing."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     folders = (*FOLDERS, *results)
     if resume:
-        check_begun(directory, ours=OURS, folders=folders, results=results)
+        check_resume(directory, pattern=FILE_NAMES, folders=folders, results=results)
     else:
-        hint = "Use --resume to go on, or --overwrite to start anew."
-        check_room(directory, overwrite=overwrite, ours=OURS, folders=folders, hint=hint)
+        hint = "Use --resume to continue, or --overwrite to start anew."
+        check_output(directory, overwrite=overwrite, pattern=FILE_NAMES, folders=folders, hint=hint)
 
 
-def check_begun(
+def check_resume(
     directory: Path,
     *,
-    ours: re.Pattern[str],
+    pattern: re.Pattern[str],
     folders: tuple[str, ...],
     results: Sequence[str] = (),
 ) -> None:
-    """Refuse to resume in a directory with other files; changes nothing.
+    """Refuse to resume in a directory with other files; change nothing.
 
-    What a run leaves that was killed before it wrote anything is empty folders, and drafts.
+    A run that was killed before it wrote a row leaves empty folders and drafts.
 
     Args:
-        directory: need not be there.
-        ours: names of the files that uwsim writes there, relative to it.
-        folders: names of the folders that it writes there.
-        results: names of the folders of several results; a result is the directory itself if
-            there are none.
+        directory: the directory, which need not exist.
+        pattern: the paths of the files that uwsim writes there, relative to it.
+        folders: the names of the folders that it writes there.
+        results: the names of the folders of several results; if there are none, the directory
+            itself is a result.
 
     Raises:
-        BadSetting: it is no directory; or one of those that are to be written into holds
-            something, but no run that uwsim has begun.
+        BadSetting: the path is not a directory; or a folder that is to be written into holds
+            files, but no run of uwsim.
     """
     _refuse_file(directory)
     places = [directory / name for name in results] or [directory]
@@ -111,71 +109,72 @@ def check_begun(
     for place in places:
         if is_begun(place):
             continue
-        held = next(_kept(place, ours, folders), None)
-        if held is not None:
+        file_name = next(_finished_files(place, pattern, folders), None)
+        if file_name is not None:
             raise BadSetting(
-                f"--out {place}: holds {held!r}, and no run of uwsim to resume; "
-                "nothing was changed. Without --resume a new directory is begun."
+                f"--out {place}: holds {file_name!r}, but no run of uwsim to resume; "
+                "nothing was changed. Omit --resume to begin a new run."
             )
 
 
 def is_begun(directory: Path) -> bool:
-    """Whether a run was begun here: it has a provenance or a journal."""
+    """Return whether a run was begun here: the directory has a provenance or a journal."""
     if isinstance(load_provenance(directory).get("command"), list):
         return True
     files = sorted((directory / journal.FOLDER).glob("*.jsonl"))
     return any("run" in journal.head_of(file) for file in files)
 
 
-def make_room(
+def clear_directory(
     directory: Path,
     *,
     overwrite: bool,
-    ours: re.Pattern[str],
+    pattern: re.Pattern[str],
     folders: tuple[str, ...],
-    hint: str = "Use --overwrite to replace what is there.",
+    hint: str = "Use --overwrite to replace its content.",
 ) -> None:
-    """Empty a directory if ``overwrite`` is set; refuses foreign files (`check_room`)."""
-    check_room(directory, overwrite=overwrite, ours=ours, folders=folders, hint=hint)
+    """Empty a directory if ``overwrite`` is set; refuse foreign files (`check_output`)."""
+    check_output(directory, overwrite=overwrite, pattern=pattern, folders=folders, hint=hint)
     empty(directory)
 
 
-def check_room(
+def check_output(
     directory: Path,
     *,
     overwrite: bool,
-    ours: re.Pattern[str],
+    pattern: re.Pattern[str],
     folders: tuple[str, ...],
     hint: str,
 ) -> None:
-    """Refuse a directory that may not be emptied; nothing is changed.
+    """Refuse a directory that may not be emptied; change nothing.
 
     Args:
-        directory: need not be there.
+        directory: the directory, which need not exist.
         overwrite: whether the directory may be emptied.
-        ours: names of the files that uwsim writes there, relative to it.
-        folders: names of the folders that it writes there.
-        hint: what to do about one that is not empty.
+        pattern: the paths of the files that uwsim writes there, relative to it.
+        folders: the names of the folders that it writes there.
+        hint: the options for a directory that is not empty.
 
     Raises:
-        BadSetting: it is no directory; it is not empty and may not be emptied; or it holds anything
-            that uwsim does not write there.
+        BadSetting: the path is not a directory; it is not empty and may not be emptied; or it
+            holds files that uwsim does not write there.
     """
     _refuse_file(directory)
     if not directory.is_dir() or not any(directory.iterdir()):
         return
     if not overwrite:
         raise BadSetting(f"--out {directory}: not empty. {hint}")
-    strange = next(_strange(directory, ours, folders), None)
-    if strange is not None:
+    names = (str(path) for path, is_ours in _files(directory, pattern, folders) if not is_ours)
+    file_name = next(names, None)
+    if file_name is not None:
         raise BadSetting(
-            f"--out {directory}: holds {strange!r}, which does not belong there; "
+            f"--out {directory}: holds {file_name!r}, which does not belong there; "
             "nothing was overwritten."
         )
 
 
 def empty(directory: Path, keep: Sequence[str] = ()) -> None:
-    """Remove all that is in a directory, which need not be there, but what is to be kept."""
+    """Remove the content of a directory, which need not exist, except the names to keep."""
     if not directory.is_dir():
         return
     for name in [path.name for path in directory.iterdir() if path.name not in keep]:
@@ -183,41 +182,38 @@ def empty(directory: Path, keep: Sequence[str] = ()) -> None:
         shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
 
 
-def discard_drafts(directory: Path, ours: re.Pattern[str], folders: tuple[str, ...]) -> None:
-    """Remove what processes that were killed had not finished writing, of our own files only."""
-    for path, is_ours in _files(directory, ours, folders):
+def discard_drafts(directory: Path, pattern: re.Pattern[str], folders: tuple[str, ...]) -> None:
+    """Remove drafts of uwsim's files, which killed processes had not finished."""
+    for path, is_ours in _files(directory, pattern, folders):
         if is_ours and name_of_draft(path.name) is not None:
             (directory / path).unlink(missing_ok=True)
 
 
-def _strange(directory: Path, ours: re.Pattern[str], known: tuple[str, ...]) -> Iterator[str]:
-    """Names, relative to the directory, of files that uwsim did not write."""
-    return (str(path) for path, is_ours in _files(directory, ours, known) if not is_ours)
-
-
-def _kept(directory: Path, ours: re.Pattern[str], known: tuple[str, ...]) -> Iterator[str]:
-    """Names, relative to the directory, of what is neither an empty folder nor a draft of ours."""
-    for path, is_ours in _files(directory, ours, known):
+def _finished_files(
+    directory: Path, pattern: re.Pattern[str], folders: tuple[str, ...]
+) -> Iterator[str]:
+    """Yield the names, relative to the directory, of all but empty folders and drafts of uwsim."""
+    for path, is_ours in _files(directory, pattern, folders):
         if not is_ours or name_of_draft(path.name) is None:
             yield str(path)
 
 
 def _files(
-    directory: Path, ours: re.Pattern[str], known: tuple[str, ...]
+    directory: Path, pattern: re.Pattern[str], folders: tuple[str, ...]
 ) -> Iterator[tuple[Path, bool]]:
-    """Files, relative to the directory, and whether uwsim wrote them.
+    """Yield the files, relative to the directory, and whether uwsim wrote them.
 
-    A folder that is not known, and a link, is one that it did not write; no other is looked into.
+    Unknown folders and links count as files that it did not write; their content is not read.
     """
-    for folder, folders, files in os.walk(directory):
-        here = Path(folder).relative_to(directory)
-        strange = [n for n in folders if n not in known or (Path(folder) / n).is_symlink()]
-        folders[:] = sorted(set(folders) - set(strange))
-        yield from ((here / name, False) for name in sorted(strange))
+    for root, subfolders, files in os.walk(directory):
+        parent = Path(root).relative_to(directory)
+        extra_names = [n for n in subfolders if n not in folders or (Path(root) / n).is_symlink()]
+        subfolders[:] = sorted(set(subfolders) - set(extra_names))
+        yield from ((parent / name, False) for name in sorted(extra_names))
         for name in sorted(files):
-            finished = here / (name_of_draft(name) or name)
-            is_link = (directory / here / name).is_symlink()
-            yield here / name, not is_link and ours.fullmatch(finished.as_posix()) is not None
+            target = parent / (name_of_draft(name) or name)
+            is_link = (directory / parent / name).is_symlink()
+            yield parent / name, not is_link and pattern.fullmatch(target.as_posix()) is not None
 
 
 def _refuse_file(directory: Path) -> None:
@@ -226,8 +222,8 @@ def _refuse_file(directory: Path) -> None:
 
 
 @contextmanager
-def alone_in(directory: Path) -> Iterator[None]:
-    """Lock a result directory, which is made if necessary.
+def lock_directory(directory: Path) -> Iterator[None]:
+    """Lock a result directory, which is created if necessary.
 
     Raises:
         BadSetting: another run is writing into it.

@@ -1,9 +1,9 @@
 """The ``inputs`` of a result: every input file by role and name, with its hash.
 
-``benchmark``, ``scene`` and ``plugins`` are name and hash; ``assets`` are what the scene and the
-benchmark name: robots, vehicles' parts, models with their materials, buffers and images, data of
-currents, the user's own functions, recordings; ``algorithm`` is the source of one's own
-``module:Class`` and of what it imports.
+``benchmark``, ``scene`` and ``plugins`` are name and hash. ``assets`` are the files that the scene
+and the benchmark name: robots, vehicles' parts, models with their materials, buffers and images,
+data of currents, the user's own functions, recordings. ``algorithm`` is the source of a user's own
+``module:Class`` and of the modules that it imports.
 """
 
 from __future__ import annotations
@@ -15,37 +15,37 @@ from typing import ClassVar
 from .stored.record import StoredRecord
 
 ASSETS = "assets"
-"""The role of what scene and benchmark name."""
+"""The role of the files that scene and benchmark name."""
 ALGORITHM = "algorithm"
 """The role of an algorithm's sources."""
 NO_HASH = "sha256:"
-"""What earlier versions stored for boxes, cylinders and spheres."""
-SHORT = 12
-"""Digits of a hash that are shown to people."""
-NAMED = 6
-"""Greatest number of differences listed."""
+"""The hash that earlier versions stored for boxes, cylinders and spheres."""
+HASH_DIGITS = 12
+"""The number of digits of a hash that texts show."""
+MAX_LINES = 6
+"""The greatest number of differences listed."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Inputs(StoredRecord):
-    """Names and hashes of the files read; None where a result does not say."""
+    """The names and hashes of the files read; None where a result does not state them."""
 
     KEY: ClassVar[str] = "inputs"
 
     benchmark: tuple[str, str] | None = None
-    """Name and hash of the benchmark."""
+    """The name and hash of the benchmark."""
     scene: tuple[str, str] | None = None
-    """Name and hash of the scene."""
+    """The name and hash of the scene."""
     assets: Mapping[str, str] | None = None
-    """Name -> hash of what scene and benchmark name."""
+    """The hash of each file that scene and benchmark name."""
     plugins: tuple[tuple[str, str], ...] | None = None
-    """Name and hash of each plugin."""
+    """The name and hash of each plugin."""
     algorithm: Mapping[str, str] | None = None
-    """Name -> hash of an algorithm's sources."""
+    """The hash of each source file of the algorithm."""
 
     @property
     def title(self) -> str:
-        """Name of the benchmark without its ending; ``benchmark`` where there is none."""
+        """The name of the benchmark without its suffix; ``benchmark`` where there is none."""
         return "benchmark" if self.benchmark is None else self.benchmark[0].removesuffix(".xml")
 
     def files(self) -> Iterator[tuple[str, str, str]]:
@@ -61,31 +61,34 @@ class Inputs(StoredRecord):
         yield from (("plugins", *file) for file in self.plugins or ())
         yield from ((ALGORITHM, *file) for file in (self.algorithm or {}).items())
 
-    def without_algorithm(self) -> Inputs:
-        """Return the inputs without those of the algorithm."""
+    def drop_algorithm(self) -> Inputs:
+        """Return the inputs without the files of the algorithm."""
         return replace(self, algorithm=None)
 
 
-def differing(before: Inputs, now: Inputs) -> list[str]:
-    """Return the differing inputs, a line each."""
-    then, today = ({(r, n): d for r, n, d in each.files()} for each in (before, now))
-    messages = []
-    for role, name in dict.fromkeys([*then, *today]):
-        old, new = then.get((role, name)), today.get((role, name))
+def input_differences(old_inputs: Inputs, new_inputs: Inputs) -> list[str]:
+    """Return the differences between two sets of inputs, a line each."""
+    old_files, new_files = (
+        {(r, n): d for r, n, d in inputs.files()} for inputs in (old_inputs, new_inputs)
+    )
+    lines = []
+    for role, name in dict.fromkeys([*old_files, *new_files]):
+        old_hash, new_hash = old_files.get((role, name)), new_files.get((role, name))
         file = name if role == ASSETS else f"{role} {name}"
-        if old is None:
-            messages.append(f"{file} was not used then")
-        elif new is None:
-            messages.append(f"{file} is not used any more")
-        elif old != new:
-            messages.append(
-                f"{file} is another file now ({short_hash(old)} then, {short_hash(new)} now)"
+        if old_hash is None:
+            lines.append(f"{file} was not used then")
+        elif new_hash is None:
+            lines.append(f"{file} is not used any more")
+        elif old_hash != new_hash:
+            lines.append(
+                f"{file} is another file now ({short_hash(old_hash)} then, "
+                f"{short_hash(new_hash)} now)"
             )
     return (
-        messages if len(messages) <= NAMED else [*messages[:NAMED], f"{len(messages) - NAMED} more"]
+        lines if len(lines) <= MAX_LINES else [*lines[:MAX_LINES], f"{len(lines) - MAX_LINES} more"]
     )
 
 
 def short_hash(digest: object) -> str:
     """Return the first digits of a hash."""
-    return str(digest).removeprefix("sha256:")[:SHORT]
+    return str(digest).removeprefix("sha256:")[:HASH_DIGITS]

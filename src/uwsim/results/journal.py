@@ -1,8 +1,8 @@
 """Journals: a file for each trial, with a line for each finished row.
 
 A line is written whole and flushed before the next level begins, so a killed run loses at most the
-level it was in. The first line identifies the trial, the last says that it is finished. A line
-that was cut off does not count.
+level it was in. The first line identifies the trial, the last one marks its end. A line that was
+cut off does not count.
 """
 
 from __future__ import annotations
@@ -14,104 +14,104 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ReplayDiffers, ResultError, name_file_in_errors
-from .chosen_code import other_code
-from .inputs import Inputs, differing
+from .chosen_code import code_differences
+from .inputs import Inputs, input_differences
 from .provenance import codes_of, load_provenance
-from .seal import SEALED, Seal
+from .seal import SEALED_KEY, Seal
 from .stored.stored_row import Record, StoredEnd, StoredRow
 from .stored.stored_shapes import END, HEAD, ROW
 
 FOLDER = "units"
 TRACK = ".motion"
-"""Suffix of the motion track of a trial, beside its journal."""
+"""The suffix of the motion track of a trial, beside its journal."""
 INPUTS = ".inputs"
-"""Suffix of what a pilot did in a trial, beside its journal."""
-REFUSED = "refused"
-"""Key of a row -> what came from programs that do not take part."""
+"""The suffix of a pilot's inputs in a trial, beside its journal."""
+REFUSED_KEY = "refused"
+"""The key, in a row, of messages from programs that do not take part."""
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
-"""Key of a line -> shape of its value."""
+"""The shape of the value for each key of a line."""
 MAX_LINE_LENGTH = 200
-"""Greatest number of letters printed of one difference."""
+"""The greatest number of letters printed of one difference."""
 MAX_LINES = 6
-"""Greatest number of differences printed."""
+"""The greatest number of differences printed."""
 
 
 @dataclass(frozen=True)
-class Stored:
+class StoredTrial:
     """The content of a journal."""
 
     rows: tuple[StoredRow, ...]
-    """Rows finished, in order."""
+    """The finished rows, in order."""
     end: StoredEnd | None
     """The end of a finished trial; None while it is not finished."""
 
 
-NOTHING = Stored((), None)
-"""What is stored of a trial that was not begun."""
+EMPTY_JOURNAL = StoredTrial((), None)
+"""The content of a trial that was not begun."""
 
 
 def path_of(directory: Path, index: int) -> Path:
-    """Return where the trial number ``index`` is kept."""
+    """Return the path of the journal of the trial number ``index``."""
     return directory / FOLDER / f"{index:05d}.jsonl"
 
 
 def track_path(directory: Path, index: int) -> Path:
-    """Return where the motion track of the trial number ``index`` is kept."""
+    """Return the path of the motion track of the trial number ``index``."""
     return path_of(directory, index).with_suffix(TRACK)
 
 
 def recorded_trials(directory: Path) -> tuple[int, ...]:
-    """Return the numbers of the trials whose motion is in a result directory."""
+    """Return the numbers of the trials that have a motion track in a result directory."""
     tracks = (directory / FOLDER).glob(f"*{TRACK}")
     return tuple(sorted(int(path.stem) for path in tracks if path.stem.isdecimal()))
 
 
 def trials_without_motion(directory: Path) -> tuple[int, ...]:
-    """Return the numbers of the finished trials whose motion is not there."""
-    there = recorded_trials(directory)
+    """Return the numbers of the finished trials without a motion track."""
+    recorded_numbers = recorded_trials(directory)
     files = (directory / FOLDER).glob("*.jsonl")
     numbers = sorted(int(path.stem) for path in files if path.stem.isdecimal())
     return tuple(
         index
         for index in numbers
-        if index not in there and read_any(path_of(directory, index))[1].end is not None
+        if index not in recorded_numbers and read_any(path_of(directory, index))[1].end is not None
     )
 
 
-def read(directory: Path, index: int, head: Record, seal: Seal | None = None) -> Stored:
+def read(directory: Path, index: int, head: Record, seal: Seal | None = None) -> StoredTrial:
     """Read a journal; a missing file has no rows.
 
     Args:
-        directory: of the result.
-        index: number of the trial.
-        head: identity of the trial.
-        seal: with which rows are sealed while the run goes on.
+        directory: the directory of the result.
+        index: the number of the trial.
+        head: the identity of the trial.
+        seal: the seal of rows while the run goes on.
 
     Raises:
         ResultError: the file belongs to another run.
     """
     path = path_of(directory, index)
-    found, stored = read_any(path, seal)
-    if found is not None and found != head:
+    stored_head, content = read_any(path, seal)
+    if stored_head is not None and stored_head != head:
         raise ResultError(
-            f"{path}: belongs to another run: {_other_run(found, head)}. "
+            f"{path}: belongs to another run: {_other_run(stored_head, head)}. "
             "Start anew with --overwrite, or choose another --out."
         )
-    return stored
+    return content
 
 
-def level_difference(stored: Stored, levels: Sequence[Sequence[float]]) -> str | None:
-    """Return where the rows of a trial are not its levels, in their order; None if they are.
+def level_difference(content: StoredTrial, levels: Sequence[Sequence[float]]) -> str | None:
+    """Return the first row that does not match its level; None if all rows match.
 
     Args:
-        stored: its journal; one that is not finished may have fewer rows.
-        levels: its levels, the values of each.
+        content: the journal of the trial; an unfinished one may have fewer rows.
+        levels: the values of each level of the trial, in order.
     """
-    rows = [list(row.values) for row in stored.rows]
-    for number, (there, level) in enumerate(zip(rows, map(list, levels), strict=False)):
-        if there != level:
-            return f"row {number} is of the level {_values(there)}; expected {_values(level)}"
-    if len(rows) > len(levels) or (stored.end is not None and len(rows) < len(levels)):
+    rows = [list(row.values) for row in content.rows]
+    for number, (values, level) in enumerate(zip(rows, map(list, levels), strict=False)):
+        if values != level:
+            return f"row {number} is of the level {_values(values)}; expected {_values(level)}"
+    if len(rows) > len(levels) or (content.end is not None and len(rows) < len(levels)):
         return f"{len(rows)} rows; expected {len(levels)}, one for each level of the trial"
     return None
 
@@ -120,37 +120,37 @@ def _values(level: Sequence[float]) -> str:
     return ", ".join(map(repr, level)) or "None"
 
 
-def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, Stored]:
-    """Read a journal of any run: its head and its content, up to what is sealed.
+def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, StoredTrial]:
+    """Read a journal of any run: its head and its content, up to the first sealed line.
 
     Raises:
-        ResultError: a line is not that of a journal.
+        ResultError: a line is not a line of a journal.
     """
     if not path.exists():
-        return None, NOTHING
+        return None, EMPTY_JOURNAL
     lines = path.read_bytes().split(b"\n")[:-1]  # what follows the last newline was cut off
-    found: dict[str, list[Record]] = {kind: [] for kind in KINDS}
+    records: dict[str, list[Record]] = {kind: [] for kind in KINDS}
     for number, line in enumerate(lines, start=1):
         try:
-            record = json.loads(line, parse_constant=_refuse_constant)
-            if isinstance(record, dict) and SEALED in record:
+            record = json.loads(line, parse_constant=_reject_nan)
+            if isinstance(record, dict) and SEALED_KEY in record:
                 if seal is None:
-                    break  # of a run that goes on, or was lost when the machine went down
-                record = json.loads(_opened(record[SEALED], seal), parse_constant=_refuse_constant)
+                    break  # the run goes on, or its key was lost when the machine went down
+                record = json.loads(_unseal(record[SEALED_KEY], seal), parse_constant=_reject_nan)
             kind = _kind(record, is_first=number == 1)
             KINDS[kind](record[kind], kind)
         except (ValueError, RecursionError):
             break  # the disk was full, or the machine went down
         except ResultError as error:
             raise ResultError(f"{path}:{number}: {error}") from None
-        if found["end"]:
-            raise ResultError(f"{path}:{number}: it is behind the end of its trial; expected none.")
-        found[kind].append(record[kind])
-    if not found["unit"]:
-        return None, NOTHING
-    ends = found["end"]
-    rows = tuple(map(StoredRow.of, found["row"]))
-    return found["unit"][0], Stored(rows, StoredEnd.of(ends[0]) if ends else None)
+        if records["end"]:
+            raise ResultError(f"{path}:{number}: it follows the end of its trial; expected none.")
+        records[kind].append(record[kind])
+    if not records["unit"]:
+        return None, EMPTY_JOURNAL
+    ends = records["end"]
+    rows = tuple(map(StoredRow.from_dict, records["row"]))
+    return records["unit"][0], StoredTrial(rows, StoredEnd.from_dict(ends[0]) if ends else None)
 
 
 def head_of(path: Path) -> Record:
@@ -165,25 +165,25 @@ def head_of(path: Path) -> Record:
 
 
 def _kind(record: object, *, is_first: bool) -> str:
-    """Return the kind of a line; raises ResultError."""
-    wanted = ("unit",) if is_first else ("row", "end")
+    """Return the kind of a line; raise ResultError if it has none."""
+    kinds = ("unit",) if is_first else ("row", "end")
     if isinstance(record, dict):
-        for kind in wanted:
+        for kind in kinds:
             if kind in record:
                 return kind
-    shown = repr(record)[:60]
-    raise ResultError(f"found {shown}; expected an object with {' or '.join(map(repr, wanted))}.")
+    excerpt = repr(record)[:60]
+    raise ResultError(f"found {excerpt}; expected an object with {' or '.join(map(repr, kinds))}.")
 
 
-def _opened(content: object, seal: Seal) -> str:
-    """Return a line that is sealed; raises ResultError."""
+def _unseal(content: object, seal: Seal) -> str:
+    """Return the text of a sealed line; raise ResultError if it cannot be decrypted."""
     try:
         return seal.text(content)
     except ValueError as error:
         raise ResultError(f"a sealed row cannot be read: {error}.") from None
 
 
-def _refuse_constant(text: str) -> object:
+def _reject_nan(text: str) -> object:
     raise ResultError(f"it contains {text}; a missing value is null.")
 
 
@@ -197,13 +197,13 @@ def cut_back(directory: Path, index: int, n_rows: int) -> None:
 
 
 class Journal:
-    """Writes a journal; rows that exist already are compared.
+    """A writer of a journal; rows that exist already are compared.
 
     Args:
-        directory: of the result.
-        index: number of the trial.
-        head: identity of the trial, which is never sealed.
-        seal: with which rows are sealed, if they are.
+        directory: the directory of the result.
+        index: the number of the trial.
+        head: the identity of the trial, which is never sealed.
+        seal: the seal of the rows; None where they are not sealed.
 
     Raises:
         ReplayDiffers: a repeated row differs from the stored one.
@@ -212,28 +212,28 @@ class Journal:
     def __init__(self, directory: Path, index: int, head: Record, seal: Seal | None = None) -> None:
         self._path, self._seal = path_of(directory, index), seal
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        self._stored = read(directory, index, head, seal)
+        self._content = read(directory, index, head, seal)
         self._n_rows, self._is_finished = 0, False
         self._stream = self._path.with_suffix(".part").open("w", encoding="utf-8", newline="\n")
         self._write({"unit": head})
-        for row in self._stored.rows:
+        for row in self._content.rows:
             self._write({"row": row.record()})
         self._publish()
 
     def add(self, row: StoredRow) -> bool:
-        """Add a row, or compare it with the stored one; returns whether it is new."""
-        again = _as_read(row)
-        is_new = self._n_rows >= len(self._stored.rows)
+        """Add a row, or compare it with the stored one; return whether it is new."""
+        new_record = _round_trip(row)
+        is_new = self._n_rows >= len(self._content.rows)
         if not is_new:
-            before = _as_read(self._stored.rows[self._n_rows])
-            if _text(_own(before)) != _text(_own(again)):
+            stored_record = _round_trip(self._content.rows[self._n_rows])
+            if _text(_repeatable_part(stored_record)) != _text(_repeatable_part(new_record)):
                 raise ReplayDiffers(
                     f"{self._path}: row {self._n_rows}, repeated, differs from the stored one "
-                    f"in {_difference(before, again)}. The run is not repeatable here: "
-                    f"{self._why_not()} Start anew with --overwrite."
+                    f"in {_difference(stored_record, new_record)}. The run is not repeatable here: "
+                    f"{self._possible_reason()} Start anew with --overwrite."
                 )
         else:
-            self._write({"row": again})
+            self._write({"row": new_record})
         self._n_rows += 1
         return is_new
 
@@ -244,9 +244,9 @@ class Journal:
         self.close()
 
     def close(self) -> None:
-        """Close the file; what was added is on disk, and a trial that was finished stays so."""
-        if self._stored.end is not None and not self._is_finished:
-            self.finish(self._stored.end)
+        """Close the file; added rows are on disk, and a finished trial remains finished."""
+        if self._content.end is not None and not self._is_finished:
+            self.finish(self._content.end)
             return
         with name_file_in_errors(self._path):
             self._stream.close()
@@ -260,43 +260,43 @@ class Journal:
             self._stream.flush()
             os.fsync(self._stream.fileno())
 
-    def _why_not(self) -> str:
+    def _possible_reason(self) -> str:
         """Return a possible reason for a differing row."""
         codes = codes_of(load_provenance(self._path.parents[1]))
-        if messages := [text for code in codes if (text := other_code(code))]:
+        if messages := [text for code in codes if (text := code_differences(code))]:
             return (
                 f"libraries have chosen other code paths for the processor ({'; '.join(messages)})."
             )
-        return "was it made with other versions, or does the algorithm have chance of its own?"
+        return "do the versions differ, or does the algorithm draw random numbers of its own?"
 
     def _publish(self) -> None:
         self._path.with_suffix(".part").replace(self._path)
 
 
-def _other_run(found: Record, head: Record) -> str:
-    """Return the differences between a head and that of this run."""
-    messages = differing(*(Inputs.of(_part(each, "inputs")) for each in (found, head)))
-    before, now = (
-        {**_part(each, "run"), **{k: v for k, v in each.items() if k not in ("inputs", "run")}}
-        for each in (found, head)
+def _other_run(*heads: Record) -> str:
+    """Return the differences between the head of another run and that of this run."""
+    messages = input_differences(*(Inputs.from_dict(_part(head, "inputs")) for head in heads))
+    old_run, new_run = (
+        {**_part(head, "run"), **{k: v for k, v in head.items() if k not in ("inputs", "run")}}
+        for head in heads
     )
     messages += [
-        f"{name} is {now.get(name)!r} now, was {before.get(name)!r}"
-        for name in dict.fromkeys([*before, *now])
-        if before.get(name) != now.get(name)
+        f"{name} is {new_run.get(name)!r} now, was {old_run.get(name)!r}"
+        for name in dict.fromkeys([*old_run, *new_run])
+        if old_run.get(name) != new_run.get(name)
     ]
     return "; ".join(line[:MAX_LINE_LENGTH] for line in messages[:MAX_LINES])
 
 
-def _as_read(row: StoredRow) -> Record:
-    """Return the record of a row as it would be read again."""
+def _round_trip(row: StoredRow) -> Record:
+    """Return the record of a row as it is read back from the file."""
     record: Record = json.loads(_text(row.record()))
     return record
 
 
-def _own(row: Record) -> Record:
-    """Return a row without what other programs have sent, which is chance."""
-    return {name: value for name, value in row.items() if name != REFUSED}
+def _repeatable_part(row: Record) -> Record:
+    """Return a row without messages of other programs, which arrive at random."""
+    return {name: value for name, value in row.items() if name != REFUSED_KEY}
 
 
 def _part(head: Record, name: str) -> Record:
@@ -308,6 +308,6 @@ def _text(record: Record) -> str:
     return json.dumps(record, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
 
 
-def _difference(before: Record, after: Record) -> str:
-    names = [name for name in after if before.get(name) != after[name]]
+def _difference(stored_record: Record, new_record: Record) -> str:
+    names = [name for name in new_record if stored_record.get(name) != new_record[name]]
     return ", ".join(names) or "its layout"

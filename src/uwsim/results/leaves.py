@@ -10,7 +10,7 @@ Leaves = dict[tuple[str | int, ...], str]
 
 def leaves(value: Any) -> Leaves:
     """Return path -> text of every number, word and null in a JSON value."""
-    found: Leaves = {}
+    texts: Leaves = {}
     todo: list[tuple[tuple[str | int, ...], Any]] = [((), value)]
     while todo:
         path, node = todo.pop()
@@ -19,5 +19,5 @@ def leaves(value: Any) -> Leaves:
         elif isinstance(node, list | tuple) and node:
             todo += [((*path, i), node[i]) for i in reversed(range(len(node)))]
         else:
-            found[path] = json.dumps(node, ensure_ascii=False)
-    return found
+            texts[path] = json.dumps(node, ensure_ascii=False)
+    return texts

@@ -6,8 +6,8 @@
     0.0,0.1,1.83,0.2,-0.1
     0.0,0.2,,,
 
-Numbers are written with as many digits as they need to be read back exactly; an empty field had
-nothing to measure. A log is a pure function of inputs, seed and versions, as a result is.
+Numbers are written with as many digits as they need to be read back exactly; an empty field
+has no measurement. A log is a pure function of inputs, seed and versions, as a result is.
 """
 
 from __future__ import annotations
@@ -35,22 +35,22 @@ class Log:
     """The samples of one measure, through all levels."""
 
     measure: str
-    """Name of the measure."""
+    """The name of the measure."""
     header: tuple[str, ...]
     """Columns of a sample, with units: levels, ``time [s]``, value, components."""
     samples: tuple[Sample, ...] = ()
-    """In the order taken; time is that since the benchmark began."""
+    """The samples in the order of measurement; the time counts from the start of the benchmark."""
 
 
 def save_log(log: Log, directory: Path, file: str = "") -> Path:
-    """Write ``measure-<file>.csv``, whole or not at all; the file is called after the measure."""
+    """Write ``measure-<file>.csv`` atomically; the default name of the file is the measure's."""
     path = directory / f"measure-{file or file_name(log.measure)}.csv"
     write_text(path, log_text(log))
     return path
 
 
 def log_text(log: Log) -> str:
-    """Return the text of a log; raises ResultError when a sample does not fit the header."""
+    """Return the text of a log; raise ResultError when a sample does not fit the header."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(log.header)
@@ -65,7 +65,7 @@ def log_text(log: Log) -> str:
 
 
 def load_log(path: Path | str) -> Log:
-    """Read a log back; raises ResultError when it is no log."""
+    """Read a log back; raise ResultError when the file is no log."""
     path = Path(path)
     try:
         with path.open(encoding="utf-8", newline="") as stream:
@@ -90,7 +90,7 @@ def logs_of(directory: Path) -> tuple[Path, ...]:
 
 
 def _python_numbers(sample: Sample) -> Iterable[float | int | None]:
-    """Numpy's scalars as Python's, whose ``repr`` is the number alone."""
+    """Yield numpy's scalars as Python's, whose ``repr`` is the number alone."""
     for value in sample:
         yield value if value is None or isinstance(value, int) else float(value)
 

@@ -1,12 +1,11 @@
-"""``measures.json``: what each measure of a result is, in words.
+"""``measures.json``: a description of each measure of a result.
 
 .. code-block:: json
 
     {"corners": {"meaning": "distance between truth g and estimate e", "value": "mean"}}
 
 ``meaning`` is the first line of the measure's docstring, ``value`` the statistic that the benchmark
-file asks for (``u:value``). Captions of reports are made of it. Results of earlier versions have no
-such file.
+file sets (``u:value``). Reports use it for captions. Results of earlier versions have no such file.
 """
 
 from __future__ import annotations
@@ -27,7 +26,7 @@ MAX_MEANING = 300
 
 @dataclass(frozen=True, kw_only=True)
 class MeasureNote:
-    """What a measure is."""
+    """The description of a measure."""
 
     meaning: str
     """A noun phrase without a full stop; empty where the measure has no docstring."""
@@ -42,7 +41,7 @@ def save_measures(notes: Mapping[str, MeasureNote], directory: Path) -> None:
 
 
 def load_measures(directory: Path) -> dict[str, MeasureNote]:
-    """Read the file; empty where it is not there or damaged."""
+    """Read the file; return nothing where it does not exist or is damaged."""
     try:
         if (directory / FILE).stat().st_size > MAX_BYTES:
             return {}

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from ..statistics import Interval, Rate, mean_interval, rate
 from .result import Result
 
-SAME = 9
-"""Decimals to which the levels of two results agree."""
+LEVEL_DECIMALS = 9
+"""The decimals to which the levels of two results agree."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,51 +19,51 @@ class LevelInterval:
     level: tuple[float, ...]
     """The swept parameters, outermost first."""
     interval: Interval
-    """Over the repeats that have a value: what is missing is counted, never guessed."""
+    """The interval over the repeats with a value; missing values are counted, never estimated."""
     n_missing: int
-    """Number of repeats without a value."""
-    why: str | None
+    """The number of repeats without a value."""
+    reason: str | None
     """The reason of the first missing value."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class LevelRate:
-    """How often one level ended ``ok``, over all repeats."""
+    """The success rate of one level, over all repeats."""
 
     level: tuple[float, ...]
     """The swept parameters, outermost first."""
     seeds: tuple[int | None, ...]
     """The seed of every repeat, in the order of execution; None where not recorded."""
     success: Rate | None
-    """Repeats that ended ``ok`` among all; None when the result has no status."""
+    """The rate of repeats that ended ``ok``; None when the result has no status."""
 
 
 def rows_by_level(result: Result) -> dict[tuple[float, ...], list[int]]:
-    """Return level -> its row numbers (one a repeat), in the order of execution."""
+    """Return the row numbers of each level (one a repeat), in the order of execution."""
     columns = [result.numbers(column.name) for column in result.of_kind("level")]
-    found: dict[tuple[float, ...], list[int]] = {}
+    row_numbers: dict[tuple[float, ...], list[int]] = {}
     for row in range(len(result.rows)):
         level = tuple(v for column in columns if (v := column[row]) is not None)
-        found.setdefault(level, []).append(row)
-    return found
+        row_numbers.setdefault(level, []).append(row)
+    return row_numbers
 
 
-def rounded(level: tuple[float, ...]) -> tuple[float, ...]:
-    """Return a level as it is compared with those of other results."""
-    return tuple(round(value, SAME) for value in level)
+def round_level(level: tuple[float, ...]) -> tuple[float, ...]:
+    """Return a level rounded for comparison with those of other results."""
+    return tuple(round(value, LEVEL_DECIMALS) for value in level)
 
 
-def only_levels(result: Result, levels: Collection[tuple[float, ...]]) -> Result:
-    """Return the rows of a result at some levels, `rounded`, and what belongs to these rows."""
-    chosen = [rows for level, rows in rows_by_level(result).items() if rounded(level) in levels]
-    new = {row: i for i, row in enumerate(sorted(row for rows in chosen for row in rows))}
+def select_levels(result: Result, levels: Collection[tuple[float, ...]]) -> Result:
+    """Return the rows of a result at some levels (of `round_level`) and the notes on these rows."""
+    groups = [rows for level, rows in rows_by_level(result).items() if round_level(level) in levels]
+    indices = {row: i for i, row in enumerate(sorted(row for rows in groups for row in rows))}
     return replace(
         result,
-        rows=tuple(result.rows[row] for row in new),
-        missing=tuple(replace(m, row=new[m.row]) for m in result.missing if m.row in new),
-        images=tuple(replace(m, row=new[m.row]) for m in result.images if m.row in new),
-        refused=tuple(replace(m, row=new[m.row]) for m in result.refused if m.row in new),
-        remarks=tuple(replace(m, row=new[m.row]) for m in result.remarks if m.row in new),
+        rows=tuple(result.rows[row] for row in indices),
+        missing=tuple(replace(m, row=indices[m.row]) for m in result.missing if m.row in indices),
+        images=tuple(replace(m, row=indices[m.row]) for m in result.images if m.row in indices),
+        refused=tuple(replace(m, row=indices[m.row]) for m in result.refused if m.row in indices),
+        remarks=tuple(replace(m, row=indices[m.row]) for m in result.remarks if m.row in indices),
     )
 
 
@@ -74,37 +74,37 @@ def seeds_of(result: Result) -> tuple[int | None, ...]:
     return (result.run.seed,) * len(result.rows)
 
 
-def per_level(result: Result, column: str, *, confidence: float = 0.95) -> list[LevelInterval]:
+def intervals_of(result: Result, column: str, *, confidence: float = 0.95) -> list[LevelInterval]:
     """Return a column's mean and interval at every level, over the repeats."""
     values = result.numbers(column)
-    found = []
+    intervals = []
     for level, rows in rows_by_level(result).items():
-        present = [v for row in rows if (v := values[row]) is not None]
+        present_values = [v for row in rows if (v := values[row]) is not None]
         reasons = [result.why(row, column) for row in rows if values[row] is None]
-        found.append(
+        intervals.append(
             LevelInterval(
                 level=level,
-                interval=mean_interval(present, confidence=confidence),
-                n_missing=len(rows) - len(present),
-                why=next((why for why in reasons if why), None),
+                interval=mean_interval(present_values, confidence=confidence),
+                n_missing=len(rows) - len(present_values),
+                reason=next((reason for reason in reasons if reason), None),
             )
         )
-    return found
+    return intervals
 
 
-def success_per_level(result: Result, *, confidence: float = 0.95) -> list[LevelRate]:
-    """Return how often every level ended ``ok``, over the repeats."""
+def success_rates(result: Result, *, confidence: float = 0.95) -> list[LevelRate]:
+    """Return the rate of repeats that ended ``ok``, for every level."""
     status = result.of_kind("status")
     cells = result.values(status[0].name) if status else None
     seeds = seeds_of(result)
-    found = []
+    rates = []
     for level, rows in rows_by_level(result).items():
         n_ok = None if cells is None else sum(cells[row] == "ok" for row in rows)
-        found.append(
+        rates.append(
             LevelRate(
                 level=level,
                 seeds=tuple(seeds[row] for row in rows),
                 success=None if n_ok is None else rate(n_ok, len(rows), confidence=confidence),
             )
         )
-    return found
+    return rates

@@ -1,8 +1,8 @@
 """Provenance: machine, date and timing of a run.
 
-``provenance.json`` holds what differs between two runs that found the same: host, CPU, load, dates,
-wall time, workers, resumes, the achieved real-time factor, versions of the packages, what code
-libraries chose for the processor. Nothing here is ever part of a score.
+``provenance.json`` holds the facts that differ between two runs with the same result: host, CPU,
+load, dates, wall time, workers, resumes, the achieved real-time factor, versions of the packages,
+the code that libraries chose for the processor. No score depends on them.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from pathlib import Path
 
 from ..errors import ResultError
 from .atomic_file import write_text
-from .chosen_code import chosen_code, other_code
+from .chosen_code import chosen_code, code_differences
 from .stored.stored_shapes import PROVENANCE
 
-BEFORE = "code_before"
-"""What libraries had chosen on other machines, on which the run was begun."""
+EARLIER_CODES = "code_before"
+"""The key of the code paths that libraries chose on other machines, in earlier parts of the run."""
 
 
 def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
@@ -33,37 +33,37 @@ def save_beginning(command: Sequence[str], directory: Path) -> str:
     """Write the provenance at the start of a run, unless it resumes another.
 
     Args:
-        command: what was typed behind ``uwsim``.
-        directory: of the result, or of the envelope.
+        command: the arguments of ``uwsim``.
+        directory: the directory of the result or the envelope.
 
     Returns:
         A warning if libraries had chosen other code for the processor when the run was begun,
-        else nothing. Both choices are recorded.
+        else an empty text. Both choices are recorded.
     """
-    before = load_provenance(directory)
-    if not before:
+    provenance = load_provenance(directory)
+    if not provenance:
         save_provenance({"command": list(command), **machine()}, directory)
         return ""
-    change = other_code(before.get("code"))
+    change = code_differences(provenance.get("code"))
     if not change:
         return ""
-    codes = {BEFORE: [*codes_of(before)[1:], before["code"]]}
-    save_provenance({**before, **machine(), **codes}, directory)
+    codes = {EARLIER_CODES: [*codes_of(provenance)[1:], provenance["code"]]}
+    save_provenance({**provenance, **machine(), **codes}, directory)
     return (
-        f"the run was begun where libraries chose other code for the processor: {change}. What is "
-        "bundled gives the same bytes all the same; an algorithm or a measure of one's own may not."
+        f"the run was begun where libraries chose other code for the processor: {change}. Bundled "
+        "code gives the same bytes; your own algorithms and measures may not."
     )
 
 
 def codes_of(provenance: Mapping[str, object]) -> list[object]:
     """Return the code paths that libraries chose, in this and earlier parts of the run."""
-    before = provenance.get(BEFORE)
-    return [provenance.get("code"), *(before if isinstance(before, list) else [])]
+    earlier_codes = provenance.get(EARLIER_CODES)
+    return [provenance.get("code"), *(earlier_codes if isinstance(earlier_codes, list) else [])]
 
 
-def carried(directory: Path) -> dict[str, object]:
-    """Return the provenance that is kept after the run."""
-    return {name: value for name, value in load_provenance(directory).items() if name == BEFORE}
+def lasting_provenance(directory: Path) -> dict[str, object]:
+    """Return the part of the provenance that remains after the run."""
+    return {k: v for k, v in load_provenance(directory).items() if k == EARLIER_CODES}
 
 
 def machine() -> dict[str, object]:
@@ -90,7 +90,7 @@ def _cpu_name() -> str:
 
 
 def load_provenance(directory: Path) -> dict[str, object]:
-    """Read ``provenance.json``; empty when it is not there, not whole, or of another shape."""
+    """Read ``provenance.json``; return nothing when it is absent, damaged or of another shape."""
     try:
         provenance = json.loads((directory / "provenance.json").read_text(encoding="utf-8"))
         PROVENANCE(provenance, "")

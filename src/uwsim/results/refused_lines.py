@@ -7,24 +7,24 @@ from collections import Counter
 from .result import Result
 
 MAX_LINES = 5
-"""Topics and services that are named."""
+"""The number of topics and services that are named."""
 
 
 def refused_lines(result: Result) -> list[str]:
-    """Return a line for each topic or service on which something was refused, without a full stop.
+    """Return a line for each topic or service with refused messages, without a full stop.
 
-    None of it has changed a row.
+    Refused messages have not changed a row.
     """
     n, senders, rows = Counter[str](), dict[str, set[str]](), dict[str, set[int]]()
-    for each in result.refused:
-        n[each.what] += each.n
-        senders.setdefault(each.what, set()).add(each.by)
-        rows.setdefault(each.what, set()).add(each.row)
+    for messages in result.refused:
+        n[messages.what] += messages.n
+        senders.setdefault(messages.what, set()).add(messages.by)
+        rows.setdefault(messages.what, set()).add(messages.row)
     lines = [
-        f"{n[what]} messages or calls on {what} were refused, in {len(rows[what])} rows, from "
-        f"{' and '.join(sorted(senders[what])[:2])}{' and others' * (len(senders[what]) > 2)}: "
+        f"{n[name]} messages or calls on {name} were refused, in {len(rows[name])} rows, from "
+        f"{' and '.join(sorted(senders[name])[:2])}{' and others' * (len(senders[name]) > 2)}: "
         "they do not take part in the run"
-        for what in sorted(n)
+        for name in sorted(n)
     ]
-    more = len(lines) - MAX_LINES
-    return [*lines[:MAX_LINES], *([f"{more} more topics and services"] if more > 0 else [])]
+    n_more = len(lines) - MAX_LINES
+    return [*lines[:MAX_LINES], *([f"{n_more} more topics and services"] if n_more > 0 else [])]

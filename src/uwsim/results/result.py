@@ -1,8 +1,7 @@
 """Result: the rows of a run with its inputs, columns and constants.
 
-A result is a pure function of inputs, seed and versions: the same run gives the same bytes. What is
-not (wall time, host, date) is in ``provenance.json``. `result_file` reads and writes
-it.
+A result is a pure function of inputs, seed and versions: the same run gives the same bytes. Other
+facts (wall time, host, date) are in ``provenance.json``. `result_file` reads and writes results.
 """
 
 from __future__ import annotations
@@ -19,14 +18,14 @@ from .run_info import RunInfo
 from .stored.checked_values import checked_values
 
 MAX_VALUE = 1e60
-"""No number of a row is larger: what is made of it, powers and sums, is still a float64."""
+"""The largest number of a row; its powers and sums are still float64."""
 
 Kind = Literal["run", "level", "measure", "detail", "score", "status", "time"]
 Cell = float | int | str | None
 Json = Mapping[str, object]
 
 FLOOR = "floor_"
-"""Prefix of the facts with the error floor of a measure."""
+"""The prefix of the facts with the error floor of a measure."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,24 +37,24 @@ class Column:
     kind: Kind
     """``run`` is repeat or seed; a ``detail`` belongs to the measure before its first dot."""
     unit: str | None = None
-    """Unit such as ``px`` or ``1/m``; None where there is none."""
+    """The unit, such as ``px`` or ``1/m``; None where there is none."""
     expression: str | None = None
-    """Of a score: the function it was computed with."""
+    """The function of a score; None for other columns."""
 
     @property
     def label(self) -> str:
-        """Name and unit for people: ``corners [px]``."""
+        """The name and unit for people: ``corners [px]``."""
         return f"{self.name} [{self.unit}]" if self.unit else self.name
 
 
 @dataclass(frozen=True, kw_only=True)
-class Missing:
-    """Why a cell is null."""
+class MissingValue:
+    """The reason of a null cell."""
 
     row: int
-    """Row, from 0."""
+    """The row, from 0."""
     column: str
-    """Name of the column."""
+    """The name of the column."""
     why: str
     """The reason with its time, for people."""
 
@@ -65,13 +64,13 @@ class Variation:
     """A value of the scene or the benchmark that differs from seed to seed."""
 
     path: str
-    """Which value, as ``--set`` names it."""
+    """The path of the value, as ``--set`` names it."""
     unit: str
-    """Its unit; ``1`` where it has none, or none is known."""
+    """The unit; ``1`` where the value has none, or none is known."""
     drawn_from: str
     """The distribution in words: ``uniform 1.95 to 2.05``."""
     values: tuple[tuple[int, float], ...]
-    """Seed and value, in the order of the repeats."""
+    """The seed and value of each repeat, in the order of the repeats."""
 
     def __post_init__(self) -> None:
         if isinstance(self.values, tuple):  # JSON has lists for pairs
@@ -81,16 +80,16 @@ class Variation:
 
 @dataclass(frozen=True, kw_only=True)
 class ImageStream:
-    """Hash of all images that one trial published on a topic."""
+    """The hash of all images that one trial published on a topic."""
 
     seed: int
-    """Seed of the unit."""
+    """The seed of the trial."""
     level: tuple[float, ...] | None
     """The trial's level, outermost first; None when one trial runs all levels."""
     topic: str
-    """Topic the images went out on."""
+    """The topic of the images."""
     frames: int
-    """How many there were."""
+    """The number of images."""
     sha256: str
     """SHA-256 over all of their bytes, in order."""
 
@@ -100,39 +99,39 @@ class SavedImage:
     """A camera's image at the end of a level, kept for the report."""
 
     row: int
-    """Row it belongs to, from 0."""
+    """The row that it belongs to, from 0."""
     camera: str
-    """Name of the camera."""
+    """The name of the camera."""
     file: str
     """PNG, relative to the result directory."""
     truth: tuple[float, ...] | None = None
-    """True corners x, y, x, y, ... [px from the top left corner]."""
+    """The true corners x, y, x, y, ... [px from the top left corner]."""
     estimate: tuple[float, ...] | None = None
     """The algorithm's corners, alike; None when it gave none."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Refused:
+class RefusedMessages:
     """Messages, calls or answers of a program that does not take part, which were refused."""
 
     row: int
-    """Row in whose level they came, from 0."""
+    """The row of the level in which they came, from 0."""
     by: str
-    """Who sent them, as the transport names it."""
+    """The sender, as the transport names it."""
     what: str
-    """Topic or service, with a leading slash."""
+    """The topic or service, with a leading slash."""
     n: int
-    """How many there were."""
+    """The number of messages or calls."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Remark:
-    """What belongs beside the status of a row although the row has all values."""
+    """A note beside the status of a row that has all its values."""
 
     row: int
-    """Row it is about, from 0."""
+    """The row that it is about, from 0."""
     text: str
-    """Measures and what they remark."""
+    """The measures and the notes on them."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,32 +139,32 @@ class Result:
     """The rows of a run with its inputs, columns and constants.
 
     Numbers are finite, those of rows up to `MAX_VALUE`, and every row has one cell for each
-    column; anything else is refused where the result is made, with ResultError.
+    column; the constructor raises ResultError for anything else.
     """
 
     inputs: Inputs
     """Names and hashes of the files read."""
     run: RunInfo
-    """Seed, mode, algorithm, parameters, timestep, versions."""
+    """The seed, mode, algorithm, parameters, timestep and versions."""
     columns: tuple[Column, ...]
-    """What the cells of a row mean."""
+    """The name, kind and unit of each cell of a row."""
     rows: tuple[tuple[Cell, ...], ...]
     """One a level (and repeat), in the order of execution."""
-    missing: tuple[Missing, ...] = ()
+    missing: tuple[MissingValue, ...] = ()
     """Reasons of the null cells."""
     facts: Json = field(default_factory=dict)
-    """Measured constants of the scene as (value, unit): ``S``, ``sigma``, ``d``, ``f_star``; of the
-    first seed."""
+    """The measured constants of the scene as (value, unit), of the first seed: ``S``, ``sigma``,
+    ``d``, ``f_star``."""
     variations: tuple[Variation, ...] = ()
-    """What was drawn for each seed."""
+    """The values that were drawn for each seed."""
     image_streams: tuple[ImageStream, ...] = ()
-    """Fingerprints of what the algorithm saw."""
+    """Fingerprints of the images that the algorithm received."""
     images: tuple[SavedImage, ...] = ()
     """Images kept for the report."""
-    refused: tuple[Refused, ...] = ()
-    """What came from programs that do not take part."""
+    refused: tuple[RefusedMessages, ...] = ()
+    """The messages of programs that do not take part, which were refused."""
     remarks: tuple[Remark, ...] = ()
-    """What belongs beside the status of rows."""
+    """The notes beside the status of rows."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "facts", checked_values(self.facts, "facts"))
@@ -178,7 +177,7 @@ class Result:
         _check_notes(self)
 
     def index(self, name: str) -> int:
-        """Return the place of a column in every row; UnknownName if there is none."""
+        """Return the index of a column in every row; raise UnknownName if there is none."""
         names = [column.name for column in self.columns]
         if name not in names:
             raise UnknownName("column", name, names)
@@ -198,25 +197,25 @@ class Result:
         return tuple(column for column in self.columns if column.kind in kinds)
 
     def why(self, row: int, column: str) -> str | None:
-        """Return why a cell is null; a detail has the reason of its measure."""
+        """Return the reason of a null cell; a detail has the reason of its measure."""
         reasons = self._reasons.get(row, {})
         return reasons.get(column) or reasons.get(column.split(".")[0])
 
     def reasons(self, row: int) -> tuple[str, ...]:
-        """Return the reasons given in a row, each once; not those of single details."""
-        given = self._reasons.get(row, {})
-        return tuple(dict.fromkeys(why for column, why in given.items() if "." not in column))
+        """Return the reasons in a row, each once; not those of single details."""
+        notes = self._reasons.get(row, {})
+        return tuple(dict.fromkeys(reason for column, reason in notes.items() if "." not in column))
 
     def remarks_of(self, row: int) -> tuple[str, ...]:
-        """Return what is remarked of a row."""
+        """Return the remarks on a row."""
         return tuple(remark.text for remark in self.remarks if remark.row == row)
 
     @cached_property
     def _reasons(self) -> dict[int, dict[str, str]]:
-        found: dict[int, dict[str, str]] = {}
+        row_reasons: dict[int, dict[str, str]] = {}
         for note in self.missing:
-            found.setdefault(note.row, {})[note.column] = note.why
-        return found
+            row_reasons.setdefault(note.row, {})[note.column] = note.why
+        return row_reasons
 
     def fact(self, name: str) -> tuple[float, str] | None:
         """Return a measured constant as (value, unit); None if it was not measured."""
@@ -255,36 +254,38 @@ def _check_rows(result: Result) -> None:
 def _check_notes(result: Result) -> None:
     n, names = len(result.rows), {column.name: i for i, column in enumerate(result.columns)}
     for i, note in enumerate(result.missing):
-        at = f"missing[{i}]"
-        _expect(_is_row(note.row, n), f"{at} is about row {note.row!r}, which is not there")
-        _expect(note.column in names, f"{at} is about {note.column!r}, which is no column")
+        path = f"missing[{i}]"
+        _expect(_is_row(note.row, n), f"{path} is about row {note.row!r}, which is not there")
+        _expect(note.column in names, f"{path} is about {note.column!r}, which is no column")
         cell = result.rows[note.row][names[note.column]]
-        _expect(cell is None, f"{at}: row {note.row} has a value for {note.column!r}: {cell!r}")
-        _expect(isinstance(note.why, str) and note.why != "", f"{at} gives no reason")
+        _expect(cell is None, f"{path}: row {note.row} has a value for {note.column!r}: {cell!r}")
+        _expect(isinstance(note.why, str) and note.why != "", f"{path} gives no reason")
     n_levels = len(result.of_kind("level"))
     for i, stream in enumerate(result.image_streams):
-        whole = isinstance(stream.sha256, str) and isinstance(stream.frames, int)
-        _expect(whole, f"image_streams[{i}] has no hash or no number of frames")
+        is_valid = isinstance(stream.sha256, str) and isinstance(stream.frames, int)
+        _expect(is_valid, f"image_streams[{i}] has no hash or no number of frames")
         fits = isinstance(stream.level, tuple) and len(stream.level) == n_levels
         message = f"image_streams[{i}] is of the level {stream.level!r}; expected {n_levels} values"
         _expect(stream.level is None or fits, message)
     for i, variation in enumerate(result.variations):
-        at = f"variations[{i}]"
+        path = f"variations[{i}]"
         texts = (variation.path, variation.unit, variation.drawn_from)
-        _expect(all(isinstance(text, str) and text for text in texts), f"{at} lacks words")
-        whole = isinstance(variation.values, tuple) and all(map(_is_draw, variation.values))
-        _expect(whole, f"{at} ({variation.path}) has something else than pairs of seed and value")
+        _expect(all(isinstance(text, str) and text for text in texts), f"{path} lacks words")
+        is_valid = isinstance(variation.values, tuple) and all(map(_is_draw, variation.values))
+        _expect(
+            is_valid, f"{path} ({variation.path}) has something else than pairs of seed and value"
+        )
     for i, image in enumerate(result.images):
-        at = f"pictures[{i}]"
-        _expect(_is_row(image.row, n), f"{at} is of row {image.row!r}, which is not there")
-        _expect(_is_inside(image.file), f"{at} is outside the result: {image.file!r}")
+        path = f"pictures[{i}]"
+        _expect(_is_row(image.row, n), f"{path} is of row {image.row!r}, which is not there")
+        _expect(_is_inside(image.file), f"{path} is outside the result: {image.file!r}")
         for quad in (image.truth, image.estimate):
-            whole = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
-            _expect(whole, f"{at} has a quadrangle of other than 8 numbers: {quad!r}")
+            is_valid = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
+            _expect(is_valid, f"{path} has a quadrangle of other than 8 numbers: {quad!r}")
     for name in ("refused", "remarks"):
-        for i, one in enumerate(getattr(result, name)):
-            is_there = _is_row(one.row, n)
-            _expect(is_there, f"{name}[{i}] is about row {one.row!r}, which is not there")
+        for i, remark in enumerate(getattr(result, name)):
+            is_there = _is_row(remark.row, n)
+            _expect(is_there, f"{name}[{i}] is about row {remark.row!r}, which is not there")
 
 
 def _is_number(cell: object) -> bool:
@@ -308,6 +309,6 @@ def _is_inside(file: object) -> bool:
     return isinstance(file, str) and not Path(file).is_absolute() and ".." not in Path(file).parts
 
 
-def _expect(truth: bool, otherwise: str) -> None:
+def _expect(truth: bool, message: str) -> None:
     if not truth:
-        raise ResultError(otherwise + ".")
+        raise ResultError(message + ".")

@@ -19,14 +19,23 @@ from typing import TypeVar, cast
 from ..errors import ResultError, did_you_mean
 from .atomic_file import write_text
 from .inputs import Inputs
-from .interrupted import instead_of_a_result
-from .result import Column, ImageStream, Missing, Refused, Remark, Result, SavedImage, Variation
+from .interrupted import describe_missing_result
+from .result import (
+    Column,
+    ImageStream,
+    MissingValue,
+    RefusedMessages,
+    Remark,
+    Result,
+    SavedImage,
+    Variation,
+)
 from .run_info import RunInfo
 from .stored.stored_shapes import RESULT
 
 FORMAT = "uwsim-result/1"
-STORED = {"images": "pictures"}
-"""Attribute of `Result` -> key of the file, where they differ."""
+FILE_KEYS = {"images": "pictures"}
+"""The key of the file for each attribute of `Result` with another name."""
 T = TypeVar("T")
 
 
@@ -36,7 +45,7 @@ def file_of(path: Path) -> Path:
 
 
 def save(result: Result, path: Path) -> Path:
-    """Write a result, whole or not at all, into ``path`` (a directory or ``.../result.json``)."""
+    """Write a result atomically into ``path`` (a directory or ``.../result.json``)."""
     path = file_of(path) if path.suffix == ".json" or path.is_dir() else path / "result.json"
     path.parent.mkdir(parents=True, exist_ok=True)
     write_text(path, dumps(result))
@@ -47,14 +56,14 @@ def load(path: Path | str) -> Result:
     """Read a result directory or its ``result.json``.
 
     Raises:
-        ResultError: it does not exist, is incomplete, or has another format.
+        ResultError: the file does not exist, is incomplete, or has another format.
     """
     path = Path(path)
     file = file_of(path)
     try:
         text = file.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise ResultError(f"{path}: {instead_of_a_result(path)}.") from None
+        raise ResultError(f"{path}: {describe_missing_result(path)}.") from None
     except UnicodeDecodeError as error:
         raise ResultError(f"{file}: not a result: not UTF-8 at byte {error.start}.") from None
     except OSError as error:
@@ -69,28 +78,28 @@ def dumps(result: Result) -> str:
     """Return the text of ``result.json``: one column, row or reason a line, floats exact."""
     parts = {
         "format": _json(FORMAT),
-        "inputs": _object(result.inputs.stored()),
-        "run": _object(result.run.stored()),
+        "inputs": _object(result.inputs.as_dict()),
+        "run": _object(result.run.as_dict()),
         "facts": _object(result.facts),
-        **_if_any("variations", result.variations),
-        "columns": _block("[]", [_json(_given(column)) for column in result.columns]),
+        **_optional_block("variations", result.variations),
+        "columns": _block("[]", [_json(_column_fields(column)) for column in result.columns]),
         "rows": _block("[]", [_json(row) for row in result.rows]),
-        "missing": _block("[]", [_json(asdict(missing)) for missing in result.missing]),
+        "missing": _block("[]", [_json(asdict(note)) for note in result.missing]),
         "image_streams": _block("[]", [_json(asdict(stream)) for stream in result.image_streams]),
         "pictures": _block("[]", [_json(asdict(image)) for image in result.images]),
-        **_if_any("refused", result.refused),
-        **_if_any("remarks", result.remarks),
+        **_optional_block("refused", result.refused),
+        **_optional_block("remarks", result.remarks),
     }
     return "{\n" + ",\n".join(f"  {_json(k)}: {text}" for k, text in parts.items()) + "\n}\n"
 
 
 def loads(text: str) -> Result:
-    """Read the text of a ``result.json``; raises ResultError."""
+    """Read the text of a ``result.json``; raise ResultError if it is invalid."""
     try:
         document = json.loads(text, parse_constant=_refuse_constant)
     except json.JSONDecodeError as error:
-        whole = not text.strip() or error.pos >= len(text.rstrip()) - 1
-        hint = " It ends in the middle: was it cut off?" if whole else ""
+        is_cut_off = not text.strip() or error.pos >= len(text.rstrip()) - 1
+        hint = " It ends in the middle: was it cut off?" if is_cut_off else ""
         raise ResultError(
             f"not JSON at line {error.lineno}, column {error.colno}: {error.msg}.{hint}"
         ) from None
@@ -98,26 +107,26 @@ def loads(text: str) -> Result:
         raise ResultError(f"not a result: {error}.") from None
     if not isinstance(document, dict):
         raise ResultError(f"not a result: expected an object, found {repr(document)[:60]}.")
-    found = document.pop("format", None)
-    if found != FORMAT:
-        raise ResultError(f"its format is {repr(found)[:60]}; this uwsim reads {FORMAT!r}.")
+    file_format = document.pop("format", None)
+    if file_format != FORMAT:
+        raise ResultError(f"its format is {repr(file_format)[:60]}; this uwsim reads {FORMAT!r}.")
     RESULT({name: part for name, part in document.items() if part is not None}, "")
     result = Result(
-        inputs=Inputs.of(_take(document, "inputs", dict)),
-        run=RunInfo.of(_take(document, "run", dict)),
+        inputs=Inputs.from_dict(_take(document, "inputs", dict)),
+        run=RunInfo.from_dict(_take(document, "run", dict)),
         columns=tuple(_take_each(document, "columns", Column)),
         rows=tuple(_take(document, "rows", list)),
-        missing=tuple(_take_each(document, "missing", Missing)),
+        missing=tuple(_take_each(document, "missing", MissingValue)),
         facts=_take(document, "facts", dict, {}),
         variations=tuple(_take_each(document, "variations", Variation, [])),
         image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
         images=tuple(_take_each(document, "pictures", SavedImage, [])),
-        refused=tuple(_take_each(document, "refused", Refused, [])),
+        refused=tuple(_take_each(document, "refused", RefusedMessages, [])),
         remarks=tuple(_take_each(document, "remarks", Remark, [])),
     )
     for name in document:
-        known = [STORED.get(f.name, f.name) for f in fields(Result)]
-        raise ResultError(f"unknown key {name!r}.{did_you_mean(name, known)}")
+        known_keys = [FILE_KEYS.get(f.name, f.name) for f in fields(Result)]
+        raise ResultError(f"unknown key {name!r}.{did_you_mean(name, known_keys)}")
     return result
 
 
@@ -137,13 +146,15 @@ def _object(values: Mapping[str, object]) -> str:
     return _block("{}", [f"{_json(key)}: {_json(value)}" for key, value in values.items()])
 
 
-def _if_any(key: str, entries: Iterable[Variation | Refused | Remark]) -> dict[str, str]:
-    """The key is only there where there are entries."""
-    lines = [_json(asdict(each)) for each in entries]
+def _optional_block(
+    key: str, entries: Iterable[Variation | RefusedMessages | Remark]
+) -> dict[str, str]:
+    """Return the key and its entries; nothing where there are no entries."""
+    lines = [_json(asdict(entry)) for entry in entries]
     return {key: _block("[]", lines)} if lines else {}
 
 
-def _given(column: Column) -> dict[str, object]:
+def _column_fields(column: Column) -> dict[str, object]:
     return {key: value for key, value in asdict(column).items() if value is not None}
 
 
@@ -157,9 +168,9 @@ def _refuse_constant(text: str) -> object:
 def _take(document: dict[str, object], name: str, kind: type[T], default: T | None = None) -> T:
     value = document.pop(name, default)
     if not isinstance(value, kind):
-        wanted = "an object" if kind is dict else "a list"
-        found = "nothing" if value is None else repr(value)[:60]
-        raise ResultError(f'"{name}" should be {wanted}, found {found}.')
+        expected = "an object" if kind is dict else "a list"
+        found_text = "nothing" if value is None else repr(value)[:60]
+        raise ResultError(f'"{name}" should be {expected}, found {found_text}.')
     return value
 
 
@@ -167,16 +178,16 @@ def _take_each(
     document: dict[str, object], name: str, kind: type[T], default: list[object] | None = None
 ) -> Iterator[T]:
     """Read a list of objects as dataclasses whose fields are its keys."""
-    known = [f.name for f in fields(cast("type[Column]", kind))]
+    known_keys = [f.name for f in fields(cast("type[Column]", kind))]
     for i, node in enumerate(_take(document, name, list, default)):
         if not isinstance(node, dict):
             raise ResultError(f"{name}[{i}] should be an object, found {repr(node)[:60]}.")
         for key in node:
-            if key not in known:
-                hint = did_you_mean(key, known)
+            if key not in known_keys:
+                hint = did_you_mean(key, known_keys)
                 raise ResultError(f"{name}[{i}]: unknown key {key!r}.{hint}.")
         try:
             yield kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in node.items()})
         except TypeError as error:
-            what = str(error).split("__init__() ")[-1]
-            raise ResultError(f"{name}[{i}] is incomplete: {what}.") from None
+            message = str(error).split("__init__() ")[-1]
+            raise ResultError(f"{name}[{i}] is incomplete: {message}.") from None

@@ -1,4 +1,4 @@
-"""``run`` of a result: what was executed, and with what."""
+"""The ``run`` of a result: the executed algorithm, its settings and versions."""
 
 from __future__ import annotations
 
@@ -11,46 +11,46 @@ from .stored.record import StoredRecord
 
 @dataclass(frozen=True, kw_only=True)
 class RunInfo(StoredRecord):
-    """What was executed, and with what; None where a result does not say."""
+    """The executed algorithm, its settings and versions; None where a result lacks them."""
 
     KEY: ClassVar[str] = "run"
 
     seed: int | None = None
-    """Seed of the first repeat."""
+    """The seed of the first repeat."""
     repeats: int | None = None
-    """Number of repeats."""
+    """The number of repeats."""
     mode: str | None = None
     """``sequential`` or ``independent``."""
     algorithm: str | None = None
-    """Name of the algorithm, or ``module:Class``."""
+    """The name of the algorithm, or ``module:Class``."""
     clients: tuple[tuple[str, str], ...] | None = None
-    """Third-party algorithm and external clients: name, and how each takes part (`docs`)."""
+    """The third-party algorithm and external clients: name, and kind of participation (`docs`)."""
     parameters: Mapping[str, object] | None = None
     """Parameters that the algorithm ran with."""
     settings: tuple[tuple[str, str], ...] | None = None
-    """Path and value of each ``--set``."""
+    """The path and value of each ``--set``."""
     levels: tuple[tuple[str, float], ...] | None = None
-    """Name and value of each ``--level``."""
+    """The name and value of each ``--level``."""
     compatibility: tuple[str, ...] | None = None
     """Quirks of the original that were on."""
     timestep: tuple[float, str] | None = None
-    """Length of a physics step, and its unit."""
+    """The length of a physics step, and its unit."""
     version: str | None = None
-    """Version of uwsim."""
+    """The version of uwsim."""
     physics: str | None = None
-    """Version of MuJoCo."""
+    """The version of MuJoCo."""
     renderer: str | None = None
-    """What drew the images; ``none`` for a control."""
+    """The renderer of the images; ``none`` for a control."""
     numpy: str | None = None
-    """Version of numpy."""
+    """The version of numpy."""
     units: tuple[int, int] | None = None
-    """How many trials are finished, and of how many."""
+    """The number of finished trials, and of all trials."""
     notes: tuple[str, ...] | None = None
-    """What a reader of the result should know."""
+    """Notes for a reader of the result."""
 
     @property
     def is_finished(self) -> bool:
-        """Whether every trial is finished, as far as the result says."""
+        """A flag that is true if every trial is finished, as far as the result states it."""
         return self.units is None or self.units[0] == self.units[1]
 
     @property
@@ -65,5 +65,5 @@ class RunInfo(StoredRecord):
 
 
 def _word(value: object) -> str:
-    """A value as a person writes it: ``3`` for 3.0."""
+    """Return a value as a person writes it: ``3`` for 3.0."""
     return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -1,10 +1,10 @@
 """A seal on journals and motion tracks: while a run goes on, its algorithm cannot read them.
 
 They hold the ground truth, and an algorithm has the rights of the user who runs it. So they are
-encrypted with a key that exists in memory only, of processes whose memory the user's other
-processes cannot read. At the end of the run they are opened. A process beside the run, the
-`Keeper`, has the key as well and opens them if the run is killed. If the machine goes down, what is
-sealed is lost.
+encrypted with a key that exists only in the memory of processes that the user's other processes
+cannot read. At the end of the run they are decrypted. A process beside the run, the `Keeper`, has
+the key as well and decrypts them if the run is killed. If the machine goes down, sealed content is
+lost.
 
 The key stream is SHAKE-256 of the key and of a number that is used once; HMAC-SHA-256 detects
 changes. This file is also the program of the keeper: it imports the standard library alone.
@@ -31,68 +31,68 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 MAGIC = b"uwsim-sealed/1\n"
-"""How a sealed file begins."""
-SEALED = "sealed"
-"""Key of a sealed line of a journal -> its content as base64."""
-KEY, ONCE, TAG = 32, 16, 32
-"""Bytes of a key, of a number that is used once, and of a tag."""
-PATIENCE = 10.0
-"""How long the keeper waits for the lock of the directory, and the run for the keeper [s]."""
+"""The first bytes of a sealed file."""
+SEALED_KEY = "sealed"
+"""The key, in a sealed line of a journal, of its content as base64."""
+KEY, NONCE, TAG = 32, 16, 32
+"""The bytes of a key, of a nonce (a number that is used once), and of a tag."""
+LOCK_TIMEOUT = 10.0
+"""The time to wait for the lock of the directory, and for the keeper at the end of a run [s]."""
 ALL_OPEN = b"all open\n"
-"""What a run tells its keeper that needs it no more."""
+"""The message of a run that needs its keeper no more."""
 PR_SET_DUMPABLE = 4
 FOLDER = "units"
-"""Folder of a result in which sealed files are."""
+"""The folder of a result with the sealed files."""
 
 
 @dataclass(frozen=True)
 class Seal:
-    """Encrypts and decrypts what is written during a run."""
+    """The encryption and decryption of the files of a run."""
 
     key: bytes = field(default_factory=lambda: secrets.token_bytes(KEY), repr=False)
-    """Random; never on disk."""
+    """The random key, which is never on disk."""
 
-    def closed(self, data: bytes) -> bytes:
-        """Return data encrypted."""
-        once = secrets.token_bytes(ONCE)
-        hidden = once + _xor(data, self._stream(once, len(data)))
-        return self._tag(hidden) + hidden
+    def encrypt(self, data: bytes) -> bytes:
+        """Return encrypted data."""
+        nonce = secrets.token_bytes(NONCE)
+        ciphertext = nonce + _xor(data, self._stream(nonce, len(data)))
+        return self._tag(ciphertext) + ciphertext
 
-    def opened(self, data: bytes) -> bytes:
-        """Return what `closed` has encrypted; raises ValueError if it is not that."""
-        tag, hidden = data[:TAG], data[TAG:]
-        if len(hidden) < ONCE or not hmac.compare_digest(tag, self._tag(hidden)):
+    def decrypt(self, data: bytes) -> bytes:
+        """Return decrypted data; raise ValueError if `encrypt` did not write it with this key."""
+        tag, ciphertext = data[:TAG], data[TAG:]
+        if len(ciphertext) < NONCE or not hmac.compare_digest(tag, self._tag(ciphertext)):
             raise ValueError("it was changed, or is sealed with another key")
-        return _xor(hidden[ONCE:], self._stream(hidden[:ONCE], len(hidden) - ONCE))
+        return _xor(ciphertext[NONCE:], self._stream(ciphertext[:NONCE], len(ciphertext) - NONCE))
 
     def line(self, text: str) -> str:
-        """Return a line of a journal sealed."""
-        return json.dumps({SEALED: base64.b64encode(self.closed(text.encode())).decode()})
+        """Return a sealed line of a journal."""
+        return json.dumps({SEALED_KEY: base64.b64encode(self.encrypt(text.encode())).decode()})
 
     def text(self, content: object) -> str:
-        """Return the line whose content under `SEALED` is this; raises ValueError."""
+        """Return the decrypted content under `SEALED_KEY`; raise ValueError if it is invalid."""
         try:
-            return self.opened(base64.b64decode(str(content), validate=True)).decode()
+            return self.decrypt(base64.b64decode(str(content), validate=True)).decode()
         except binascii.Error as error:
             raise ValueError(f"it is not sealed as uwsim does: {error}") from None
 
     def file(self, data: bytes) -> bytes:
-        """Return the content of a file sealed."""
-        return MAGIC + self.closed(data)
+        """Return the content of a sealed file."""
+        return MAGIC + self.encrypt(data)
 
     def open_all(self, directory: Path) -> bool:
-        """Open every sealed file of a result; returns whether all could be read and written.
+        """Decrypt every sealed file of a result; return whether all could be read and written.
 
-        What another key has sealed is left as it is.
+        Files that another key has sealed do not change.
         """
         is_all_open = True
         for path in sorted((directory / FOLDER).glob("*")):
             try:
-                before = path.read_bytes()
-                after = self._plain(before)
-                if after != before:
+                content = path.read_bytes()
+                decrypted_content = self._decrypt_file(content)
+                if decrypted_content != content:
                     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
-                    draft.write_bytes(after)
+                    draft.write_bytes(decrypted_content)
                     draft.replace(path)
             except OSError:
                 is_all_open = False
@@ -100,28 +100,30 @@ class Seal:
                 pass
         return is_all_open
 
-    def _plain(self, data: bytes) -> bytes:
+    def _decrypt_file(self, data: bytes) -> bytes:
         if data.startswith(MAGIC):
-            return self.opened(data[len(MAGIC) :])
-        start = json.dumps({SEALED: ""})[:-2].encode()
+            return self.decrypt(data[len(MAGIC) :])
+        start = json.dumps({SEALED_KEY: ""})[:-2].encode()
         return b"".join(
-            self.text(json.loads(line)[SEALED]).encode() + b"\n" if line.startswith(start) else line
+            self.text(json.loads(line)[SEALED_KEY]).encode() + b"\n"
+            if line.startswith(start)
+            else line
             for line in data.splitlines(keepends=True)
         )
 
-    def _stream(self, once: bytes, length: int) -> bytes:
-        return hashlib.shake_256(b"stream" + self.key + once).digest(length)
+    def _stream(self, nonce: bytes, length: int) -> bytes:
+        return hashlib.shake_256(b"stream" + self.key + nonce).digest(length)
 
-    def _tag(self, hidden: bytes) -> bytes:
-        return hmac.digest(hashlib.sha256(b"tag" + self.key).digest(), hidden, "sha256")
+    def _tag(self, ciphertext: bytes) -> bytes:
+        return hmac.digest(hashlib.sha256(b"tag" + self.key).digest(), ciphertext, "sha256")
 
 
 class Keeper:
-    """A process that opens the files of a run if the run itself cannot any more.
+    """A process that decrypts the files of a run if the run itself cannot do so.
 
     Args:
-        seal: with which they are sealed.
-        directories: of the results.
+        seal: the seal of the files.
+        directories: the directories of the results.
     """
 
     def __init__(self, seal: Seal, directories: Sequence[Path]) -> None:
@@ -133,54 +135,54 @@ class Keeper:
             start_new_session=True,  # Ctrl-C is for the run
         )
         paths = [str(directory.resolve()) for directory in directories]
-        asked = json.dumps({"key": seal.key.hex(), "directories": paths})
+        request = json.dumps({"key": seal.key.hex(), "directories": paths})
         assert self._process.stdin is not None
         with suppress(OSError):
-            self._process.stdin.write(asked.encode() + b"\n")
+            self._process.stdin.write(request.encode() + b"\n")
             self._process.stdin.flush()
 
     def close(self, *, is_all_open: bool = False) -> None:
-        """Let it end; it opens what is sealed still, unless the run has opened all of it."""
+        """End the process; it decrypts sealed files, unless the run has decrypted all of them."""
         assert self._process.stdin is not None
         with suppress(OSError):
             if is_all_open:
                 self._process.stdin.write(ALL_OPEN)
             self._process.stdin.close()
         try:
-            self._process.wait(PATIENCE)
+            self._process.wait(LOCK_TIMEOUT)
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
 
 
 def deny_access_to_memory() -> None:
-    """Keep other processes of this user from reading the memory and open files of this one.
+    """Prevent other processes of this user from reading the memory and open files of this one.
 
-    It dumps no core from now on. Programs that it starts are not affected.
+    This process dumps no core any more. Programs that it starts are not affected.
     """
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None, use_errno=True).prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)
 
 
-def keep() -> None:
-    """Be the keeper: wait until the run has ended, then open what is sealed."""
+def run_keeper() -> None:
+    """Run the keeper: wait until the run has ended, then decrypt the sealed files."""
     deny_access_to_memory()
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)
-    asked = json.loads(sys.stdin.buffer.readline())
+    request = json.loads(sys.stdin.buffer.readline())
     if sys.stdin.buffer.read() == ALL_OPEN:
         return
-    seal = Seal(bytes.fromhex(asked["key"]))
-    for name in asked["directories"]:
-        with suppress(OSError), _locked(Path(name)):
+    seal = Seal(bytes.fromhex(request["key"]))
+    for name in request["directories"]:
+        with suppress(OSError), _lock_directory(Path(name)):
             seal.open_all(Path(name))
 
 
 @contextmanager
-def _locked(directory: Path) -> Iterator[None]:
-    """Hold the lock of a result directory; waits a while, in which the run that had it ends."""
+def _lock_directory(directory: Path) -> Iterator[None]:
+    """Hold the lock of a result directory; wait for a run that has it to end."""
     handle = os.open(directory, os.O_RDONLY)
-    end = time.monotonic() + PATIENCE
+    end = time.monotonic() + LOCK_TIMEOUT
     try:
         while True:
             try:
@@ -196,9 +198,9 @@ def _locked(directory: Path) -> Iterator[None]:
 
 
 def _xor(data: bytes, stream: bytes) -> bytes:
-    both = int.from_bytes(data, "little") ^ int.from_bytes(stream, "little")
-    return both.to_bytes(len(data), "little")
+    mixed_number = int.from_bytes(data, "little") ^ int.from_bytes(stream, "little")
+    return mixed_number.to_bytes(len(data), "little")
 
 
 if __name__ == "__main__":
-    keep()
+    run_keeper()

@@ -7,7 +7,7 @@
 
 A line for each measure and the total at each level. ``low`` and ``high`` are 95 % limits of the
 mean, ``rate_low`` and ``rate_high`` those of the share of repeats that ended ``ok``
-(``docs/statistics.md``). An empty field says nothing, as one repeat says nothing of its spread.
+(``docs/statistics.md``). A field without a value is empty, such as the spread of one repeat.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import io
 from pathlib import Path
 
 from .atomic_file import write_text
-from .per_level import per_level, success_per_level
+from .per_level import intervals_of, success_rates
 from .result import Result
 from .table import unit_of
 
@@ -33,16 +33,16 @@ def summary_text(result: Result) -> str:
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow([*(column.label for column in result.of_kind("level")), *HEADER])
-    endings = success_per_level(result)
+    endings = success_rates(result)
     columns = result.of_kind("score") + result.of_kind("measure")
-    found = [per_level(result, column.name) for column in columns]
+    column_intervals = [intervals_of(result, column.name) for column in columns]
     for i, ending in enumerate(endings):
         success = ending.success
         end: tuple[object, ...] = ("", len(ending.seeds), "", "")
         if success is not None:
             end = (success.successes, success.n, success.low, success.high)
         seeds = " ".join(str(seed) for seed in ending.seeds if seed is not None)
-        for column, entries in zip(columns, found, strict=True):
+        for column, entries in zip(columns, column_intervals, strict=True):
             entry = entries[i].interval
             numbers = (entry.n, entry.mean, entry.std, entry.low, entry.high)
             cells = (unit_of(result, column), *numbers, entries[i].n_missing, *end, seeds)
@@ -53,7 +53,7 @@ def summary_text(result: Result) -> str:
 
 
 def save_summary(result: Result, directory: Path) -> Path:
-    """Write ``summary.csv`` into the result directory, whole or not at all."""
+    """Write ``summary.csv`` into the result directory atomically."""
     path = directory / FILE
     write_text(path, summary_text(result))
     return path

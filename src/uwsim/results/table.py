@@ -11,7 +11,7 @@
 independent, it counts from the start of the level.
 
 With several repeats a measure is its mean with the 95 % interval, ``1.83 [1.71, 1.99]``, and the
-status says how many ended ``ok``, with the interval of that rate: ``8 of 10 ok, 44 to 97 %``.
+status has the number that ended ``ok``, with the interval of the rate: ``8 of 10 ok, 44 to 97 %``.
 """
 
 from __future__ import annotations
@@ -26,16 +26,16 @@ from rich.table import Table
 from rich.text import Text
 
 from ..statistics import Interval, Rate, rate
-from .per_level import per_level, rows_by_level
+from .per_level import intervals_of, rows_by_level
 from .result import Column, Result
 
 GAP = "-"
-ROOM_FOR_REASONS = 30
-"""Width of a terminal below which reasons are printed under the table."""
+MIN_REASON_WIDTH = 30
+"""The width of a terminal below which reasons are printed under the table."""
 MAX_DECIMALS = 4
-"""Of a measure."""
-BIG = 1e7
-"""Numbers from here on are written with an exponent."""
+"""The greatest number of decimals of a measure."""
+MAX_FIXED = 1e7
+"""The size from which numbers have an exponent instead of fixed decimals."""
 
 
 @dataclass(frozen=True)
@@ -58,17 +58,17 @@ class LevelLine:
     level: tuple[float, ...]
     """The swept parameters."""
     cells: tuple[CellText, ...]
-    """Level, measures, total, ended_at."""
+    """The texts of level, measures, total and ended_at."""
     status: str
     """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok``."""
     rate: str
-    """Limits of that rate: ``44 to 97 %``; empty without repeats."""
-    ok: bool
-    """Whether every repeat ended ``ok``."""
-    why: str
-    """The reasons and remarks, each once; over repeats: how many ended how."""
+    """The limits of that rate: ``44 to 97 %``; empty without repeats."""
+    is_ok: bool
+    """A flag that is true if every repeat ended ``ok``."""
+    reason: str
+    """The reasons and remarks, each once; over repeats, the number of each status."""
     rows: tuple[int, ...] = ()
-    """Numbers of its rows, one a repeat."""
+    """The numbers of its rows, one a repeat."""
 
     @property
     def status_text(self) -> str:
@@ -82,7 +82,7 @@ def shown_columns(result: Result) -> tuple[Column, ...]:
 
 
 def lines(result: Result) -> tuple[LevelLine, ...]:
-    """Return the table's lines, a line a level; repeats are gathered."""
+    """Return the table's lines, a line a level; repeats are combined."""
     levels = rows_by_level(result)
     texts: list[list[CellText]] = []
     for i, column in enumerate(shown_columns(result)):
@@ -91,7 +91,7 @@ def lines(result: Result) -> tuple[LevelLine, ...]:
             decimals = exact_decimals(numbers)
             texts.append([CellText(number_text(value, decimals)) for value in numbers])
         else:
-            intervals = [entry.interval for entry in per_level(result, column.name)]
+            intervals = [entry.interval for entry in intervals_of(result, column.name)]
             decimals = sensible_decimals([i.mean for i in intervals if i.mean is not None])
             texts.append([interval_text(interval, decimals) for interval in intervals])
     return tuple(
@@ -100,8 +100,8 @@ def lines(result: Result) -> tuple[LevelLine, ...]:
             cells=tuple(text[n] for text in texts),
             status=_status(result, rows),
             rate=_rate(result, rows),
-            ok=all(status == "ok" for status in _statuses(result, rows)),
-            why=_why(result, rows),
+            is_ok=all(status == "ok" for status in _statuses(result, rows)),
+            reason=_reason_text(result, rows),
             rows=tuple(rows),
         )
         for n, (level, rows) in enumerate(levels.items())
@@ -111,50 +111,50 @@ def lines(result: Result) -> tuple[LevelLine, ...]:
 def table(result: Result, *, width: int = 80) -> Table:
     """Return the table for a terminal of ``width`` columns.
 
-    Measures that do not fit are left out and named below, levels and status never. Reasons follow
-    their line where there is room, else the table.
+    Measures that do not fit are omitted and named below, levels and status never. Reasons follow
+    their line where the width suffices, else the table.
     """
-    shown = lines(result)
+    level_lines = lines(result)
     columns = shown_columns(result)
     heads = [_head(result, column) for column in columns]
-    wide = [
-        max([len(name), len(unit), *(len(str(line.cells[i])) for line in shown)])
+    widths = [
+        max([len(name), len(unit), *(len(str(line.cells[i])) for line in level_lines)])
         for i, (name, unit) in enumerate(heads)
     ]
-    last = max([len("status"), *(len(line.status_text) for line in shown)])
-    fitting = _fitting(columns, wide, width - last)
-    drawn = Table(box=None, pad_edge=False, header_style="bold", caption_justify="left")
-    for i in fitting:
+    status_width = max([len("status"), *(len(line.status_text) for line in level_lines)])
+    indices = _fit_columns(columns, widths, width - status_width)
+    text_table = Table(box=None, pad_edge=False, header_style="bold", caption_justify="left")
+    for i in indices:
         head = Text("\n".join(heads[i]), justify="right")
-        drawn.add_column(head, justify="right", no_wrap=True, min_width=wide[i])
-    drawn.add_column(Text("status"), overflow="fold", min_width=min(last, width))
-    taken = sum(wide[i] + 2 for i in fitting) + last
-    is_roomy = width - taken - 2 >= ROOM_FOR_REASONS
-    if is_roomy and any(line.why for line in shown):
-        drawn.add_column(Text(""), overflow="fold")
-    above = ""
-    for line in shown:
-        cells = [*(str(line.cells[i]) for i in fitting), line.status_text]
-        if len(drawn.columns) > len(cells):
-            cells.append("as above" if line.why and line.why == above else line.why)
-            above = line.why
-        drawn.add_row(*map(Text, cells), style="" if line.ok else "yellow")
-    notes = [] if is_roomy else _notes(shown, len(result.of_kind("level")))
-    if left_out := [name for i, (name, _) in enumerate(heads) if i not in fitting]:
+        text_table.add_column(head, justify="right", no_wrap=True, min_width=widths[i])
+    text_table.add_column(Text("status"), overflow="fold", min_width=min(status_width, width))
+    taken_width = sum(widths[i] + 2 for i in indices) + status_width
+    has_reason_column = width - taken_width - 2 >= MIN_REASON_WIDTH
+    if has_reason_column and any(line.reason for line in level_lines):
+        text_table.add_column(Text(""), overflow="fold")
+    last_reason = ""
+    for line in level_lines:
+        cells = [*(str(line.cells[i]) for i in indices), line.status_text]
+        if len(text_table.columns) > len(cells):
+            cells.append("as above" if line.reason and line.reason == last_reason else line.reason)
+            last_reason = line.reason
+        text_table.add_row(*map(Text, cells), style="" if line.is_ok else "yellow")
+    notes = [] if has_reason_column else _notes(level_lines, len(result.of_kind("level")))
+    if left_out := [name for i, (name, _) in enumerate(heads) if i not in indices]:
         notes.append(f"not shown, too narrow: {', '.join(left_out)}")
-    drawn.caption = Text("\n".join(notes), style="yellow") if notes else None
-    return drawn
+    text_table.caption = Text("\n".join(notes), style="yellow") if notes else None
+    return text_table
 
 
-def _fitting(columns: Sequence[Column], wide: Sequence[int], room: int) -> list[int]:
-    """Which columns fit next to the status: all levels, then total, time and measures."""
+def _fit_columns(columns: Sequence[Column], widths: Sequence[int], space: int) -> list[int]:
+    """Return the columns that fit next to the status: all levels, then total, time and measures."""
     order = ("level", "score", "time", "measure")
-    fitting: list[int] = []
+    indices: list[int] = []
     for i in sorted(range(len(columns)), key=lambda i: order.index(columns[i].kind)):
-        if columns[i].kind == "level" or wide[i] + 2 <= room:
-            fitting.append(i)
-            room -= wide[i] + 2
-    return sorted(fitting)
+        if columns[i].kind == "level" or widths[i] + 2 <= space:
+            indices.append(i)
+            space -= widths[i] + 2
+    return sorted(indices)
 
 
 def unit_of(result: Result, column: Column) -> str:
@@ -162,8 +162,8 @@ def unit_of(result: Result, column: Column) -> str:
     if column.unit or column.kind != "score" or not column.expression:
         return column.unit or ""
     units = {measure.name: measure.unit for measure in result.of_kind("measure")}
-    added = {units.get(name.strip()) for name in column.expression.split("+")}
-    return added.pop() or "" if len(added) == 1 else ""
+    term_units = {units.get(name.strip()) for name in column.expression.split("+")}
+    return term_units.pop() or "" if len(term_units) == 1 else ""
 
 
 def interval_text(interval: Interval, decimals: int) -> CellText:
@@ -177,25 +177,25 @@ def interval_text(interval: Interval, decimals: int) -> CellText:
     return CellText(text, "" if low == high == text else f"{low}, {high}")
 
 
-def rate_text(found: Rate) -> str:
+def rate_text(success: Rate) -> str:
     """Return ``44 to 97 %``, the limits of a rate."""
-    return f"{100 * found.low:.0f} to {100 * found.high:.0f} %"
+    return f"{100 * success.low:.0f} to {100 * success.high:.0f} %"
 
 
 def number_text(value: float, decimals: int) -> str:
-    """Return ``1.83``; ``1e+38`` and ``2.5e-09`` where decimals would drown or hide the number."""
+    """Return ``1.83``; ``1e+38`` and ``2.5e-09`` where fixed decimals are too long or show zero."""
     is_small = decimals >= MAX_DECIMALS and 0 < abs(value) < 0.5 * 10**-decimals
-    return f"{value:.3g}" if abs(value) >= BIG or is_small else f"{value:.{decimals}f}"
+    return f"{value:.3g}" if abs(value) >= MAX_FIXED or is_small else f"{value:.{decimals}f}"
 
 
 def exact_decimals(values: Sequence[float]) -> int:
-    """Return how many decimals show a sweep's levels apart: 2 for steps of 0.05, at most 6."""
+    """Return the decimals that distinguish a sweep's levels: 2 for steps of 0.05, at most 6."""
     texts = [f"{value:.6f}".rstrip("0") for value in values]
     return max((len(text.partition(".")[2]) for text in texts), default=0)
 
 
 def sensible_decimals(values: Sequence[float]) -> int:
-    """Return decimals for three digits of the middle value, 0 to 4."""
+    """Return the number of decimals for three digits of the median value, 0 to 4."""
     sizes = sorted(abs(value) for value in values if value != 0)
     if not sizes:
         return 2
@@ -207,13 +207,14 @@ def _head(result: Result, column: Column) -> tuple[str, str]:
     return column.name, f"[{unit}]" if unit else ""
 
 
-def _notes(shown: Sequence[LevelLine], n_levels: int) -> list[str]:
-    """One note for each run of lines with the same reason: ``1.20 to 1.30: tracker lost ...``."""
+def _notes(level_lines: Sequence[LevelLine], n_levels: int) -> list[str]:
+    """Return a note for each sequence of lines with one reason: ``1.20 to 1.30: lost ...``."""
     notes = []
-    for why, run in itertools.groupby(shown, key=lambda line: line.why):
-        at = [" ".join(map(str, line.cells[:n_levels])) for line in run]
-        if why:
-            notes.append(f"{at[0]} to {at[-1]}: {why}" if len(at) > 1 else f"{at[0]}: {why}")
+    for reason, run in itertools.groupby(level_lines, key=lambda line: line.reason):
+        levels = [" ".join(map(str, line.cells[:n_levels])) for line in run]
+        if reason:
+            place = f"{levels[0]} to {levels[-1]}" if len(levels) > 1 else levels[0]
+            notes.append(f"{place}: {reason}")
     return notes
 
 
@@ -224,23 +225,23 @@ def _statuses(result: Result, rows: Sequence[int]) -> list[str]:
 
 
 def _status(result: Result, rows: Sequence[int]) -> str:
-    found = _statuses(result, rows)
-    if len(found) < 2:
-        return "".join(found)
-    return f"{found.count('ok')} of {len(found)} ok"
+    statuses = _statuses(result, rows)
+    if len(statuses) < 2:
+        return "".join(statuses)
+    return f"{statuses.count('ok')} of {len(statuses)} ok"
 
 
 def _rate(result: Result, rows: Sequence[int]) -> str:
-    found = _statuses(result, rows)
-    limits = rate(found.count("ok"), len(found)) if len(found) > 1 else None
+    statuses = _statuses(result, rows)
+    limits = rate(statuses.count("ok"), len(statuses)) if len(statuses) > 1 else None
     return "" if limits is None else rate_text(limits)
 
 
-def _why(result: Result, rows: Sequence[int]) -> str:
+def _reason_text(result: Result, rows: Sequence[int]) -> str:
     if len(rows) == 1:
         return "; ".join((*result.reasons(rows[0]), *result.remarks_of(rows[0])))
     counts = Counter(status for status in _statuses(result, rows) if status != "ok")
-    found = [", ".join(f"{n} {status}" for status, n in sorted(counts.items()))]
+    parts = [", ".join(f"{n} {status}" for status, n in sorted(counts.items()))]
     remarks = Counter(text for row in rows for text in result.remarks_of(row))
-    found += [f"{n} of {len(rows)}: {text}" for text, n in sorted(remarks.items())]
-    return "; ".join(filter(None, found))
+    parts += [f"{n} of {len(rows)}: {text}" for text, n in sorted(remarks.items())]
+    return "; ".join(filter(None, parts))

@@ -7,27 +7,27 @@ from dataclasses import replace
 
 from ..benchmark.updaters import chain, swept_parameters
 from ..results.inputs import Inputs
-from ..results.journal import Stored
+from ..results.journal import StoredTrial
 from ..results.log import TIME, Log
 from ..results.result import (
     Cell,
     Column,
     ImageStream,
-    Missing,
-    Refused,
+    MissingValue,
+    RefusedMessages,
     Remark,
     Result,
     SavedImage,
     Variation,
 )
 from ..results.run_info import RunInfo
-from ..results.stored.stored_row import Measured, StoredEnd, StoredPicture, StoredRow
+from ..results.stored.stored_row import StoredEnd, StoredPicture, StoredRow, ValueWithUnit
 from .planning.plan import Plan, Trial
 from .trial.floor import largest
 
 
 def collect(
-    plan: Plan, inputs: Inputs, info: RunInfo, stored: Sequence[tuple[Trial, Stored]]
+    plan: Plan, inputs: Inputs, info: RunInfo, stored: Sequence[tuple[Trial, StoredTrial]]
 ) -> tuple[Result, list[Log], float]:
     """Collect the rows on disk, in the order of the plan.
 
@@ -64,7 +64,7 @@ def collect(
             for (trial, row), end in zip(rows, ended, strict=True)
         ),
         missing=tuple(
-            Missing(row=number, column=name, why=why)
+            MissingValue(row=number, column=name, why=why)
             for number, (_, row) in enumerate(rows)
             for name, why in row.missing.items()
         ),
@@ -77,7 +77,7 @@ def collect(
             for picture in row.pictures
         ),
         refused=tuple(
-            Refused(row=number, by=by, what=what, n=n)
+            RefusedMessages(row=number, by=by, what=what, n=n)
             for number, (_, row) in enumerate(rows)
             for by, what, n in row.refused
         ),
@@ -196,7 +196,7 @@ def _columns(plan: Plan, rows: Sequence[StoredRow]) -> list[Column]:
     ]
 
 
-def _units(measured: Iterable[Mapping[str, Measured]]) -> dict[str, str]:
+def _units(measured: Iterable[Mapping[str, ValueWithUnit]]) -> dict[str, str]:
     """Return name -> unit of what all rows have of a kind, in the order of its first row."""
     first: dict[str, tuple[bool, str]] = {}
     for row in measured:

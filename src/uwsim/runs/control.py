@@ -59,5 +59,5 @@ def control_of(run: Run) -> Run:
         ),
         is_blind=True,
     )
-    inputs = run.inputs.without_algorithm()
+    inputs = run.inputs.drop_algorithm()
     return Run(plan=plan, out=run.out / FOLDER, inputs=inputs, renderer="none", files=run.files)

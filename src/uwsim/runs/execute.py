@@ -18,7 +18,7 @@ from pathlib import Path
 from ..base.system_errors import convert_to_run_failed
 from ..base.terminal import warn
 from ..errors import ErrorCollector, RunFailed
-from ..results.provenance import carried, machine, save_beginning, save_provenance
+from ..results.provenance import lasting_provenance, machine, save_beginning, save_provenance
 from ..results.result import Result
 from .control import CONTROL, control_of, wants_control
 from .executors.background import Jobs
@@ -101,7 +101,7 @@ class Execution:
             **machine(),
             "packages": {name: version(name) for name in PACKAGES},
         }
-        save_provenance({**facts, **own, **carried(run.out)}, run.out)
+        save_provenance({**facts, **own, **lasting_provenance(run.out)}, run.out)
 
 
 @dataclass(frozen=True, kw_only=True)

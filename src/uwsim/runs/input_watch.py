@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ..base.files.input_files import InputFile, hash_of
 from ..errors import RunFailed
-from ..results.inputs import NAMED, short_hash
+from ..results.inputs import MAX_LINES, short_hash
 
 _Stamp = tuple[tuple[int, int, int], ...]
 
@@ -38,9 +38,9 @@ class Watch:
         """Do nothing, or raise RunFailed, which names what was changed."""
         messages = [why for file in self._files if (why := self._why_not(file))]
         if messages:
-            more = [f"{len(messages) - NAMED} more"] if len(messages) > NAMED else []
+            more = [f"{len(messages) - MAX_LINES} more"] if len(messages) > MAX_LINES else []
             raise RunFailed(
-                f"While the run was going on {'; '.join([*messages[:NAMED], *more])}. "
+                f"While the run was going on {'; '.join([*messages[:MAX_LINES], *more])}. "
                 "Finished rows are kept; restore the files and continue with --resume."
             )
 

@@ -133,8 +133,8 @@ class Run:
     def head(self, trial: Trial) -> Record:
         """Return the identity of a trial: equal heads mean that its rows must be equal."""
         return {
-            "inputs": _as_stored(self.inputs.stored()),
-            "run": _as_stored(self.info.stored()),
+            "inputs": _as_stored(self.inputs.as_dict()),
+            "run": _as_stored(self.info.as_dict()),
             "seed": trial.seed,
             "levels": [[value for _, value in level.values] for level in trial.levels],
         }
@@ -160,7 +160,7 @@ class Run:
             save_data(log, measures[log.measure], self.out, files[log.measure])
         return result
 
-    def stored(self, trial: Trial) -> journal.Stored:
+    def stored(self, trial: Trial) -> journal.StoredTrial:
         """Return the stored rows of a trial.
 
         Raises:
@@ -168,7 +168,7 @@ class Run:
         """
         path = journal.path_of(self.out, trial.index)
         if not path.exists():
-            return journal.NOTHING
+            return journal.EMPTY_JOURNAL
         found = journal.read(self.out, trial.index, self.head(trial), self.seal)
         if message := journal.level_difference(found, trial.values):
             raise ResultError(

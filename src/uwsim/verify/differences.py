@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from ..results.journal import Stored
+from ..results.journal import StoredTrial
 from ..results.leaves import leaves
 from ..results.stored.stored_row import Record
 from ..runs.trial.fingerprint import Checkpoints, divergence
@@ -115,7 +115,9 @@ class FingerprintComparison:
     """Whether both have fingerprints."""
 
 
-def of_checkpoints(stored: Stored, again: Stored, timestep: float) -> FingerprintComparison:
+def of_checkpoints(
+    stored: StoredTrial, again: StoredTrial, timestep: float
+) -> FingerprintComparison:
     """Compare the fingerprints of two executions of one trial."""
     traces = [None if each.end is None else each.end.trace for each in (stored, again)]
     one, other = (Checkpoints.of(trace) for trace in traces)

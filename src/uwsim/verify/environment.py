@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..results.chosen_code import other_code
+from ..results.chosen_code import code_differences
 from ..results.provenance import codes_of, load_provenance, machine
 from ..results.result import Result
 from ..results.run_info import RunInfo
@@ -49,7 +49,7 @@ def made_otherwise(stored: Result, directory: Path, run: RunInfo) -> dict[str, s
         for name, (before, now) in pairs.items()
         if before != now
     }
-    if codes := [text for code in codes_of(recorded) if (text := other_code(code))]:
+    if codes := [text for code in codes_of(recorded) if (text := code_differences(code))]:
         messages["code"] = f"{MEANS['code']}: {'; '.join(codes)}; {PROMISES['code']}"
     return messages
 

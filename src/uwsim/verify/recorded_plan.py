@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..assets.bundled import bundled
 from ..errors import AssetNotFound, ResultError
-from ..results.inputs import Inputs, differing
+from ..results.inputs import Inputs, input_differences
 from ..runs.named_plugins import plugin_names
 from ..runs.own_process.program import IN_PROCESS, is_outside
 from ..runs.planning.make_plan import make_plan
@@ -101,7 +101,7 @@ def check_inputs(recorded: Inputs, found: Inputs) -> None:
     before, now = (
         Inputs(assets=each.assets, algorithm=each.algorithm) for each in (recorded, found)
     )
-    if wrong := differing(before, now):
+    if wrong := input_differences(before, now):
         raise ResultError(
             f"The result was made with other files: {'; '.join(wrong)}. "
             "Give the folder with those files with --data-path, and that of an algorithm with "

@@ -203,11 +203,11 @@ def _head(result: Result, replayed: Record) -> Record:
 
     The parameters of a head are those given; result.json says those that the algorithm ran with.
     """
-    stored = json.loads(json.dumps(result.run.stored()))
+    stored = json.loads(json.dumps(result.run.as_dict()))
     run = {
         key: stored.get(key) if key != "parameters" else now for key, now in replayed["run"].items()
     }
-    return {**replayed, "inputs": json.loads(json.dumps(result.inputs.stored())), "run": run}
+    return {**replayed, "inputs": json.loads(json.dumps(result.inputs.as_dict())), "run": run}
 
 
 def _check_head(found: Verification, where: str, head: Record, expected: Record) -> None:
@@ -266,7 +266,7 @@ def _check_trial(found: Verification, directory: Path, again: Run, trial: Trial)
         found.differences.insert(before, Difference(where=name, what=motion.message))
 
 
-def _end(stored: journal.Stored) -> Record:
+def _end(stored: journal.StoredTrial) -> Record:
     return {} if stored.end is None else stored.end.record()
 
 

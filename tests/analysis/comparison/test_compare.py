@@ -115,7 +115,7 @@ def test_a_result_that_does_not_say_its_seed_cannot_be_paired() -> None:
 def test_what_makes_another_experiment_is_named(change: dict[str, object], said: str) -> None:
     first, second = made("esm", {0.0: [1.0]}), made("ic", {0.0: [1.0]})
     run = replace(second.run, **change.get("run", {}))
-    other = replace(second, run=run, inputs=Inputs.of(change.get("inputs", INPUTS)))
+    other = replace(second, run=run, inputs=Inputs.from_dict(change.get("inputs", INPUTS)))
     found = differences(entries(first, other))
     assert len(found) >= 1
     assert found[0].startswith(said)
@@ -123,7 +123,7 @@ def test_what_makes_another_experiment_is_named(change: dict[str, object], said:
 
 
 def with_files(result: Result, **roles: object) -> Result:
-    return replace(result, inputs=Inputs.of({**INPUTS, **roles}))
+    return replace(result, inputs=Inputs.from_dict({**INPUTS, **roles}))
 
 
 def test_another_plugin_of_the_same_name_makes_another_experiment() -> None:

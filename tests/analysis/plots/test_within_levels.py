@@ -16,7 +16,7 @@ from uwsim.analysis.plots.panels import MAX_PANELS, panels_of
 from uwsim.analysis.plots.track_plot import read_tracks, track_plot
 from uwsim.analysis.report import render
 from uwsim.results.log import Log, save_log
-from uwsim.results.motion.motion_track import TrackLevel, quantised, steps_of, track_bytes
+from uwsim.results.motion.motion_track import TrackLevel, quantise, steps_of, track_bytes
 from uwsim.results.result import Result
 
 LEVELS = (0.0, 0.05, 1.2)
@@ -113,7 +113,7 @@ def write_track(directory: Path, index: int, way: np.ndarray, fog: float = 0.0) 
     poses[:, 0, :2] = way
     poses[:, 1, :2] = way + 0.3
     poses[:, 2, :2] = (0.5, 0.25)
-    table = quantised(poses.reshape(frames, -1), steps_of(len(names), ()))
+    table = quantise(poses.reshape(frames, -1), steps_of(len(names), ()))
     level = TrackLevel(values={"fog": fog}, began=1.0, duration=1.0, status="ok")
     path = directory / "units" / f"{index:05d}.motion"
     path.parent.mkdir(parents=True, exist_ok=True)

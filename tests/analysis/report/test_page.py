@@ -30,7 +30,7 @@ from uwsim.results.inputs import Inputs
 from uwsim.results.log import Log, save_log
 from uwsim.results.measures_file import MeasureNote, save_measures
 from uwsim.results.provenance import save_provenance
-from uwsim.results.result import MAX_VALUE, Column, Missing, Result, SavedImage
+from uwsim.results.result import MAX_VALUE, Column, MissingValue, Result, SavedImage
 from uwsim.results.result_file import save
 from uwsim.results.run_info import RunInfo
 
@@ -131,7 +131,7 @@ def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
         run=RunInfo(algorithm=EVIL, mode=EVIL, parameters={EVIL: [EVIL]}, others={EVIL: EVIL}),
         columns=tuple(columns),
         rows=tuple(rows),
-        missing=tuple(Missing(row=m.row, column="total", why=EVIL) for m in base.missing),
+        missing=tuple(MissingValue(row=m.row, column="total", why=EVIL) for m in base.missing),
         facts={EVIL: (1.0, EVIL), "f_star": (1.1, EVIL), "d": (1.3, "m")},
         image_streams=tuple(replace(s, topic=EVIL, sha256=EVIL) for s in base.image_streams),
     )
@@ -334,10 +334,12 @@ def test_every_class_of_ending_is_counted_also_those_that_never_came(tmp_path: P
 def test_reasons_that_differ_in_numbers_alone_are_reported_once_and_counted(tmp_path: Path) -> None:
     base = visibility()
     notes = [
-        Missing(row=row, column="total", why=f"tracker lost at {row}.5 s: ZNCC 0.{row} on 5 frames")
+        MissingValue(
+            row=row, column="total", why=f"tracker lost at {row}.5 s: ZNCC 0.{row} on 5 frames"
+        )
         for row in (24, 25)
     ]
-    notes.append(Missing(row=26, column="total", why="no estimate for 1.5 s"))
+    notes.append(MissingValue(row=26, column="total", why="no estimate for 1.5 s"))
     text = page_of(replace(base, missing=tuple(notes)), tmp_path).text
     assert "2 × tracker lost at 24.5 s: ZNCC 0.24 on 5 frames" in text
     assert "1 × no estimate for 1.5 s" in text
@@ -346,8 +348,8 @@ def test_reasons_that_differ_in_numbers_alone_are_reported_once_and_counted(tmp_
 def test_a_long_reason_is_not_repeated_in_every_line(tmp_path: Path) -> None:
     base = visibility()
     long = "tracker raised: " + "a very long message of a library " * 5
-    notes = [Missing(row=row, column="total", why=f"{long}{row}") for row in (24, 25)]
-    notes.append(Missing(row=26, column="total", why=f"{long}25"))
+    notes = [MissingValue(row=row, column="total", why=f"{long}{row}") for row in (24, 25)]
+    notes.append(MissingValue(row=26, column="total", why=f"{long}25"))
     text = page_of(replace(base, missing=tuple(notes)), tmp_path).text
     assert "as above, with other numbers" in text
     assert re.search(r"as above(?!,)", text)
@@ -502,7 +504,7 @@ def test_where_a_body_is_in_the_image_has_no_floor(tmp_path: Path) -> None:
 def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
     base = visibility()
     rows = tuple((0.001 * i, *base.rows[26][1:]) for i in range(5_000))
-    notes = tuple(Missing(row=i, column="total", why=WHY * 4) for i in range(5_000))
+    notes = tuple(MissingValue(row=i, column="total", why=WHY * 4) for i in range(5_000))
     page = page_of(replace(base, rows=rows, missing=notes), tmp_path)
     assert len(page.source) < 2_000_000
     assert "The first 1000 of 5000 levels" in page.text

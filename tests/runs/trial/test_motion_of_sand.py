@@ -13,7 +13,7 @@ from tests.devices.test_dredge_tool import scene
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Array, Pose
 from uwsim.results.motion import RATE, DugSand, read_track, track_bytes
-from uwsim.results.motion.dug_sand import NOTHING
+from uwsim.results.motion.dug_sand import NO_VALUE
 from uwsim.runs.trial.motion_recorder import MotionRecorder
 
 
@@ -73,7 +73,7 @@ def test_only_a_track_with_digs_is_of_version_2(tmp_path: Path) -> None:
     line = gzip.decompress(plain).partition(b"\n")[0]
     assert json.loads(line)["uwsim_motion"] == 1
     assert "sand" not in json.loads(line)
-    dug = DugSand(table=np.array([[1, 0, 5, -6, 7], [2, 0, *[NOTHING] * 3], [3, 1, 1, 1, 1]]))
+    dug = DugSand(table=np.array([[1, 0, 5, -6, 7], [2, 0, *[NO_VALUE] * 3], [3, 1, 1, 1, 1]]))
     track = read_track(
         track_bytes((), (), empty, (), sand=replace(dug, table=dug.table.astype("i4")))
     )

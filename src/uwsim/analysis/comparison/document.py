@@ -17,7 +17,7 @@ import io
 import json
 from collections.abc import Mapping
 
-from ...results.per_level import per_level, success_per_level
+from ...results.per_level import intervals_of, success_rates
 from ...statistics import Interval
 from .inputs import Entry
 from .model import CONFIDENCE, POWER, AtLevel, Comparison, Overall, PairedDifference, Versus
@@ -78,7 +78,7 @@ def _cell(value: object) -> object:
 
 def _entry(entry: Entry, column: str) -> Fields:
     run = entry.result.run
-    rates = success_per_level(entry.result, confidence=CONFIDENCE)
+    rates = success_rates(entry.result, confidence=CONFIDENCE)
     return {
         "name": entry.name,
         "directory": entry.source,
@@ -87,7 +87,7 @@ def _entry(entry: Entry, column: str) -> Fields:
             key: _json_values(getattr(run, key))
             for key in ("algorithm", "parameters", "version", "mode")
         },
-        "inputs": _json_values(entry.result.inputs.stored()),
+        "inputs": _json_values(entry.result.inputs.as_dict()),
         "levels": [
             {
                 "level": list(at.level),
@@ -99,7 +99,7 @@ def _entry(entry: Entry, column: str) -> Fields:
                 "share_ok_high": ended.success.high if ended.success else None,
             }
             for at, ended in zip(
-                per_level(entry.result, column, confidence=CONFIDENCE), rates, strict=True
+                intervals_of(entry.result, column, confidence=CONFIDENCE), rates, strict=True
             )
         ],
     }

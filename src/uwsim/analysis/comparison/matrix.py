@@ -18,7 +18,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
-from ...results.per_level import success_per_level
+from ...results.per_level import success_rates
 from .inputs import Entry
 from .model import Comparison, Outcome, PairedDifference, Versus
 
@@ -168,6 +168,6 @@ def _standing(verdict: Outcome, is_first: bool) -> Standing:
 
 
 def _ok(entry: Entry) -> str:
-    found = [at.success for at in success_per_level(entry.result) if at.success is not None]
+    found = [at.success for at in success_rates(entry.result) if at.success is not None]
     n = sum(rate.n for rate in found)
     return f"{100 * sum(rate.successes for rate in found) / n:.3g} %" if n else "-"

@@ -6,7 +6,7 @@ import base64
 from collections.abc import Sequence
 from pathlib import Path
 
-from ...results.per_level import success_per_level
+from ...results.per_level import success_rates
 from ...results.result import Result
 from ...statistics import Interval
 from ...version import __version__
@@ -120,7 +120,7 @@ def _spread(d: Interval, unit: str | None) -> str:
 def _about(result: Result) -> list[tuple[str, str]]:
     """What differs from result to result: parameters, seeds, versions."""
     run = result.run
-    seeds = sorted({s for at in success_per_level(result) for s in at.seeds if s is not None})
+    seeds = sorted({s for at in success_rates(result) for s in at.seeds if s is not None})
     versions = {"mode": run.mode, "version": run.version, "renderer": run.renderer}
     return [
         ("algorithm", run.algorithm or ""),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ...errors import ResultError
-from ...results.per_level import rounded, rows_by_level, seeds_of
+from ...results.per_level import round_level, rows_by_level, seeds_of
 from ...results.result import Result
 from .inputs import Entry
 
@@ -87,7 +87,7 @@ def _rows(entry: Entry) -> dict[tuple[int, Level, int], int]:
                     f"{entry.source}: does not record its seeds; nothing can be paired."
                 )
             turn = turns[seed] = turns.get(seed, -1) + 1
-            found[seed, rounded(level), turn] = row
+            found[seed, round_level(level), turn] = row
     return found
 
 

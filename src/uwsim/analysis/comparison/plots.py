@@ -17,7 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.transforms import offset_copy
 
-from ...results.per_level import only_levels, per_level, success_per_level
+from ...results.per_level import intervals_of, select_levels, success_rates
 from ...results.result import Column
 from ...statistics import Interval, Rate
 from ..plots import (
@@ -65,7 +65,7 @@ def curves(comparison: Comparison) -> Figure:
         bars = [
             (entry.name, at.interval, True)
             for entry in entries
-            for at in per_level(entry.result, column.name)
+            for at in intervals_of(entry.result, column.name)
         ]
         return _bars(bars, column.label, zero=False)
     figure = compare_plot(
@@ -110,7 +110,7 @@ def success(comparison: Comparison) -> Figure | None:
     drawn = []
     entries = _compared(comparison)
     for entry in entries:
-        found = success_per_level(entry.result)
+        found = success_rates(entry.result)
         drawn.append([(at.level, at.success) for at in found if at.success is not None])
     if not any(rate.value < 1.0 for rates in drawn for _, rate in rates):
         return None
@@ -260,7 +260,7 @@ def _compared(comparison: Comparison) -> tuple[Entry, ...]:
     """Return the results with the levels that were compared."""
     levels = set(comparison.levels)
     return tuple(
-        replace(entry, result=only_levels(entry.result, levels)) for entry in comparison.entries
+        replace(entry, result=select_levels(entry.result, levels)) for entry in comparison.entries
     )
 
 

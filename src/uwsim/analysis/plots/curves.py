@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...results.per_level import LevelInterval, per_level, rows_by_level
+from ...results.per_level import LevelInterval, intervals_of, rows_by_level
 from ...results.result import Column, Result
 from ...results.table import unit_of
 
@@ -69,7 +69,7 @@ def curves_of(result: Result, column: str) -> list[Curve]:
     outer = result.of_kind("level")[:-1]
     numbers, rows = result.numbers(column), rows_by_level(result)
     found: dict[tuple[float, ...], list[LevelInterval]] = {}
-    for entry in per_level(result, column):
+    for entry in intervals_of(result, column):
         found.setdefault(entry.level[:-1], []).append(entry)
     return [
         Curve(
@@ -84,7 +84,7 @@ def curves_of(result: Result, column: str) -> list[Curve]:
                 for entry in entries
             ),
             losses=_losses(result, key),
-            why=next((entry.why for entry in entries if entry.why), None),
+            why=next((entry.reason for entry in entries if entry.reason), None),
         )
         for key, entries in found.items()
     ]

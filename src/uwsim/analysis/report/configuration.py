@@ -117,7 +117,9 @@ def _words_of(how: str) -> str:
 
 def settings(result: Result) -> list[tuple[str, str]]:
     """Return all other parts of ``run``."""
-    run = {name: value for name, value in result.run.stored().items() if name not in SAID_ELSEWHERE}
+    run = {
+        name: value for name, value in result.run.as_dict().items() if name not in SAID_ELSEWHERE
+    }
     found = flat(run)
     return [(_setting(name), text) for name, text in found]
 

@@ -21,11 +21,11 @@ from ...results.journal import recorded_trials
 from ...results.journal_check import check_rows
 from ...results.log import logs_of
 from ...results.measures_file import load_measures
-from ...results.per_level import LevelInterval, per_level, rows_by_level
+from ...results.per_level import LevelInterval, intervals_of, rows_by_level
 from ...results.provenance import load_provenance
 from ...results.result import Result
 from ...results.result_file import file_of, load
-from ...results.table import BIG, number_text, sensible_decimals, unit_of
+from ...results.table import MAX_FIXED, number_text, sensible_decimals, unit_of
 from ..plots import (
     LEVEL_WORDS,
     MAX_INSIDE,
@@ -227,7 +227,7 @@ def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
         value = f"{rounded(star[0], star[0])}{_space(star[1])}"
         cards.append(Card(label="loss predicted at f*", value=value, note=note))
     for column in result.of_kind("score") + result.of_kind("measure"):
-        known = [e for e in per_level(result, column.name) if e.interval.mean is not None]
+        known = [e for e in intervals_of(result, column.name) if e.interval.mean is not None]
         if not known:
             continue
         first, last = known[0], known[-1]
@@ -250,12 +250,16 @@ def rounded(value: float, against: float) -> str:
 
     Whole numbers beside whole numbers, as counts, have no decimals.
     """
-    if value == round(value) and against == round(against) and max(abs(value), abs(against)) < BIG:
+    if (
+        value == round(value)
+        and against == round(against)
+        and max(abs(value), abs(against)) < MAX_FIXED
+    ):
         return f"{value:.0f}".replace("-", "−")
     measure = against if abs(value) < 1e-3 * abs(against) else value
     decimals = sensible_decimals([measure])
     shown = 0.0 if abs(value) < 0.5 * 10**-decimals and measure is not value else value
-    if 1e3 <= abs(shown) < BIG:
+    if 1e3 <= abs(shown) < MAX_FIXED:
         shown = float(f"{shown:.3g}")
     return number_text(shown, decimals).replace("-", "−")
 

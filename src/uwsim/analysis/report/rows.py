@@ -57,13 +57,13 @@ def level_rows(result: Result) -> list[TableRow]:
                 cells=tuple(_printed(cell) for cell in line.cells),
                 status=line.status,
                 rate=line.rate,
-                ok=line.ok,
-                why=_told_once(line.why, above),
+                ok=line.is_ok,
+                why=_told_once(line.reason, above),
                 begins=outer is not None and line.level[:-1] != outer,
                 rows=line.rows,
             )
         )
-        above, outer = line.why, line.level[:-1]
+        above, outer = line.reason, line.level[:-1]
     return found
 
 

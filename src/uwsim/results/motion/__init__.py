@@ -1,4 +1,4 @@
-"""Motion tracks: where everything was during a trial, 30 times a second, in a small file.
+"""Motion tracks: the poses of all bodies during a trial, 30 times a second, in a small file.
 
 `packing` is the law of the bytes, `motion_track` what they mean, `dug_sand` what a dredge took,
 `marker_log` what programs spawned.
@@ -7,7 +7,7 @@
 from __future__ import annotations
 
 from .dug_sand import GRAIN, DugSand, Spot
-from .marker_log import MarkerChange, MarkerLook, markers_at
+from .marker_log import DrawnMarker, MarkerChange, markers_at
 from .motion_track import (
     RATE,
     MotionTrack,
@@ -21,9 +21,9 @@ from .motion_track import (
 __all__ = [
     "GRAIN",
     "RATE",
+    "DrawnMarker",
     "DugSand",
     "MarkerChange",
-    "MarkerLook",
     "MotionTrack",
     "Signal",
     "Spot",

@@ -19,77 +19,77 @@ Line = tuple[Point, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
-class MarkerLook:
+class DrawnMarker:
     """A marker as viewers draw it."""
 
     colour: str
-    """As ``#rrggbb``."""
+    """The colour as ``#rrggbb``."""
     pose: tuple[float, ...]
-    """Position in W [m] and quaternion wxyz, (7,)."""
+    """The position in W [m] and quaternion wxyz, (7,)."""
     lines: tuple[Line, ...]
-    """In its own frame [m]; none: its name is shown."""
+    """The lines in the marker's frame [m]; without lines a viewer shows the name."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class MarkerChange:
-    """A marker came, became another, or is gone."""
+    """The appearance, change or removal of a marker."""
 
     frame: int
-    """From which on."""
+    """The first frame with the change."""
     name: str
-    """Of the marker."""
-    look: MarkerLook | None
-    """None: it is gone."""
+    """The name of the marker."""
+    marker: DrawnMarker | None
+    """The marker as drawn from then on; None where it is removed."""
 
 
-def markers_at(changes: Sequence[MarkerChange], frame: int) -> dict[str, MarkerLook]:
-    """Return name -> look of the markers that are there in a frame, as they came."""
-    shown: dict[str, MarkerLook] = {}
+def markers_at(changes: Sequence[MarkerChange], frame: int) -> dict[str, DrawnMarker]:
+    """Return the markers of a frame by name, in the order of spawning."""
+    markers: dict[str, DrawnMarker] = {}
     for change in changes:
         if change.frame > frame:
             break
-        if change.look is None:
-            shown.pop(change.name, None)
+        if change.marker is None:
+            markers.pop(change.name, None)
         else:
-            shown[change.name] = change.look
-    return shown
+            markers[change.name] = change.marker
+    return markers
 
 
 def as_json(changes: Sequence[MarkerChange]) -> dict[str, Any]:
-    """Return what stands in the head of a track."""
+    """Return the value for the head of a track."""
     shapes: dict[tuple[Line, ...], int] = {}
     rows: list[list[Any]] = []
     for change in changes:
         row: list[Any] = [change.frame, change.name]
-        if (look := change.look) is not None:
-            row += [shapes.setdefault(look.lines, len(shapes)), look.colour, list(look.pose)]
+        if (marker := change.marker) is not None:
+            row += [shapes.setdefault(marker.lines, len(shapes)), marker.colour, list(marker.pose)]
         rows.append(row)
     return {"shapes": list(shapes), "changes": rows}
 
 
 def from_json(head: dict[str, Any]) -> tuple[MarkerChange, ...]:
-    """Read what `as_json` gave; raises ValueError, KeyError or TypeError where it is none."""
+    """Read the value of `as_json`; raise ValueError, KeyError or TypeError where it is invalid."""
     shapes = [tuple(tuple(map(_point, line)) for line in shape) for shape in head["shapes"]]
     return tuple(_change(shapes, *row) for row in head["changes"])
 
 
 def _change(shapes: Sequence[tuple[Line, ...]], frame: int, name: str, *rest: Any) -> MarkerChange:
-    look = None
+    marker = None
     if rest:
         shape, colour, pose = rest
         if not 0 <= shape < len(shapes) or len(pose) != 7 or not COLOUR.fullmatch(colour):
-            raise ValueError(f"the look of the marker {name!r} is none")
-        look = MarkerLook(colour=colour, pose=_finite(pose), lines=shapes[shape])
-    return MarkerChange(frame=int(frame), name=str(name), look=look)
+            raise ValueError(f"the marker {name!r} is invalid")
+        marker = DrawnMarker(colour=colour, pose=_finite_numbers(pose), lines=shapes[shape])
+    return MarkerChange(frame=int(frame), name=str(name), marker=marker)
 
 
 def _point(point: Sequence[float]) -> Point:
     if len(point) != 3:
         raise ValueError(f"a point of a marker has {len(point)} coordinates")
-    return _finite(point)
+    return _finite_numbers(point)
 
 
-def _finite(values: Sequence[float]) -> tuple[float, ...]:
+def _finite_numbers(values: Sequence[float]) -> tuple[float, ...]:
     numbers = tuple(map(float, values))
     if not all(map(math.isfinite, numbers)):
         raise ValueError("a number of a marker is not finite")

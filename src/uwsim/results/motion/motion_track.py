@@ -1,11 +1,11 @@
-"""The motion track of a trial: poses of bodies, and what else changes, frame by frame.
+"""The motion track of a trial: poses of bodies and other signals, frame by frame.
 
 .. code-block:: text
 
     {"uwsim_motion":1,"rate":30.0,"n":3540,"start":0.0,"bodies":["girona500/base_link", ...],
      "length":0.0001,"quaternion":0.0001,"signals":[{"name":"fog","unit":"1/m","step":0.0001}, ...],
      "levels":[{"values":{"fog":0.5},"began":4.0,"duration":8.0,"status":"ok"}, ...]}
-    <line feed, then the numbers, as of `packing`; all of it gzipped without time or name>
+    <line feed, then the numbers, as in `packing`; all of it gzipped without time or name>
 
 Row k is of the time start + k/rate since the simulation began. It holds seven numbers of every
 body, its position in W [m] and its quaternion (wxyz), and then one of every signal; each is stored
@@ -32,24 +32,24 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import ResultError
-from .dug_sand import COLUMNS, GRAIN, NOTHING, DugSand
+from .dug_sand import COLUMNS, GRAIN, NO_VALUE, DugSand
 from .marker_log import MarkerChange, as_json, from_json
-from .packing import BYTES, Table, shuffled, unshuffled
+from .packing import BYTES, Table, pack_table, unpack_table
 
 Array = npt.NDArray[np.float64]
 
 FORMAT, VERSIONS = "uwsim_motion", (1, 2)
 RATE = 30.0
 """Frames in a second of simulation time [Hz]."""
-LENGTH = 1e-4
-"""Resolution of positions [m]."""
-TURN = 1e-4
-"""Resolution of the numbers of a quaternion [1]."""
+POSITION_STEP = 1e-4
+"""The resolution of positions [m]."""
+QUATERNION_STEP = 1e-4
+"""The resolution of the components of a quaternion [1]."""
 MAX_BYTES = 2**30
-"""Of a track that is read, unpacked."""
-NUMBERS = 7
-"""Of a body."""
-LIMIT = 2**31 - 1
+"""The greatest size of a track that is read, decompressed."""
+NUMBERS_PER_BODY = 7
+"""The count of numbers for a body."""
+MAX_NUMBER = 2**31 - 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,56 +57,56 @@ class Signal:
     """A number, other than a pose, that may change."""
 
     name: str
-    """As ``fog``, or ``current.x``."""
+    """The name, such as ``fog`` or ``current.x``."""
     unit: str = "1"
-    """Its unit."""
+    """The unit."""
     step: float = 1e-4
-    """What is stored is a whole multiple of this."""
+    """The resolution; stored values are whole multiples of it."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrackLevel:
-    """When a level was measured."""
+    """The time and outcome of a level."""
 
     values: Mapping[str, float]
-    """Swept parameter -> value, outermost first."""
+    """The value of each swept parameter, outermost first."""
     began: float
-    """Simulation time at which it began to be measured [s]."""
+    """The simulation time at which the measurement began [s]."""
     duration: float
-    """How long it was measured [s]."""
+    """The duration of the measurement [s]."""
     status: str
-    """``ok``, or what went wrong."""
+    """The status: ``ok``, or the reason of failure."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class MotionTrack:
-    """Where everything was during a trial."""
+    """The motion of all bodies during a trial."""
 
     bodies: tuple[str, ...]
     """Names: ``vehicle/link``, or an object's."""
     poses: Array
-    """Position in W [m] and unit quaternion wxyz of each, (frames, bodies, 7)."""
+    """The position in W [m] and unit quaternion wxyz of each body, (frames, bodies, 7)."""
     signals: tuple[Signal, ...] = ()
-    """What else is stored."""
+    """The further signals of a row."""
     values: Array
-    """Of each signal, (frames, signals); NaN: nothing."""
+    """The values of each signal, (frames, signals); NaN where there is none."""
     levels: tuple[TrackLevel, ...] = ()
-    """In order."""
+    """The levels, in order."""
     rate: float = RATE
     """Frames a second [Hz]."""
     sand: DugSand = field(default_factory=DugSand)
-    """Where sand was taken."""
+    """The places where sand was taken."""
     markers: tuple[MarkerChange, ...] = ()
     """The markers that programs spawned, in the order of their frames."""
 
     @property
     def n_frames(self) -> int:
-        """Number of frames."""
+        """The number of frames."""
         return len(self.poses)
 
     @property
     def duration(self) -> float:
-        """Time of the last frame [s]."""
+        """The time of the last frame [s]."""
         return max(0, self.n_frames - 1) / self.rate
 
     def signal(self, name: str) -> Array | None:
@@ -115,17 +115,17 @@ class MotionTrack:
         return self.values[:, names.index(name)] if name in names else None
 
 
-def quantised(values: Array, steps: Array) -> Table:
+def quantise(values: Array, steps: Array) -> Table:
     """Return values (..., m) as whole multiples of steps (m,)."""
-    whole = np.rint(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) / steps)
-    table = np.clip(whole, -LIMIT, LIMIT).astype(np.int32)
-    table[~np.isfinite(values)] = NOTHING
+    multiples = np.rint(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) / steps)
+    table = np.clip(multiples, -MAX_NUMBER, MAX_NUMBER).astype(np.int32)
+    table[~np.isfinite(values)] = NO_VALUE
     return table
 
 
 def steps_of(n_bodies: int, signals: Sequence[Signal]) -> Array:
     """Return the resolution of each number of a row, (7 bodies + signals,)."""
-    pose = [LENGTH] * 3 + [TURN] * 4
+    pose = [POSITION_STEP] * 3 + [QUATERNION_STEP] * 4
     return np.array([*pose * n_bodies, *(signal.step for signal in signals)])
 
 
@@ -142,13 +142,13 @@ def track_bytes(
     """Return the file of a track.
 
     Args:
-        bodies: their names.
-        signals: what else is in a row.
+        bodies: the names of the bodies.
+        signals: the further signals of a row.
         table: quantised rows, (frames, 7 bodies + signals).
-        levels: in order.
-        rate: frames a second [Hz].
-        sand: where sand was taken; None: nowhere.
-        markers: that programs spawned, in the order of their frames.
+        levels: the levels, in order.
+        rate: the frames a second [Hz].
+        sand: the places where sand was taken; None where none was.
+        markers: the markers that programs spawned, in the order of their frames.
     """
     digs = (sand or DugSand()).table
     head = {
@@ -157,8 +157,8 @@ def track_bytes(
         "n": len(table),
         "start": 0.0,
         "bodies": list(bodies),
-        "length": LENGTH,
-        "quaternion": TURN,
+        "length": POSITION_STEP,
+        "quaternion": QUATERNION_STEP,
         "signals": [asdict(signal) for signal in signals],
         "levels": [{**asdict(level), "values": dict(level.values)} for level in levels],
     }
@@ -167,14 +167,14 @@ def track_bytes(
     if markers:
         head["markers"] = as_json(markers)
     text = json.dumps(head, allow_nan=False, ensure_ascii=True, separators=(",", ":"))
-    content = text.encode() + b"\n" + shuffled(table) + shuffled(digs)
+    content = text.encode() + b"\n" + pack_table(table) + pack_table(digs)
     return gzip.compress(content, compresslevel=9, mtime=0)
 
 
 def read_track(data: bytes) -> MotionTrack:
-    """Read the bytes of a track; raises ResultError where they are none."""
+    """Read the bytes of a track; raise ResultError where they are not a track."""
     try:
-        line, _, rest = _opened(data).partition(b"\n")
+        line, _, rest = _decompress(data).partition(b"\n")
         head = json.loads(line)
         if head[FORMAT] not in VERSIONS:
             raise ValueError(f"found version {head[FORMAT]!r}")
@@ -191,7 +191,7 @@ def read_track(data: bytes) -> MotionTrack:
 
 
 def load_track(path: Path) -> MotionTrack:
-    """Read the file of a track; raises ResultError where there is none, or it is damaged."""
+    """Read the file of a track; raise ResultError where it does not exist or is damaged."""
     try:
         return read_track(path.read_bytes())
     except OSError as error:
@@ -200,54 +200,54 @@ def load_track(path: Path) -> MotionTrack:
         raise ResultError(f"{path}: {error}.") from None
 
 
-def _opened(data: bytes) -> bytes:
-    """Unpack gzip, up to `MAX_BYTES`."""
+def _decompress(data: bytes) -> bytes:
+    """Decompress gzip, up to `MAX_BYTES`."""
     stream = zlib.decompressobj(wbits=31)
     try:
-        raw = stream.decompress(data, MAX_BYTES)
+        content = stream.decompress(data, MAX_BYTES)
     except zlib.error as error:
         raise ValueError(f"cannot be unpacked: {error}") from None
     if not stream.eof:
-        raise ValueError("it is cut off" if len(raw) < MAX_BYTES else "it is too long")
-    return raw
+        raise ValueError("it is cut off" if len(content) < MAX_BYTES else "it is too long")
+    return content
 
 
 def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
     bodies = tuple(map(str, head["bodies"]))
-    signals = tuple(_signal(**each) for each in head["signals"])
+    signals = tuple(_signal(**entry) for entry in head["signals"])
     pose = [float(head["length"])] * 3 + [float(head["quaternion"])] * 4
     steps, n = np.array([*pose * len(bodies), *(signal.step for signal in signals)]), int(head["n"])
     rate = float(head["rate"])
     if not (0.0 < rate < math.inf and np.all((steps > 0.0) & (steps < math.inf))):
         raise ValueError("a rate or a resolution is not above 0")
     size = max(0, n) * len(steps) * BYTES
-    table = unshuffled(rest[:size], n, len(steps))
+    table = unpack_table(rest[:size], n, len(steps))
     rows = table * steps
-    rows[table == NOTHING] = np.nan
-    poses = rows[:, : NUMBERS * len(bodies)].reshape(n, len(bodies), NUMBERS)
+    rows[table == NO_VALUE] = np.nan
+    poses = rows[:, : NUMBERS_PER_BODY * len(bodies)].reshape(n, len(bodies), NUMBERS_PER_BODY)
     norms = np.linalg.norm(poses[..., 3:], axis=-1, keepdims=True)
     if (norms < 0.5).any():
-        raise ValueError("an orientation is no unit quaternion")
+        raise ValueError("an orientation is not a unit quaternion")
     poses[..., 3:] /= norms
     return MotionTrack(
         bodies=bodies,
         poses=poses,
         signals=signals,
-        values=rows[:, NUMBERS * len(bodies) :],
-        levels=tuple(_level(**each) for each in head["levels"]),
+        values=rows[:, NUMBERS_PER_BODY * len(bodies) :],
+        levels=tuple(_level(**entry) for entry in head["levels"]),
         rate=rate,
-        sand=_dug(head.get("sand", {"n": 0}), rest[size:]),
+        sand=_read_sand(head.get("sand", {"n": 0}), rest[size:]),
         markers=from_json(head.get("markers", {"shapes": (), "changes": ()})),
     )
 
 
 def _signal(name: object, unit: object = "1", step: object = 1e-4) -> Signal:
-    """Return a signal of a head; raises ValueError or TypeError."""
+    """Return a signal of a head; raise ValueError or TypeError if it is invalid."""
     return Signal(name=_text("name", name), unit=_text("unit", unit), step=_number("step", step))
 
 
 def _level(values: object, began: object, duration: object, status: object) -> TrackLevel:
-    """Return a level of a head; raises ValueError or TypeError."""
+    """Return a level of a head; raise ValueError or TypeError if it is invalid."""
     if not isinstance(values, dict):
         raise ValueError(f"the values of a level are {str(values)[:60]}; expected an object")
     return TrackLevel(
@@ -271,8 +271,8 @@ def _text(name: str, value: object) -> str:
     return value
 
 
-def _dug(head: dict[str, Any], rest: bytes) -> DugSand:
+def _read_sand(head: dict[str, Any], rest: bytes) -> DugSand:
     n = int(head["n"])
     if n and head["grain"] != GRAIN:
         raise ValueError(f"sand was taken in steps of {head['grain']!r} m, not {GRAIN}")
-    return DugSand(table=unshuffled(rest, n, COLUMNS))
+    return DugSand(table=unpack_table(rest, n, COLUMNS))

@@ -1,1 +1,1 @@
-"""What a stored value must look like, checked as it is read."""
+"""The expected shapes of stored values, checked as they are read."""

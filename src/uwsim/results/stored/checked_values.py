@@ -10,22 +10,22 @@ from typing import Any
 from ...errors import ResultError
 
 
-def checked_values(value: object, at: str) -> Any:
+def checked_values(value: object, path: str) -> Any:
     """Return the value as dicts, tuples, str, bool, int, float or None; all numbers finite.
 
     Raises:
-        ResultError: it is of another kind, or a number is not finite; names the place ``at``.
+        ResultError: it is of another kind, or a number is not finite; names its path.
     """
     if value is None or isinstance(value, str | bool):
         return value
     if isinstance(value, Mapping):
-        return {str(k): checked_values(v, f"{at}.{k}") for k, v in value.items()}
+        return {str(k): checked_values(v, f"{path}.{k}") for k, v in value.items()}
     if isinstance(value, Integral):
         return int(value)
     if isinstance(value, Real):
         if not math.isfinite(value):
-            raise ResultError(f"{at} is {float(value)}: nothing to measure is null.")
+            raise ResultError(f"{path} is {float(value)}: a missing value is null.")
         return float(value)
     if isinstance(value, Sequence):
-        return tuple(checked_values(v, f"{at}[{i}]") for i, v in enumerate(value))
-    raise ResultError(f"{at} is {value!r}; expected text, a number, a list or an object.")
+        return tuple(checked_values(v, f"{path}[{i}]") for i, v in enumerate(value))
+    raise ResultError(f"{path} is {value!r}; expected text, a number, a list or an object.")

@@ -1,4 +1,4 @@
-"""Records of a result whose keys are known and may be absent; what is not known is kept."""
+"""Records of a result whose keys are known and may be absent; unknown keys are preserved."""
 
 from __future__ import annotations
 
@@ -11,29 +11,29 @@ from .checked_values import checked_values
 
 @dataclass(frozen=True, kw_only=True)
 class StoredRecord:
-    """An object of ``result.json``. None is a key that is absent; `others` has unknown keys."""
+    """An object of ``result.json``; None stands for an absent key."""
 
     KEY: ClassVar[str]
-    """Key of the record in ``result.json``."""
+    """The key of the record in ``result.json``."""
 
     others: Mapping[str, object] = field(default_factory=dict)
-    """Values under keys that this version does not know."""
+    """The values under keys that this version does not know."""
 
     def __post_init__(self) -> None:
-        for each in fields(self):
-            at = self.KEY if each.name == "others" else f"{self.KEY}.{each.name}"
-            object.__setattr__(self, each.name, checked_values(getattr(self, each.name), at))
+        for name in (attribute.name for attribute in fields(self)):
+            path = self.KEY if name == "others" else f"{self.KEY}.{name}"
+            object.__setattr__(self, name, checked_values(getattr(self, name), path))
 
     @classmethod
-    def of(cls, stored: Mapping[str, object]) -> Self:
-        """Return the record of what JSON has; its shape has been checked (`stored_shapes`)."""
-        known = {each.name for each in fields(cls)} - {"others"}
-        given = {name: value for name, value in stored.items() if name in known}
-        others = {name: value for name, value in stored.items() if name not in known}
-        return cls(others=others, **given)
+    def from_dict(cls, record: Mapping[str, object]) -> Self:
+        """Return the record of a JSON object whose shape was checked (`stored_shapes`)."""
+        known_names = {attribute.name for attribute in fields(cls)} - {"others"}
+        known_values = {name: value for name, value in record.items() if name in known_names}
+        other_values = {name: value for name, value in record.items() if name not in known_names}
+        return cls(others=other_values, **known_values)
 
-    def stored(self) -> dict[str, object]:
-        """Return what `of` reads: the keys that are there, in their order."""
-        names = (each.name for each in fields(self) if each.name != "others")
-        known = {name: value for name in names if (value := getattr(self, name)) is not None}
-        return {**known, **self.others}
+    def as_dict(self) -> dict[str, object]:
+        """Return the input of `from_dict`: the keys that are present, in their order."""
+        names = (attribute.name for attribute in fields(self) if attribute.name != "others")
+        known_values = {name: value for name in names if (value := getattr(self, name)) is not None}
+        return {**known_values, **self.others}

@@ -1,7 +1,7 @@
 """Validation of values read from JSON against expected shapes.
 
-A shape is a function of a value and of where it stands; it raises `ResultError` that says what was
-found there, and what was expected.
+A shape is a function of a value and its path in the document. It raises a `ResultError` that
+states the found value and the expected one.
 """
 
 from __future__ import annotations
@@ -15,23 +15,23 @@ from ...errors import ResultError
 
 Shape = Callable[[Any, str], None]
 MAX_DEPTH = 12
-"""Lists and objects are nested no deeper than this."""
+"""The greatest depth of nested lists and objects."""
 MAX_SHOWN = 60
-"""So many letters of a wrong value are shown."""
+"""The greatest number of letters of a wrong value in a message."""
 _CELLS = {int, float, NoneType}
 
 
-def expect(truth: bool, value: object, at: str, what: str) -> None:
-    """Raise ResultError unless it is true: ``value`` was found ``at`` a place, not ``what``."""
+def expect(truth: bool, value: object, path: str, expected: str) -> None:
+    """Raise ResultError with the value found and expected at a path, unless a condition holds."""
     if not truth:
-        shown = repr(value)
-        shown = shown if len(shown) <= MAX_SHOWN else f"{shown[: MAX_SHOWN - 3]}..."
-        raise ResultError(f"{at} is {shown}; expected {what}.")
+        excerpt = repr(value)
+        excerpt = excerpt if len(excerpt) <= MAX_SHOWN else f"{excerpt[: MAX_SHOWN - 3]}..."
+        raise ResultError(f"{path} is {excerpt}; expected {expected}.")
 
 
-def text(value: Any, at: str) -> None:
-    """A string that can be written: without half of a surrogate pair."""
-    expect(isinstance(value, str) and _is_unicode(value), value, at, "text")
+def text(value: Any, path: str) -> None:
+    """Check a string that can be written: without half of a surrogate pair."""
+    expect(isinstance(value, str) and _is_unicode(value), value, path, "text")
 
 
 def _is_unicode(value: str) -> bool:
@@ -42,91 +42,92 @@ def _is_unicode(value: str) -> bool:
     return True
 
 
-def whole(value: Any, at: str) -> None:
-    """A whole number from 0."""
+def integer(value: Any, path: str) -> None:
+    """Check a whole number from 0."""
     fits = isinstance(value, int) and not isinstance(value, bool) and value >= 0
-    expect(fits, value, at, "a whole number from 0")
+    expect(fits, value, path, "a whole number from 0")
 
 
-def number(value: Any, at: str) -> None:
-    """A finite number."""
+def number(value: Any, path: str) -> None:
+    """Check a finite number."""
     fits = isinstance(value, int | float) and not isinstance(value, bool)
-    expect(fits and math.isfinite(value), value, at, "a finite number")
+    expect(fits and math.isfinite(value), value, path, "a finite number")
 
 
-def anything(value: Any, at: str) -> None:
-    """Any value of JSON that is not nested too deep."""
+def any_value(value: Any, path: str) -> None:
+    """Check a value of JSON that is not nested too deep."""
     layer = [value]
     for _ in range(MAX_DEPTH):
-        inner = [each.values() if isinstance(each, Mapping) else each for each in layer]
-        layer = [v for each in inner if not isinstance(each, _SCALARS) for v in each]
-    expect(not layer, "...", at, f"lists and objects in each other up to {MAX_DEPTH} deep")
+        inner_values = [node.values() if isinstance(node, Mapping) else node for node in layer]
+        layer = [v for node in inner_values if not isinstance(node, _SCALARS) for v in node]
+    expect(not layer, "...", path, f"lists and objects in each other up to {MAX_DEPTH} deep")
 
 
 _SCALARS = (str, int, float, NoneType)
 
 
-def cells(value: Any, at: str) -> None:
-    """A list of numbers and nulls; quick, for there are many."""
-    expect(isinstance(value, list), value, at, "a list")
-    expect(set(map(type, value)) <= _CELLS, value, at, "numbers and nulls")
+def cells(value: Any, path: str) -> None:
+    """Check a list of numbers and nulls; quick, as lists are long."""
+    expect(isinstance(value, list), value, path, "a list")
+    expect(set(map(type, value)) <= _CELLS, value, path, "numbers and nulls")
 
 
-def maybe(shape: Shape) -> Shape:
-    """Null, or of the shape."""
+def null_or(shape: Shape) -> Shape:
+    """Return the shape of null or of a value of the shape."""
 
-    def check(value: Any, at: str) -> None:
+    def check(value: Any, path: str) -> None:
         if value is not None:
-            shape(value, at)
+            shape(value, path)
 
     return check
 
 
-def each(shape: Shape, *, n: int | None = None) -> Shape:
-    """A list, every item of the shape; of ``n`` items."""
+def array(shape: Shape, *, n: int | None = None) -> Shape:
+    """Return the shape of a list, of ``n`` values where it is set, every value of the shape."""
 
-    def check(value: Any, at: str) -> None:
-        expect(isinstance(value, list), value, at, "a list")
-        expect(n is None or len(value) == n, value, at, f"{n} values")
+    def check(value: Any, path: str) -> None:
+        expect(isinstance(value, list), value, path, "a list")
+        expect(n is None or len(value) == n, value, path, f"{n} values")
         for i, item in enumerate(value):
-            shape(item, f"{at}[{i}]")
+            shape(item, f"{path}[{i}]")
 
     return check
 
 
 def items(*shapes: Shape) -> Shape:
-    """A list of one item for each shape."""
+    """Return the shape of a list of one value for each shape."""
 
-    def check(value: Any, at: str) -> None:
+    def check(value: Any, path: str) -> None:
         fits = isinstance(value, list) and len(value) == len(shapes)
-        expect(fits, value, at, f"a list of {len(shapes)}")
+        expect(fits, value, path, f"a list of {len(shapes)}")
         for i, (item, shape) in enumerate(zip(value, shapes, strict=True)):
-            shape(item, f"{at}[{i}]")
+            shape(item, f"{path}[{i}]")
 
     return check
 
 
 def table(shape: Shape) -> Shape:
-    """An object with any keys, every value of the shape."""
+    """Return the shape of an object with any keys, every value of the shape."""
 
-    def check(value: Any, at: str) -> None:
-        expect(isinstance(value, dict), value, at, "an object")
+    def check(value: Any, path: str) -> None:
+        expect(isinstance(value, dict), value, path, "an object")
         for key, item in value.items():
-            text(key, at)
-            shape(item, f"{at}.{key[:MAX_SHOWN]}")
+            text(key, path)
+            shape(item, f"{path}.{key[:MAX_SHOWN]}")
 
     return check
 
 
-def fields(required: Mapping[str, Shape], optional: Mapping[str, Shape] | None = None) -> Shape:
-    """An object with these keys; what has others is not looked into, but for its depth."""
-    known = {**required, **(optional or {})}
+def fields(keys: Mapping[str, Shape], optional_keys: Mapping[str, Shape] | None = None) -> Shape:
+    """Return the shape of an object with these keys; other keys may have any value."""
+    shapes = {**keys, **(optional_keys or {})}
 
-    def check(value: Any, at: str) -> None:
-        expect(isinstance(value, dict), value, at, "an object")
-        for name in required:
-            expect(name in value, sorted(value), at, f"{name!r} among its keys")
+    def check(value: Any, path: str) -> None:
+        expect(isinstance(value, dict), value, path, "an object")
+        for name in keys:
+            expect(name in value, sorted(value), path, f"{name!r} among its keys")
         for key, item in value.items():
-            known.get(key, anything)(item, f"{at}.{key[:MAX_SHOWN]}" if at else key[:MAX_SHOWN])
+            name = key[:MAX_SHOWN]
+            shapes.get(key, any_value)(item, f"{path}.{name}" if path else name)
 
     return check

@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 Record = dict[str, Any]
-Measured = tuple[float | None, str]
+ValueWithUnit = tuple[float | None, str]
 """A value and its unit."""
 StoredFact = tuple[Any, str]
 """A constant of the scene and its unit."""
@@ -35,40 +35,40 @@ class StoredRow:
 
     values: tuple[float, ...]
     """The values of the level, the outermost first."""
-    measures: Mapping[str, Measured]
-    """Measure -> value and unit."""
-    details: Mapping[str, Measured]
-    """``measure.detail`` -> value and unit."""
+    measures: Mapping[str, ValueWithUnit]
+    """The value and unit of each measure."""
+    details: Mapping[str, ValueWithUnit]
+    """The value and unit of each ``measure.detail``."""
     total: float | None
     """The score."""
     status: str
     """``ok``, or the first status of docs/levels.md that applies."""
     missing: Mapping[str, str]
-    """Column -> why it is null."""
+    """The reason of each null column."""
     ended_at: float | None
     """The simulation time at the end of the level [s]; None in files of early versions."""
     duration: float
-    """How long the level was measured [s]."""
+    """The duration of the measurement [s]."""
     logs: Mapping[str, Sequence[Sample]]
-    """Measure -> samples."""
+    """The samples of each measure."""
     log_headers: Mapping[str, tuple[str, ...]]
-    """Measure -> columns of its samples after the time, with units."""
+    """The columns of each measure's samples after the time, with units."""
     pictures: tuple[StoredPicture, ...]
     """The cameras' last images."""
     fingerprint: str | None
     """The fingerprint of every body's motion and of every image since the trial began."""
     refused: tuple[tuple[str, str, int], ...] = ()
-    """What came from programs that do not take part: sender, topic or service, how often."""
+    """The refused messages of programs that do not take part: sender, topic or service, number."""
     remarks: tuple[str, ...] = ()
-    """What belongs beside its status, with the measure it is about."""
+    """Notes beside its status, each with the measure that it is about."""
 
     @classmethod
-    def of(cls, record: Record) -> StoredRow:
+    def from_dict(cls, record: Record) -> StoredRow:
         """Return the row of a record whose shape was checked (`stored_shapes.ROW`)."""
         return cls(
             values=tuple(record["values"]),
-            measures=_measured(record["measures"]),
-            details=_measured(record["details"]),
+            measures=_values_with_units(record["measures"]),
+            details=_values_with_units(record["details"]),
             total=record["total"],
             status=record["status"],
             missing=record["missing"],
@@ -78,48 +78,48 @@ class StoredRow:
             log_headers={name: tuple(header) for name, header in record["log_headers"].items()},
             pictures=tuple(
                 StoredPicture(
-                    camera=each["camera"],
-                    file=each["file"],
-                    truth=_corners(each["truth"]),
-                    estimate=_corners(each["estimate"]),
+                    camera=picture["camera"],
+                    file=picture["file"],
+                    truth=_corners(picture["truth"]),
+                    estimate=_corners(picture["estimate"]),
                 )
-                for each in record["pictures"]
+                for picture in record["pictures"]
             ),
             fingerprint=record.get("fingerprint"),
-            refused=tuple((by, what, n) for by, what, n in record.get("refused", ())),
+            refused=tuple((sender, topic, n) for sender, topic, n in record.get("refused", ())),
             remarks=tuple(record.get("remarks", ())),
         )
 
     def record(self) -> Record:
-        """Return what is written, without what is not known or empty and may be left out."""
-        found = {each.name: getattr(self, each.name) for each in fields(self)}
-        found["pictures"] = [vars(picture) for picture in self.pictures]
+        """Return the record to write, without unknown or empty values that may be absent."""
+        record = {field.name: getattr(self, field.name) for field in fields(self)}
+        record["pictures"] = [vars(picture) for picture in self.pictures]
         for name in ("refused", "remarks"):
-            if not found[name]:
-                del found[name]
+            if not record[name]:
+                del record[name]
         for name in ("ended_at", "fingerprint"):
-            if found[name] is None:
-                del found[name]
-        return found
+            if record[name] is None:
+                del record[name]
+        return record
 
 
 @dataclass(frozen=True, kw_only=True)
 class StoredEnd:
-    """What a trial leaves besides its rows."""
+    """The end of a trial: everything that it stores besides its rows."""
 
     facts: Mapping[str, StoredFact]
-    """Constants of the scene: name -> value and unit."""
+    """The constants of the scene: name -> value and unit."""
     parameters: Mapping[str, float | str]
     """The parameters of the algorithm, defaults included."""
     streams: tuple[tuple[str, int, str], ...]
-    """Topic, number of images, SHA-256 over their pixels."""
+    """The topic, number of images and SHA-256 over their pixels of each stream."""
     notes: tuple[str, ...]
-    """What the reader of the result should know, besides the values."""
+    """Notes for the reader of the result."""
     trace: Record | None
     """The fingerprints on the way (`uwsim.runs.trial.fingerprint`); None in early versions."""
 
     @classmethod
-    def of(cls, record: Record) -> StoredEnd:
+    def from_dict(cls, record: Record) -> StoredEnd:
         """Return the end of a record whose shape was checked (`stored_shapes.END`)."""
         return cls(
             facts={name: (value, unit) for name, (value, unit) in record["facts"].items()},
@@ -130,16 +130,16 @@ class StoredEnd:
         )
 
     def record(self) -> Record:
-        """Return what is written."""
-        found = {each.name: getattr(self, each.name) for each in fields(self)}
+        """Return the record to write."""
+        record = {field.name: getattr(self, field.name) for field in fields(self)}
         if self.trace is None:
-            del found["trace"]
-        return found
+            del record["trace"]
+        return record
 
 
-def _measured(record: Record) -> dict[str, Measured]:
+def _values_with_units(record: Record) -> dict[str, ValueWithUnit]:
     return {name: (value, unit) for name, (value, unit) in record.items()}
 
 
-def _corners(stored: Sequence[float] | None) -> tuple[float, ...] | None:
-    return None if stored is None else tuple(stored)
+def _corners(numbers: Sequence[float] | None) -> tuple[float, ...] | None:
+    return None if numbers is None else tuple(numbers)

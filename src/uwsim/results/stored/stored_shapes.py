@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from .shapes import anything, cells, each, fields, items, maybe, number, table, text, whole
+from .shapes import any_value, array, cells, fields, integer, items, null_or, number, table, text
 
 _FILE = items(text, text)
-_QUAD = maybe(each(number, n=8))
-_MEASURED = table(items(maybe(number), text))
+_QUAD = null_or(array(number, n=8))
+_VALUES_WITH_UNITS = table(items(null_or(number), text))
 
 INPUTS = fields(
     {},
@@ -14,29 +14,29 @@ INPUTS = fields(
         "benchmark": _FILE,
         "scene": _FILE,
         "assets": table(text),
-        "plugins": each(_FILE),
+        "plugins": array(_FILE),
         "algorithm": table(text),
     },
 )
 RUN = fields(
     {},
     {
-        "seed": whole,
-        "repeats": whole,
+        "seed": integer,
+        "repeats": integer,
         "mode": text,
         "algorithm": text,
-        "clients": each(items(text, text)),
-        "parameters": table(anything),
-        "settings": each(items(text, text)),
-        "levels": each(items(text, number)),
-        "compatibility": each(text),
+        "clients": array(items(text, text)),
+        "parameters": table(any_value),
+        "settings": array(items(text, text)),
+        "levels": array(items(text, number)),
+        "compatibility": array(text),
         "timestep": items(number, text),
         "version": text,
         "physics": text,
         "renderer": text,
         "numpy": text,
-        "units": items(whole, whole),
-        "notes": each(text),
+        "units": items(integer, integer),
+        "notes": array(text),
     },
 )
 RESULT = fields(
@@ -44,55 +44,57 @@ RESULT = fields(
     {
         "inputs": INPUTS,
         "run": RUN,
-        "facts": table(anything),
-        "columns": each(fields({}, {"unit": maybe(text), "expression": maybe(text)})),
-        "image_streams": each(
-            fields({}, {"seed": whole, "topic": text, "level": maybe(each(number))})
+        "facts": table(any_value),
+        "columns": array(fields({}, {"unit": null_or(text), "expression": null_or(text)})),
+        "image_streams": array(
+            fields({}, {"seed": integer, "topic": text, "level": null_or(array(number))})
         ),
-        "pictures": each(fields({}, {"camera": text, "truth": _QUAD, "estimate": _QUAD})),
-        "refused": each(fields({}, {"row": whole, "by": text, "what": text, "n": whole})),
-        "remarks": each(fields({"row": whole, "text": text})),
+        "pictures": array(fields({}, {"camera": text, "truth": _QUAD, "estimate": _QUAD})),
+        "refused": array(fields({}, {"row": integer, "by": text, "what": text, "n": integer})),
+        "remarks": array(fields({"row": integer, "text": text})),
     },
 )
-"""Of ``result.json``, as far as `Result` does not see to it."""
+"""The shape of ``result.json``, as far as `Result` does not check it."""
 
-HEAD = fields({}, {"inputs": INPUTS, "run": RUN, "seed": whole, "levels": each(each(number))})
+HEAD = fields({}, {"inputs": INPUTS, "run": RUN, "seed": integer, "levels": array(array(number))})
 """The shape of ``unit`` in the first line of a journal."""
 ROW = fields(
     {
-        "values": each(number),
-        "measures": _MEASURED,
-        "details": _MEASURED,
-        "total": maybe(number),
+        "values": array(number),
+        "measures": _VALUES_WITH_UNITS,
+        "details": _VALUES_WITH_UNITS,
+        "total": null_or(number),
         "status": text,
         "missing": table(text),
         "duration": number,
-        "logs": table(each(cells)),
-        "log_headers": table(each(text)),
-        "pictures": each(fields({"camera": text, "file": text, "truth": _QUAD, "estimate": _QUAD})),
+        "logs": table(array(cells)),
+        "log_headers": table(array(text)),
+        "pictures": array(
+            fields({"camera": text, "file": text, "truth": _QUAD, "estimate": _QUAD})
+        ),
     },
     {
         "ended_at": number,
         "fingerprint": text,
-        "refused": each(items(text, text, whole)),
-        "remarks": each(text),
+        "refused": array(items(text, text, integer)),
+        "remarks": array(text),
     },
 )
 """The shape of ``row`` in each further line."""
 END = fields(
     {
-        "facts": table(items(anything, text)),
-        "parameters": table(anything),
-        "streams": each(items(text, whole, text)),
-        "notes": each(text),
+        "facts": table(items(any_value, text)),
+        "parameters": table(any_value),
+        "streams": array(items(text, integer, text)),
+        "notes": array(text),
     },
     {
         "trace": fields(
-            {}, {"every": whole, "steps": whole, "parts": each(text), "marks": each(text)}
+            {}, {"every": integer, "steps": integer, "parts": array(text), "marks": array(text)}
         )
     },
 )
 """The shape of ``end`` in the last line."""
 
-PROVENANCE = fields({}, {"command": each(text), "load": anything, "packages": table(text)})
-"""Of ``provenance.json``: what was typed, and on what it ran."""
+PROVENANCE = fields({}, {"command": array(text), "load": any_value, "packages": table(text)})
+"""The shape of ``provenance.json``: the command, and the machine of the run."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from ...messages import Marker
-from ...results.motion import DugSand, MarkerChange, MarkerLook, Spot
-from ...results.motion.dug_sand import COLUMNS, NOTHING
+from ...results.motion import DrawnMarker, DugSand, MarkerChange, Spot
+from ...results.motion.dug_sand import COLUMNS, NO_VALUE
 from ...simulation import Simulation
 from ...simulation.markers.lines import MAX_POINTS, look_of, n_points
 
@@ -37,7 +37,7 @@ class SandLog:
             self._versions[number] = heap.version
             n = len(self._seen[number])
             if heap.state.taken[:n] != self._seen[number]:  # it was put back meanwhile
-                self._rows.append((frame, number, NOTHING, NOTHING, NOTHING))
+                self._rows.append((frame, number, NO_VALUE, NO_VALUE, NO_VALUE))
                 n = 0
             self._rows += [(frame, number, *spot) for spot in heap.state.taken[n:]]
             self._seen[number] = list(heap.state.taken)
@@ -57,7 +57,7 @@ class MarkerLog:
     def __init__(self, simulation: Simulation) -> None:
         self._world = simulation.world
         self._markers: dict[str, Marker] = {}
-        self._looks: dict[str, MarkerLook] = {}
+        self._looks: dict[str, DrawnMarker] = {}
         self._shapes: set[object] = set()
         self._room, self._drawn = MAX_KEPT, 0  # points that may be kept, and that are shown now
         self.changes: list[MarkerChange] = []
@@ -72,11 +72,11 @@ class MarkerLog:
         gone = [name for name in before if name not in shown]
         for name in gone:
             self._drawn -= n_points(self._looks.pop(name))
-        self.changes += [MarkerChange(frame=frame, name=name, look=None) for name in gone]
+        self.changes += [MarkerChange(frame=frame, name=name, marker=None) for name in gone]
         for name, marker in shown.items():
             if before.get(name) is not marker:
                 self._renew(name, marker)
-                self.changes.append(MarkerChange(frame=frame, name=name, look=self._looks[name]))
+                self.changes.append(MarkerChange(frame=frame, name=name, marker=self._looks[name]))
 
     def _renew(self, name: str, marker: Marker) -> None:
         """Draw a marker anew, with as many points as viewers take and the track may hold."""

@@ -11,7 +11,7 @@ from ...base.geometry import Array
 from ...benchmark.ground_truth import CornersFromCameraSpec
 from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, MeasureSpec
 from ...results.motion import RATE, Signal, TrackLevel, track_bytes
-from ...results.motion.motion_track import quantised, steps_of
+from ...results.motion.motion_track import quantise, steps_of
 from ...results.motion.packing import Table
 from ...simulation import Simulation
 from ...simulation.tracked_state import BRIGHTNESS, LAMP, TrackedState
@@ -95,7 +95,7 @@ class MotionRecorder:
     def _pack(self) -> None:
         """Quantise the newest rows, many at once."""
         if self._rows:
-            self._tables.append(quantised(np.array(self._rows), self._steps))
+            self._tables.append(quantise(np.array(self._rows), self._steps))
             self._rows = []
 
     def _row(self) -> Array:

@@ -15,7 +15,7 @@ import numpy as np
 from ...base.external_values import MAX_COORDINATE, read_pose
 from ...base.geometry import Array, Pose
 from ...messages import Marker
-from ...results.motion import MarkerLook
+from ...results.motion import DrawnMarker
 
 MAX_POINTS = 2000
 """Of all markers together; lines beyond are left out."""
@@ -28,7 +28,7 @@ NAMED = (Marker.MESH_RESOURCE, Marker.TEXT_VIEW_FACING)
 Line = list[tuple[float, float, float]]
 
 
-def look_of(marker: Marker, world_from_localized: Pose, room: int = MAX_POINTS) -> MarkerLook:
+def look_of(marker: Marker, world_from_localized: Pose, room: int = MAX_POINTS) -> DrawnMarker:
     """Return how a marker is drawn.
 
     Args:
@@ -44,15 +44,15 @@ def look_of(marker: Marker, world_from_localized: Pose, room: int = MAX_POINTS) 
         kept.append(tuple(tuple(round(value, 4) for value in point) for point in line))
     pose = world_from_localized @ localized_from_marker(marker)
     row = (*np.round(pose.position, 4).tolist(), *np.round(pose.quaternion, 5).tolist())
-    return MarkerLook(colour=_colour(marker), pose=row, lines=tuple(kept))
+    return DrawnMarker(colour=_colour(marker), pose=row, lines=tuple(kept))
 
 
-def n_points(look: MarkerLook) -> int:
+def n_points(look: DrawnMarker) -> int:
     """Return how many points the lines of a marker have."""
     return sum(map(len, look.lines))
 
 
-def looks_of(markers: Mapping[str, Marker], world_from_localized: Pose) -> dict[str, MarkerLook]:
+def looks_of(markers: Mapping[str, Marker], world_from_localized: Pose) -> dict[str, DrawnMarker]:
     """Return how markers are drawn, `MAX_POINTS` of all together."""
     looks, room = {}, MAX_POINTS
     for name, marker in markers.items():
@@ -61,7 +61,7 @@ def looks_of(markers: Mapping[str, Marker], world_from_localized: Pose) -> dict[
     return looks
 
 
-def described(looks: Mapping[str, MarkerLook]) -> list[dict[str, Any]]:
+def described(looks: Mapping[str, DrawnMarker]) -> list[dict[str, Any]]:
     """Return name, colour and lines in W of each marker, as `uwsim.viewer.head` says."""
     found: list[dict[str, Any]] = []
     for name, look in looks.items():

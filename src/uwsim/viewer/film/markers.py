@@ -9,7 +9,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from ...base.geometry import Array, Intrinsics, Pose
-from ...results.motion import MarkerLook
+from ...results.motion import DrawnMarker
 from . import overlay
 from .overlay import Pixels
 
@@ -21,7 +21,7 @@ FAR = 20_000.0
 
 def draw_markers(
     frame: Pixels,
-    markers: Mapping[str, MarkerLook],
+    markers: Mapping[str, DrawnMarker],
     world_from_camera: Pose,
     lens: Intrinsics,
     letters: int,

@@ -9,7 +9,7 @@ import numpy as np
 from ...base.geometry import Array
 from ...devices.lamp import MountedLamp
 from ...physics.compile_scene import compile_scene
-from ...results.motion import MarkerLook, MotionTrack, markers_at
+from ...results.motion import DrawnMarker, MotionTrack, markers_at
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
 from ...simulation.tracked_state import LAMP
@@ -63,7 +63,7 @@ class Puppets:
         values = self.track.signal(name)
         return None if values is None or math.isnan(values[frame]) else float(values[frame])
 
-    def markers(self, time: float) -> dict[str, MarkerLook]:
+    def markers(self, time: float) -> dict[str, DrawnMarker]:
         """Return the markers that were there at a time since the simulation began [s]."""
         return markers_at(self.track.markers, frame_at(self.track, time)[0])
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import asdict
 
 from ...results.motion import RATE
-from ...results.motion.motion_track import LENGTH, TURN
+from ...results.motion.motion_track import POSITION_STEP, QUATERNION_STEP
 from ...simulation import Simulation
 from ...simulation.tracked_state import TrackedState
 from ..head import scene_head
@@ -28,8 +28,8 @@ def head_of(simulation: Simulation, title: str, state: TrackedState) -> bytes:
         "n": 0,
         "start": 0.0,
         "bodies": list(state.bodies),
-        "length": LENGTH,
-        "quaternion": TURN,
+        "length": POSITION_STEP,
+        "quaternion": QUATERNION_STEP,
         "signals": [asdict(signal) for signal in state.signals],
     }
     return packed(head, blob)
