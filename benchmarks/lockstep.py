@@ -20,7 +20,7 @@ from measure import main
 from uwsim.base.rng import stream
 from uwsim.bus import Bus, Node
 from uwsim.messages import Image, Odometry, TwistStamped
-from uwsim.middleware.admission import Joined
+from uwsim.middleware.admission import SingleProgram
 from uwsim.middleware.lockstep.client import lockstep_clients
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
@@ -119,7 +119,9 @@ def web_client(rounds: int = ROUNDS) -> dict[str, object]:
     bus = Bus()
     heard = bus.inbox("twist", TwistStamped)
     bridge = WebBridge(bus, lambda: bus.step * TIMESTEP, WebOptions(port=0))
-    bridge.admission = Joined(lambda by, what: None)  # as in a run: its frames are read at once
+    bridge.admission = SingleProgram(
+        lambda by, what: None
+    )  # as in a run: its frames are read at once
     client = subprocess.Popen([sys.executable, "-c", CLIENT, str(EXAMPLES), str(bridge.port)])
     try:
         (outside,) = lockstep_clients([bridge], ["controller"], timestep=TIMESTEP, limit=60.0)

@@ -13,7 +13,7 @@ from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import EmptyResponse, Float64, String, Twist
 from uwsim.messages.services import EMPTY_SERVICE, Empty, Service
 from uwsim.middleware.bridge import Bridge
-from uwsim.middleware.log import MAX_KINDS, MAX_OF_A_KIND, Log
+from uwsim.middleware.log import MAX_KINDS, MAX_LINES_OF_A_KIND, Log
 from uwsim.middleware.queues import LatestQueue
 
 
@@ -62,18 +62,18 @@ def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> 
     publish = bus.publisher("depth", Float64)
     publish(Float64(data=1.0))
     bridge.step()
-    bridge.demand.want("/depth")
+    bridge.external_subscribers.add("/depth")
     assert not bus.has_readers("depth")
     bridge.step()
     assert bus.has_readers("depth")
     publish(Float64(data=2.0))
     bus.deliver()
-    bridge.demand.want("depth")
-    bridge.demand.unwant("depth")
+    bridge.external_subscribers.add("depth")
+    bridge.external_subscribers.remove("depth")
     bridge.step()
     publish(Float64(data=3.0))
     bus.deliver()
-    bridge.demand.unwant("depth")
+    bridge.external_subscribers.remove("depth")
     bridge.step()
     assert not bus.has_readers("depth")
     assert bridge.sent == [("depth", Float64(data=2.0)), ("depth", Float64(data=3.0))]
@@ -82,7 +82,7 @@ def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> 
 def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: Seen) -> None:
     bus.subscribe("cmd", Twist, print)
     bridge.put("cmd", Twist())
-    bridge.demand.want("cmd")
+    bridge.external_subscribers.add("cmd")
     bridge.step()
     bridge.step()
     assert bridge.topics == {"cmd": TopicEnds(Twist, is_published=False, is_read=True)}
@@ -106,7 +106,7 @@ def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, brid
 def test_a_message_from_outside_is_sent_to_other_bridges_only(bus: Bus, bridge: Seen) -> None:
     other = Seen(bus)
     for each in (bridge, other):
-        each.demand.want("cmd")
+        each.external_subscribers.add("cmd")
         each.step()
     bridge.put("cmd", Twist())
     bridge.step()
@@ -128,7 +128,7 @@ def test_a_flood_drops_the_oldest_and_is_reported_few_times(bus: Bus, bridge: Se
         bridge.put("cmd", Float64(data=float(i)))
     bridge.step()
     assert found == [float(i) for i in range(99_000, 100_000)]
-    assert len(bridge.printed) == MAX_OF_A_KIND + 1
+    assert len(bridge.printed) == MAX_LINES_OF_A_KIND + 1
     assert "dropped" in bridge.printed[0]
     assert "not shown" in bridge.printed[-1]
 
@@ -137,8 +137,8 @@ def test_a_log_of_too_many_kinds_says_so_once_and_keeps_those_it_knows() -> None
     printed: list[str] = []
     log = Log("test", printed.append)
     for i in range(MAX_KINDS + 10):
-        log.say(f"event {i}")
-    log.say("event 0")
+        log.report(f"event {i}")
+    log.report("event 0")
     assert len(printed) == MAX_KINDS + 2
     assert printed[-2:] == [
         f"uwsim: test: more than {MAX_KINDS} kinds of events; others are not shown",
@@ -179,7 +179,7 @@ def test_calls_fail_when_the_simulation_ends(bridge: Seen) -> None:
 def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
     publish = bus.publisher("truth", String)
     bus.withhold("truth")
-    bridge.demand.want("truth")
+    bridge.external_subscribers.add("truth")
     bridge.step()
     publish(String(data="secret"))
     bus.deliver()

@@ -13,7 +13,7 @@ from websockets.sync.client import connect
 from tests.support.waiting import until
 from uwsim.bus import Bus
 from uwsim.middleware import limited_connection
-from uwsim.middleware.limited_connection import LARGE, ConnectionLimits, LimitedConnection
+from uwsim.middleware.limited_connection import LARGE_FRAME, ConnectionLimits, LimitedConnection
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.server import WebBridge
@@ -41,8 +41,8 @@ def bridge() -> Iterator[WebBridge]:
 
 @pytest.fixture
 def impatient(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> WebBridge:
-    """A server whose clients have a small burst, and rest for a short time only."""
-    monkeypatch.setattr(limited_connection, "REST", 0.01)
+    """A server whose clients have a small burst, and pause for a short time only."""
+    monkeypatch.setattr(limited_connection, "PAUSE", 0.01)
     limits = bridge._limits
     limits.share, limits.burst, limits.work = 0.5, 0.001, None
     return bridge
@@ -72,25 +72,25 @@ def test_connections_that_say_nothing_take_few_open_files(kind: str) -> None:
             each.settimeout(60.0)
             with contextlib.suppress(ConnectionResetError):
                 assert each.recv(1) == b""
-        assert len(limits._open) <= N_WAITING
+        assert len(limits._open_connections) <= N_WAITING
         with connect(address, open_timeout=60.0) as client:  # there is room for who asks
             assert client.ping().wait(60.0)
 
 
 def test_pings_beyond_the_share_wait(impatient: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
     """The library answers them itself, before anything of ours sees them."""
-    rests: list[float] = []
-    rest = LimitedConnection.rest
+    pauses: list[float] = []
+    pause = LimitedConnection.pause
 
     def counted(connection: LimitedConnection) -> float:
-        assert rest.fget is not None
-        found: float = rest.fget(connection)
-        rests.extend([found] if found else [])
+        assert pause.fget is not None
+        found: float = pause.fget(connection)
+        pauses.extend([found] if found else [])
         return found
 
-    monkeypatch.setattr(LimitedConnection, "rest", property(counted))
+    monkeypatch.setattr(LimitedConnection, "pause", property(counted))
     with connect(f"ws://127.0.0.1:{impatient.port}", ping_interval=None) as client:
-        until(lambda: len(rests) > 3, lambda: client.socket.sendall(PING * 1000))
+        until(lambda: len(pauses) > 3, lambda: client.socket.sendall(PING * 1000))
     assert any("sends faster than it is read" in line for line in impatient.log.lines)
 
 
@@ -113,36 +113,36 @@ def test_a_large_frame_counts_wholly_for_its_client_and_little_for_others(
     limits = bridge._limits
     with connect(f"ws://127.0.0.1:{bridge.port}") as client:
         client.ping().wait(60.0)
-        (connection,) = limits._open
+        (connection,) = limits._open_connections
         connection.spend(0.5)  # [s]
-        assert 15.0 < connection.rest < 26.0  # 0.5 s are 2 % of 25 s
+        assert 15.0 < connection.pause < 26.0  # 0.5 s are 2 % of 25 s
         assert limits.work is not None
         assert limits.work.delay < 2.0
 
 
 def test_a_large_frame_waits_for_large_frames_of_others_alone(bridge: WebBridge) -> None:
     """A new connection has a new budget: two that take turns took half of the time."""
-    large = json.dumps({"op": "nonsense", "id": "large", "blanks": " " * LARGE})
+    large = json.dumps({"op": "nonsense", "id": "large", "blanks": " " * LARGE_FRAME})
     small = json.dumps({"op": "nonsense", "id": "small"})
     address = f"ws://127.0.0.1:{bridge.port}"
     with connect(address) as client:
         client.send(large)
         assert json.loads(client.recv(60.0))["id"] == "large"
-    bridge._limits.large.spend(0.3)  # [s] of another client: 15 s are to go by
+    bridge._limits.large_frames.spend(0.3)  # [s] of another client: 15 s are to go by
     with connect(address) as client, connect(address) as other:
         client.send(large)
         other.send(small)
         assert json.loads(other.recv(60.0))["id"] == "small"
         with pytest.raises(TimeoutError):
             client.recv(1.0)
-        bridge._limits.large.spend(-1.0)
+        bridge._limits.large_frames.spend(-1.0)
         assert json.loads(client.recv(60.0))["id"] == "large"
 
 
 def test_a_large_frame_of_who_has_left_is_not_handled(bridge: WebBridge) -> None:
-    bridge._limits.large.spend(1e6)
+    bridge._limits.large_frames.spend(1e6)
     with connect(f"ws://127.0.0.1:{bridge.port}") as client:
-        client.send(json.dumps({"op": "nonsense", "blanks": " " * LARGE}))
+        client.send(json.dumps({"op": "nonsense", "blanks": " " * LARGE_FRAME}))
         assert client.ping().wait(60.0)
         (session,) = bridge._sessions
     until(lambda: not bridge._sessions)

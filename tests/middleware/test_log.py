@@ -12,8 +12,8 @@ def test_a_peer_writes_no_lines_of_its_own(end: str) -> None:
     written: list[str] = []
     others: list[str] = []
     log = Log("ros1", written.append)
-    log.also(others.append)
-    log.say(f"it refuses: boo{end}uwsim: result: ok")
+    log.add_listener(others.append)
+    log.report(f"it refuses: boo{end}uwsim: result: ok")
     for line in (*written, *others, *log.lines):
         assert len(line.splitlines()) == 1
         assert line.isprintable()

@@ -37,7 +37,7 @@ def test_a_simulation_that_is_fast_enough_takes_the_time_that_passes(speed: floa
     for _ in range(1000):
         wall.step(0.01, takes=0.002)
     assert wall.now - 100.0 == pytest.approx(10.0 / speed, abs=0.002)
-    assert wall.pace.lost == 0.0
+    assert wall.pace.lost_time == 0.0
 
 
 def test_a_short_lag_is_caught_up_and_a_long_one_is_lost() -> None:
@@ -50,7 +50,7 @@ def test_a_short_lag_is_caught_up_and_a_long_one_is_lost() -> None:
     for _ in range(20):
         wall.step(0.01, takes=0.0)
     assert wall.now == pytest.approx(100.21 + 3.01 + 0.2)
-    assert wall.pace.lost == pytest.approx(3.0)
+    assert wall.pace.lost_time == pytest.approx(3.0)
 
 
 def test_a_strict_clock_ends_the_run_when_a_step_is_late() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from uwsim import messages
 from uwsim.messages import TFMessage, Time, TransformStamped, header
-from uwsim.middleware.stamps import clock_time, inward, outward
+from uwsim.middleware.stamps import clock_time, to_ros_clock, to_simulation_time
 
 
 def test_the_clock_begins_at_one_second() -> None:
@@ -14,23 +14,23 @@ def test_the_clock_begins_at_one_second() -> None:
 
 def test_stamps_go_out_later_and_come_back_as_they_were() -> None:
     message = messages.Odometry(header=header(2.25, "world"))
-    sent = outward(message)
+    sent = to_ros_clock(message)
     assert sent.header.stamp == Time(sec=3, nanosec=250_000_000)
     assert message.header.stamp.sec == 2
-    assert inward(sent).header == message.header
+    assert to_simulation_time(sent).header == message.header
 
 
 def test_every_stamp_of_a_list_is_moved() -> None:
     message = TFMessage(transforms=[TransformStamped(header=header(float(i))) for i in range(3)])
-    assert [each.header.stamp.sec for each in outward(message).transforms] == [1, 2, 3]
+    assert [each.header.stamp.sec for each in to_ros_clock(message).transforms] == [1, 2, 3]
 
 
 def test_a_stamp_that_was_not_set_stays_so_on_its_way_in() -> None:
-    assert inward(messages.TwistStamped()).header.stamp == Time()
+    assert to_simulation_time(messages.TwistStamped()).header.stamp == Time()
     early = messages.TwistStamped(header=messages.Header(stamp=Time(sec=0, nanosec=5)))
-    assert inward(early).header.stamp == Time()
+    assert to_simulation_time(early).header.stamp == Time()
 
 
 def test_a_message_without_a_header_is_the_same_object() -> None:
     message = messages.Twist()
-    assert outward(message) is message
+    assert to_ros_clock(message) is message

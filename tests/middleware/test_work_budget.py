@@ -11,7 +11,7 @@ from uwsim.bus import Bus
 from uwsim.errors import BadMessage
 from uwsim.messages import Empty, EmptyResponse, Twist
 from uwsim.middleware.bridge import Bridge
-from uwsim.middleware.exchange.waiting_calls import AT_ONCE, MAX_CALLS
+from uwsim.middleware.exchange.call_queue import CALLS_AT_ONCE, MAX_CALLS
 from uwsim.middleware.json_encoding import from_json
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.session import MAX_KEYS, read_frame
@@ -74,7 +74,7 @@ def test_a_flood_of_calls_is_spread_over_the_steps() -> None:
         began = time.thread_time()
         bridge.step()
         assert time.thread_time() - began < 0.5  # 2 s for all of them
-        assert AT_ONCE < MAX_CALLS
+        assert CALLS_AT_ONCE < MAX_CALLS
         assert 1 <= answered < 100
         while not all(future.done() for future in futures[:answered]):
             bridge.step()

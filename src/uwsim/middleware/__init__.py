@@ -1,7 +1,7 @@
-"""The bus outside the process: message types as ROS knows them, and what all transports share.
+"""Connections of the bus to external programs: message types, encodings and transports.
 
-`types` gives each message and service type its names, hashes and definitions in ROS 1 and ROS 2,
-`encodings` and `json_encoding` turn messages into bytes and back, `stamps` moves their headers to
+`types` has the names, hashes and definitions of message and service types in ROS 1 and ROS 2,
+`encodings` and `json_encoding` convert messages to bytes and back, `stamps` shifts their headers to
 the clock of ROS, `bridge` connects a bus to a transport. Each transport is a package of its own.
 """
 

@@ -1,8 +1,8 @@
-"""Which programs outside may change a scored run, and a count of what was refused of the others.
+"""Rules that decide which external programs may change a scored run, with a count of refusals.
 
-Everybody may read. A transport names the sender of a message, a call and an offer of a service
-(``by``): the connection (WebSocket), the node (ROS 1), the participant (ROS 2 by DDS). Where it
-cannot, ``by`` is empty and nothing is refused.
+All may read. A transport names the ``sender`` of a message, a call and an offer of a service: the
+connection (WebSocket), the node (ROS 1), the participant (ROS 2 by DDS). Where it cannot, the
+name is empty and nothing is refused.
 """
 
 from __future__ import annotations
@@ -15,165 +15,175 @@ from typing import Literal
 
 from .queues import LatestQueue
 
-MAX_HELD = 100
-"""Messages and offers of one sender that are kept until it is known whether it takes part."""
+MAX_HELD_MESSAGES = 100
+"""The maximum number of messages and offers held of one sender, until it is known whether it takes
+part."""
 MAX_HELD_BYTES = 4 * 2**20
 MAX_SENDERS = 100
-"""Senders of which something is kept."""
+"""The maximum number of senders of which messages are held."""
 MAX_KINDS = 100
-"""Senders and topics that are counted separately; further ones are counted together."""
-OTHERS = ("other senders", "other topics and services")
+"""The maximum number of senders and topics that are counted separately; the others share a
+count."""
+OTHER_KEY = ("other senders", "other topics and services")
 Decision = Literal["take", "hold", "refuse"]
-Take = Callable[[], object]
-"""Takes in a message or an offer that was held."""
+Accept = Callable[[], object]
+"""The function that accepts a held message or offer."""
 Report = Callable[[str, str], None]
-"""Called once for each sender and topic or service that is refused, with the sender and a text."""
-Refused = tuple[str, str, int]
-"""Sender, what it sent, how often."""
+"""The function that is called with sender and text, once for each refused topic or service."""
+Refusal = tuple[str, str, int]
+"""The sender, the topic or service, and the number of refusals."""
 
 
 class Admission(ABC):
-    """Decides for each sender; any thread may ask."""
+    """The decisions about each sender; any thread may call it."""
 
     def __init__(self, report: Report) -> None:
         self._report = report
         self._lock = threading.RLock()
-        self._admitted: set[str] = set()
-        self._held: dict[str, LatestQueue[Take]] = {}
-        self._refused: Counter[tuple[str, str]] = Counter()
-        self._known: set[tuple[str, str]] = set()
+        self._admitted_senders: set[str] = set()
+        self._held_messages: dict[str, LatestQueue[Accept]] = {}
+        self._refusal_counts: Counter[tuple[str, str]] = Counter()
+        self._known_keys: set[tuple[str, str]] = set()
 
     @abstractmethod
-    def _on_message(self, topic: str, by: str) -> Decision:
-        """Decide about a message of a sender that was not admitted."""
+    def _on_message(self, topic: str, sender: str) -> Decision:
+        """Decide about a message of a sender that is not admitted."""
 
     @abstractmethod
-    def _on_call(self, name: str, by: str) -> bool:
-        """Decide about a call by a sender that was not admitted."""
+    def _on_call(self, name: str, sender: str) -> bool:
+        """Decide about a call of a sender that is not admitted."""
 
     @abstractmethod
-    def _on_offer(self, name: str, by: str) -> Decision:
-        """Decide about a service that a sender offers who was not admitted."""
+    def _on_offer(self, name: str, sender: str) -> Decision:
+        """Decide about a service that is offered by a sender that is not admitted."""
 
-    def admit(self, by: str) -> None:
-        """Let a sender take part; what was held of it is taken in."""
-        with self._lock:  # until all is taken in: what comes meanwhile is newer
-            self._admitted.add(by)
-            held = self._held.pop(by, None)
-            for take in held.take() if held is not None else ():
-                take()
+    def admit(self, sender: str) -> None:
+        """Admit a sender to the run, and accept what was held of it."""
+        with self._lock:  # until all is accepted: messages that arrive meanwhile are newer
+            self._admitted_senders.add(sender)
+            held_messages = self._held_messages.pop(sender, None)
+            for accept in held_messages.take() if held_messages is not None else ():
+                accept()
 
-    def is_waited_for(self, by: str) -> bool:
-        """Whether the run waits for what a sender sends."""
-        return by in self._admitted
+    def is_waited_for(self, sender: str) -> bool:
+        """Return whether the run waits for the messages of a sender."""
+        return sender in self._admitted_senders
 
-    def leave(self, by: str) -> None:
-        """A sender has left for good; what was held of it is forgotten."""
+    def remove(self, sender: str) -> None:
+        """Forget what was held of a sender that has left."""
         with self._lock:
-            self._held.pop(by, None)
+            self._held_messages.pop(sender, None)
 
-    def takes(self, topic: str, by: str, later: Take, size: int) -> bool:
-        """Whether a message of ``size`` bytes is taken in now; if it is held, ``later`` does so."""
+    def may_publish(self, topic: str, sender: str, accept: Accept, size: int) -> bool:
+        """Return whether to accept a message of ``size`` bytes now; ``accept`` does so later."""
         with self._lock:
-            return self._is_taken(f"/{topic}", by, self._on_message(topic, by), later, size)
+            return self._is_accepted(
+                f"/{topic}", sender, self._on_message(topic, sender), accept, size
+            )
 
-    def may_offer(self, name: str, by: str, later: Take) -> bool:
-        """Whether a service of a sender is offered now; if the offer is held, ``later`` does so."""
+    def may_offer(self, name: str, sender: str, accept: Accept) -> bool:
+        """Return whether to offer a service of a sender now; ``accept`` does so later."""
         with self._lock:
-            return self._is_taken(f"/{name}", by, self._on_offer(name, by), later, 0)
+            return self._is_accepted(f"/{name}", sender, self._on_offer(name, sender), accept, 0)
 
-    def may_call(self, name: str, by: str) -> bool:
-        """Whether a call of a service is answered."""
+    def may_call(self, name: str, sender: str) -> bool:
+        """Return whether to answer a call of a service."""
         with self._lock:
-            is_allowed = self._is_certain(by) or self._on_call(name, by)
+            is_allowed = self._takes_part(sender) or self._on_call(name, sender)
         if not is_allowed:
-            self.refuse(by, f"/{name}")
+            self.refuse(sender, f"/{name}")
         return is_allowed
 
-    def may_answer(self, name: str, by: str) -> bool:
-        """Whether the response of a service outside is taken from a sender."""
+    def may_answer(self, name: str, sender: str) -> bool:
+        """Return whether to accept the response of an external service from a sender."""
         with self._lock:
-            is_allowed = self._is_certain(by) or self._on_offer(name, by) == "take"
+            is_allowed = self._takes_part(sender) or self._on_offer(name, sender) == "take"
         if not is_allowed:
-            self.refuse(by, f"/{name}")
+            self.refuse(sender, f"/{name}")
         return is_allowed
 
-    def refuse(self, by: str, what: str) -> None:
-        """Count what was refused; it is reported once."""
-        key = (by or OTHERS[0], what)
+    def refuse(self, sender: str, name: str) -> None:
+        """Count a refusal; report it the first time."""
+        key = (sender or OTHER_KEY[0], name)
         with self._lock:
-            is_new = key not in self._known
-            if is_new and len(self._known) >= MAX_KINDS:
-                key, is_new = OTHERS, OTHERS not in self._known
-            self._known.add(key)
-            self._refused[key] += 1
+            is_new = key not in self._known_keys
+            if is_new and len(self._known_keys) >= MAX_KINDS:
+                key, is_new = OTHER_KEY, OTHER_KEY not in self._known_keys
+            self._known_keys.add(key)
+            self._refusal_counts[key] += 1
         if is_new:
-            self._report(by, f"{key[1]} of {key[0]} is refused: it does not take part in this run")
+            self._report(
+                sender, f"{key[1]} of {key[0]} is refused: it does not take part in this run"
+            )
 
-    def take_refused(self) -> tuple[Refused, ...]:
-        """Return what was refused since the last call, by sender and topic or service."""
+    def take_refusals(self) -> tuple[Refusal, ...]:
+        """Return the refusals since the last call, by sender and topic or service."""
         with self._lock:
-            found, self._refused = self._refused, Counter()
-        return tuple((by, what, n) for (by, what), n in sorted(found.items()))
+            counts, self._refusal_counts = self._refusal_counts, Counter()
+        return tuple((sender, name, n) for (sender, name), n in sorted(counts.items()))
 
-    def _is_certain(self, by: str) -> bool:
-        """Whether a sender takes part, or cannot be told from those that do."""
-        return not by or by in self._admitted
+    def _takes_part(self, sender: str) -> bool:
+        """Return whether a sender takes part, or cannot be distinguished from those that do."""
+        return not sender or sender in self._admitted_senders
 
-    def _is_taken(self, what: str, by: str, decision: Decision, later: Take, size: int) -> bool:
-        if decision == "hold" and self._hold(by, later, size):
+    def _is_accepted(
+        self, name: str, sender: str, decision: Decision, accept: Accept, size: int
+    ) -> bool:
+        if decision == "hold" and self._hold(sender, accept, size):
             return False
         if decision != "take":
-            self.refuse(by, what)
+            self.refuse(sender, name)
         return decision == "take"
 
-    def _hold(self, by: str, later: Take, size: int) -> bool:
-        """Keep something until its sender is admitted; whether there is room."""
-        if by not in self._held and len(self._held) >= MAX_SENDERS:
+    def _hold(self, sender: str, accept: Accept, size: int) -> bool:
+        """Hold a message or offer until its sender is admitted; return whether there is space."""
+        if sender not in self._held_messages and len(self._held_messages) >= MAX_SENDERS:
             return False
-        self._held.setdefault(by, LatestQueue(MAX_HELD, MAX_HELD_BYTES)).put(later, size)
+        self._held_messages.setdefault(sender, LatestQueue(MAX_HELD_MESSAGES, MAX_HELD_BYTES)).put(
+            accept, size
+        )
         return True
 
 
-class Joined(Admission):
-    """One program takes part: who is admitted, when it has joined.
+class SingleProgram(Admission):
+    """The rule of runs with one program: a sender is admitted when it has joined.
 
-    What a sender has published and offered before is held until then; calls are refused.
+    Earlier messages and offers of a sender are held until then; calls are refused.
     """
 
-    def _on_message(self, topic: str, by: str) -> Decision:
-        if self._is_certain(by):
+    def _on_message(self, topic: str, sender: str) -> Decision:
+        if self._takes_part(sender):
             return "take"
-        return "refuse" if self._admitted else "hold"
+        return "refuse" if self._admitted_senders else "hold"
 
-    def _on_call(self, name: str, by: str) -> bool:
+    def _on_call(self, name: str, sender: str) -> bool:
         return False
 
-    def _on_offer(self, name: str, by: str) -> Decision:
-        return self._on_message(name, by)
+    def _on_offer(self, name: str, sender: str) -> Decision:
+        return self._on_message(name, sender)
 
 
-class FirstCaller(Joined):
-    """One program takes part: the first that calls a service."""
+class FirstCaller(SingleProgram):
+    """The rule of runs with one program: the first that calls a service is admitted."""
 
     def __init__(self, service: str, report: Report) -> None:
         super().__init__(report)
         self._service = service
 
-    def _on_call(self, name: str, by: str) -> bool:
-        if self._admitted or name != self._service:
+    def _on_call(self, name: str, sender: str) -> bool:
+        if self._admitted_senders or name != self._service:
             return False
-        self.admit(by)
+        self.admit(sender)
         return True
 
 
 class TopicOwners(Admission):
-    """Each topic belongs to the program that published it first.
+    """The rule that each topic belongs to the program that published it first.
 
     Args:
-        topics: those whose owners take part; others may publish nothing, and may call and offer
-            services until each of these topics has an owner. None: every topic, and all may call.
-        report: see `Report`.
+        topics: the topics whose owners take part; others may publish nothing, and may call and
+            offer services until each topic has an owner. None: every topic, and all may call.
+        report: the function that reports refusals.
     """
 
     def __init__(self, topics: Iterable[str] | None, report: Report) -> None:
@@ -182,40 +192,40 @@ class TopicOwners(Admission):
         self._owners: dict[str, str] = {}
         self._offerers: dict[str, str] = {}
 
-    def is_waited_for(self, by: str) -> bool:
-        """Whether the run waits for what a sender sends: for the owners of certain topics only."""
-        return self._topics is not None and super().is_waited_for(by)
+    def is_waited_for(self, sender: str) -> bool:
+        """Return whether the run waits for a sender: it owns one of the given topics."""
+        return self._topics is not None and super().is_waited_for(sender)
 
-    def leave(self, by: str) -> None:
-        """A sender has left for good; its topics and services may have another owner."""
+    def remove(self, sender: str) -> None:
+        """Release the topics and services of a sender that has left."""
         with self._lock:
-            super().leave(by)
-            self._admitted.discard(by)
+            super().remove(sender)
+            self._admitted_senders.discard(sender)
             for owners in (self._owners, self._offerers):
-                for name in [name for name, owner in owners.items() if owner == by]:
+                for name in [name for name, owner in owners.items() if owner == sender]:
                     del owners[name]
 
-    def _on_message(self, topic: str, by: str) -> Decision:
-        if not by:
+    def _on_message(self, topic: str, sender: str) -> Decision:
+        if not sender:
             return "take"
         if topic in self._owners:
-            return "take" if self._owners[topic] == by else "refuse"
-        takes_part = self._topics is None or topic in self._topics
-        if takes_part or by in self._admitted:
-            self._owners[topic] = by
-            self.admit(by)
+            return "take" if self._owners[topic] == sender else "refuse"
+        is_open = self._topics is None or topic in self._topics
+        if is_open or sender in self._admitted_senders:
+            self._owners[topic] = sender
+            self.admit(sender)
             return "take"
         return "refuse" if self._is_complete else "hold"
 
-    def _on_call(self, name: str, by: str) -> bool:
+    def _on_call(self, name: str, sender: str) -> bool:
         return not self._is_complete
 
-    def _on_offer(self, name: str, by: str) -> Decision:
-        if by and by not in self._admitted and self._is_complete:
+    def _on_offer(self, name: str, sender: str) -> Decision:
+        if sender and sender not in self._admitted_senders and self._is_complete:
             return "refuse"
-        return "take" if self._offerers.setdefault(name, by) == by else "refuse"
+        return "take" if self._offerers.setdefault(name, sender) == sender else "refuse"
 
     @property
     def _is_complete(self) -> bool:
-        """Whether each of the topics has an owner."""
+        """A flag: each of the topics has an owner."""
         return self._topics is not None and self._topics <= set(self._owners)

@@ -1,4 +1,4 @@
-"""The topic ``/clock`` of a transport: when a message on it is due."""
+"""The topic ``/clock`` of a transport, and the schedule of its messages."""
 
 from __future__ import annotations
 
@@ -6,24 +6,24 @@ import math
 from collections.abc import Callable
 
 COARSE_PERIOD = 0.01
-"""Shortest simulation time between two messages on ``/clock``, for web clients, and for nodes
+"""The shortest simulation time between two messages on ``/clock`` for web clients, and for nodes
 whose outputs are waited for [s]."""
 ROS_PERIOD = 0.001
 """The same for nodes of ROS [s]: every step, unless steps are shorter.
 
 A node's ``sleep`` and timers end with a message on ``/clock``; with longer periods, a loop of 1 ms
-would take as long as they are.
+would take a whole period.
 """
 
 
 class ClockTopic:
-    """Tells those outside the time; in the thread of the simulation.
+    """The publisher of the simulation time; in the thread of the simulation.
 
     Args:
         time: returns the simulation time [s].
-        publish: sends it, if anybody reads it.
-        is_read: whether anybody outside does; True where a transport cannot tell.
-        period: shortest simulation time between two messages [s].
+        publish: publishes the time, if the topic has a subscriber.
+        is_read: returns whether it has an external one; True if a transport cannot tell.
+        period: the shortest simulation time between two messages [s].
     """
 
     def __init__(
@@ -35,27 +35,27 @@ class ClockTopic:
         period: float,
     ) -> None:
         self.time = time
-        """Returns the simulation time [s]."""
+        """The function that returns the simulation time [s]."""
         self._publish, self._is_read = publish, is_read
         self.period = period
-        """Shortest simulation time between two messages [s]."""
-        self._last = -math.inf
+        """The shortest simulation time between two messages [s]."""
+        self._last_time = -math.inf
 
     @property
     def is_due(self) -> bool:
-        """Whether it is time for the next message, also because time went back."""
-        return not self._last <= self.time() + 1e-9 < self._last + self.period
+        """A flag: the next message is due, also because time went back."""
+        return not self._last_time <= self.time() + 1e-9 < self._last_time + self.period
 
     @property
     def is_read(self) -> bool:
-        """Whether anybody outside reads it."""
+        """A flag: the topic has an external subscriber."""
         return self._is_read()
 
     def send(self) -> None:
-        """Tell the time."""
-        self._last = self.time()
+        """Publish the time."""
+        self._last_time = self.time()
         self._publish()
 
     def send_at_next_step(self) -> None:
-        """Have the time told at the next step boundary: somebody has come. Any thread."""
-        self._last = -math.inf
+        """Publish the time at the next step boundary, for a new subscriber. Any thread."""
+        self._last_time = -math.inf

@@ -1,4 +1,4 @@
-"""The connections of a simulation to the world outside: which there are, and opening them."""
+"""The connections of a simulation to external programs."""
 
 from __future__ import annotations
 
@@ -14,40 +14,42 @@ from .web.options import WebOptions
 
 @dataclass(frozen=True, kw_only=True)
 class ConnectionSpec:
-    """To what a simulation is connected; `open` binds it to a bus."""
+    """The transports that connect a simulation; `open` binds them to a bus."""
 
     ros1: bool = False
-    """Whether it is a node of ROS 1."""
+    """A flag: the simulation is a node of ROS 1."""
     ros1_host: str = "127.0.0.1"
-    """Address at which the node listens."""
+    """The address at which the node listens."""
     ros2: bool = False
-    """Whether it is a node of ROS 2."""
+    """A flag: the simulation is a node of ROS 2."""
     domain: int | None = None
-    """Domain of ROS 2; None: that of ``ROS_DOMAIN_ID``."""
+    """The domain of ROS 2; None: that of ``ROS_DOMAIN_ID``."""
     web: WebOptions | None = None
-    """Where it serves web clients."""
+    """The options of the server for web clients; None: there is no server."""
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the transports: ros1, ros2, web."""
-        are = {"ros1": self.ros1, "ros2": self.ros2, "web": self.web is not None}
-        return tuple(name for name, is_used in are.items() if is_used)
+        """The names of the transports: ros1, ros2, web."""
+        is_used_by_name = {"ros1": self.ros1, "ros2": self.ros2, "web": self.web is not None}
+        return tuple(name for name, is_used in is_used_by_name.items() if is_used)
 
     @contextmanager
     def open(self, bus: Bus, clock: Callable[[], float]) -> Iterator[tuple[Bridge, ...]]:
-        """Open all within the block; yields a bridge each.
+        """Open all connections within the block; yield a bridge each.
 
         Args:
-            bus: of the simulation.
+            bus: the bus of the simulation.
             clock: returns the simulation time [s].
 
         Raises:
-            BadSetting: one cannot be opened.
+            BadSetting: a connection cannot be opened.
         """
         with ExitStack() as stack:
-            yield tuple(self._opened(bus, clock, stack))
+            yield tuple(self._open_bridges(bus, clock, stack))
 
-    def _opened(self, bus: Bus, clock: Callable[[], float], stack: ExitStack) -> Iterator[Bridge]:
+    def _open_bridges(
+        self, bus: Bus, clock: Callable[[], float], stack: ExitStack
+    ) -> Iterator[Bridge]:
         if self.ros1:
             from .ros1 import Ros1Options, connect
 

@@ -1,9 +1,9 @@
 """Messages as bytes: CDR of ROS 2, and the encoding of ROS 1.
 
-Both are rosbags'. What differs between the class on the bus (ROS 2's) and the type of ROS 1 is
-mapped here, field by field: ROS 1's header has ``seq``, its CameraInfo has ``D K R P``, its Range
-no variance, its Marker no texture. Arrays of another dtype than the definition's are converted.
-Bytes that do not fit the type raise BadMessage.
+rosbags encodes both. This module maps the class on the bus (ROS 2's) to the type of ROS 1, field by
+field: ROS 1's header has ``seq``, its CameraInfo has ``D K R P``, its Range no variance, its Marker
+no texture. Arrays of another dtype than the definition's are converted. Bytes that do not match the
+type raise BadMessage.
 """
 
 from __future__ import annotations
@@ -21,13 +21,13 @@ from .types import is_fieldless, ros1_store, ros2_store
 
 M = TypeVar("M")
 EMPTY_CDR = b"\x00\x01\x00\x00\x00"
-"""CDR of a type without fields: ROS 2 gives it one byte."""
+"""The CDR of a type without fields: ROS 2 gives it one byte."""
 DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
 HEADER = "std_msgs/msg/Header"
 
 
 class Ros1View:
-    """The fields of a message under their names in ROS 1."""
+    """A message as its fields under their names in ROS 1."""
 
     def __init__(self, values: dict[str, object]) -> None:
         self.__dict__.update(values)
@@ -47,14 +47,14 @@ def to_cdr(message: object) -> memoryview:
 
 
 def from_cdr(kind: type[M], data: bytes | memoryview) -> M:
-    """Return the message that CDR bytes hold; raises BadMessage if they hold no such message."""
+    """Decode a message from CDR bytes; raise BadMessage if they do not match its type."""
     name = _name_of(kind)
     if is_fieldless(name):
         return kind()
     try:
         return cast(M, ros2_store().deserialize_cdr(data, name))
     except (SerdeError, ValueError, IndexError, TypeError, MemoryError) as error:
-        raise BadMessage(f"{len(data)} bytes are no {name}: {error}") from error
+        raise BadMessage(f"{len(data)} bytes are not a {name}: {error}") from error
 
 
 def to_ros1(message: object, *, seq: int = 0) -> memoryview:
@@ -69,23 +69,23 @@ def to_ros1(message: object, *, seq: int = 0) -> memoryview:
     if is_fieldless(name):
         return memoryview(b"")
     try:
-        view = _as_ros1(_cast(message, name), seq, name)
+        view = _to_ros1_view(_cast(message, name), seq, name)
         return cast(memoryview, ros1_store().serialize_ros1(view, name))
     except Exception as error:
         raise BadMessage(f"{name} cannot be encoded: {error}") from error
 
 
 def from_ros1(kind: type[M], data: bytes | memoryview) -> M:
-    """Return the message that bytes of ROS 1 hold; BadMessage if they hold no such message."""
+    """Decode a message from bytes of ROS 1; raise BadMessage if they do not match its type."""
     name = _name_of(kind)
     if name not in ros1_store().fielddefs:
         raise BadMessage(f"ROS 1 has no type {name}.")
     if is_fieldless(name):
         return kind()
     try:
-        return cast(M, _reader(name)(ros1_store().deserialize_ros1(data, name)))
+        return cast(M, _make_reader(name)(ros1_store().deserialize_ros1(data, name)))
     except (SerdeError, ValueError, IndexError, TypeError, MemoryError, KeyError) as error:
-        raise BadMessage(f"{len(data)} bytes are no {name}: {error}") from error
+        raise BadMessage(f"{len(data)} bytes are not a {name}: {error}") from error
 
 
 def _name_of(kind: type) -> str:
@@ -98,134 +98,136 @@ def _name_of(kind: type) -> str:
 @functools.cache
 def inner_type(description: Any) -> tuple[str, str]:
     """Return ``("list" | "one" | "base" | "array" | "texts", inner type)`` of a field."""
-    kind, inner = description
+    kind, content = description
     if kind == Nodetype.NAME:
-        return "one", inner
+        return "one", content
     if kind == Nodetype.BASE:
-        return "base", inner[0]
-    (kind, inner), _ = inner
+        return "base", content[0]
+    (kind, content), _ = content
     if kind == Nodetype.NAME:
-        return "list", inner
-    return ("texts" if inner[0] == "string" else "array"), inner[0]
+        return "list", content
+    return ("texts" if content[0] == "string" else "array"), content[0]
 
 
 @functools.cache
-def _arrays(name: str) -> tuple[tuple[str, str, Any], ...]:
-    """Fields that are arrays, with their dtype, or that hold messages with arrays."""
-    found: list[tuple[str, str, Any]] = []
+def _array_fields(name: str) -> tuple[tuple[str, str, Any], ...]:
+    """Return the fields that are arrays, with their dtype, or that contain messages with arrays."""
+    array_fields: list[tuple[str, str, Any]] = []
     for field, description in ros2_store().fielddefs[name][1]:
-        kind, inner = inner_type(description)
+        kind, content = inner_type(description)
         if kind == "array":
-            found.append((field, kind, np.dtype(getattr(np, DTYPES.get(inner, inner)))))
-        elif kind in ("one", "list") and _arrays(inner):
-            found.append((field, kind, inner))
-    return tuple(found)
+            array_fields.append((field, kind, np.dtype(getattr(np, DTYPES.get(content, content)))))
+        elif kind in ("one", "list") and _array_fields(content):
+            array_fields.append((field, kind, content))
+    return tuple(array_fields)
 
 
 def _cast(message: Any, name: str) -> Any:
-    """The message, or a view of it whose arrays have the dtypes of the definition."""
-    changed: dict[str, object] = {}
-    for field, kind, inner in _arrays(name):
+    """Return the message, or a view of it whose arrays have the dtypes of the definition."""
+    converted_fields: dict[str, object] = {}
+    for field, kind, content in _array_fields(name):
         value = getattr(message, field)
         if kind == "array":
             is_exact = (
                 isinstance(value, np.ndarray)
-                and value.dtype == inner
+                and value.dtype == content
                 and value.ndim == 1
                 and value.flags.c_contiguous
             )
-            new = value if is_exact else np.ascontiguousarray(value, dtype=inner).reshape(-1)
+            new_value = (
+                value if is_exact else np.ascontiguousarray(value, dtype=content).reshape(-1)
+            )
         elif kind == "one":
-            new = _cast(value, inner)
+            new_value = _cast(value, content)
         else:
-            cast_ones = [_cast(each, inner) for each in value]
-            is_same = all(a is b for a, b in zip(cast_ones, value, strict=True))
-            new = value if is_same else cast_ones
-        if new is not value:
-            changed[field] = new
-    if not changed:
+            converted_list = [_cast(element, content) for element in value]
+            is_same = all(a is b for a, b in zip(converted_list, value, strict=True))
+            new_value = value if is_same else converted_list
+        if new_value is not value:
+            converted_fields[field] = new_value
+    if not converted_fields:
         return message
-    return Ros1View({**vars(message), **changed})
+    return Ros1View({**vars(message), **converted_fields})
 
 
 @functools.cache
-def _pairs(name: str) -> tuple[tuple[str, str, str, str], ...] | None:
-    """Of a ROS 1 type: field there, field on the bus or "", kind, inner type; None if all equal."""
-    ours = {field.lower(): field for field, _ in ros2_store().fielddefs[name][1]}
+def _field_pairs(name: str) -> tuple[tuple[str, str, str, str], ...] | None:
+    """Return a ROS 1 type's fields: name, name on the bus, kind, inner type; None if all equal."""
+    bus_fields = {field.lower(): field for field, _ in ros2_store().fielddefs[name][1]}
     pairs: list[tuple[str, str, str, str]] = []
     is_equal = True
     for field, description in ros1_store().fielddefs[name][1]:
-        kind, inner = inner_type(description)
-        mine = ours.get(field.lower(), "")
-        pairs.append((field, mine, kind, inner))
-        has_inner = kind in ("one", "list") and _pairs(inner) is not None
-        is_equal = is_equal and mine == field and not has_inner
-    is_equal = is_equal and len(pairs) == len(ours)
+        kind, type_name = inner_type(description)
+        bus_field = bus_fields.get(field.lower(), "")
+        pairs.append((field, bus_field, kind, type_name))
+        has_inner = kind in ("one", "list") and _field_pairs(type_name) is not None
+        is_equal = is_equal and bus_field == field and not has_inner
+    is_equal = is_equal and len(pairs) == len(bus_fields)
     return None if is_equal else tuple(pairs)
 
 
-def _as_ros1(message: Any, seq: int, name: str) -> Any:
-    """A message as the serialiser of ROS 1 reads it."""
-    pairs = _pairs(name)
+def _to_ros1_view(message: Any, seq: int, name: str) -> Any:
+    """Return a message as the serializer of ROS 1 reads it."""
+    pairs = _field_pairs(name)
     if pairs is None:
         return message
     values: dict[str, object] = {}
-    for field, mine, kind, inner in pairs:
-        value: Any = getattr(message, mine) if mine else seq
+    for field, bus_field, kind, type_name in pairs:
+        value: Any = getattr(message, bus_field) if bus_field else seq
         if kind == "one":
-            value = _as_ros1(value, seq, inner)
+            value = _to_ros1_view(value, seq, type_name)
         elif kind == "list":
-            value = [_as_ros1(each, seq, inner) for each in value]
+            value = [_to_ros1_view(element, seq, type_name) for element in value]
         values[field] = value
     return Ros1View(values)
 
 
 @functools.cache
-def _reader(name: str) -> Callable[[Any], Any]:
-    """What makes the class of the bus from rosbags' class of ROS 1."""
+def _make_reader(name: str) -> Callable[[Any], Any]:
+    """Return the function that converts rosbags' class of ROS 1 to the class of the bus."""
     cls = ros2_store().types[name]
     fields = []
-    theirs = {field.lower(): field for field, _ in ros1_store().fielddefs[name][1]}
+    ros1_fields = {field.lower(): field for field, _ in ros1_store().fielddefs[name][1]}
     for field, description in ros2_store().fielddefs[name][1]:
-        kind, inner = inner_type(description)
-        if field.lower() in theirs:
-            read = _reader(inner) if kind in ("one", "list") else None
-            fields.append((field, theirs[field.lower()], kind, read))
+        kind, type_name = inner_type(description)
+        if field.lower() in ros1_fields:
+            read = _make_reader(type_name) if kind in ("one", "list") else None
+            fields.append((field, ros1_fields[field.lower()], kind, read))
 
-    def read_message(found: Any) -> Any:
+    def read_message(ros1_message: Any) -> Any:
         values: dict[str, Any] = {}
-        for field, other, kind, read in fields:
-            value = getattr(found, other)
+        for field, ros1_field, kind, read in fields:
+            value = getattr(ros1_message, ros1_field)
             if kind == "one" and read is not None:
                 value = read(value)
             elif kind == "list" and read is not None:
-                value = [read(each) for each in value]
+                value = [read(element) for element in value]
             values[field] = value
         return cls(**values)
 
     return read_message
 
 
-def of_class(kind: type[M], found: Any) -> M:
-    """Return a message of another type store, as of a file, as one of a class of the bus.
+def convert_to_class(kind: type[M], message: Any) -> M:
+    """Convert a message of another type store, as of a file, to a class of the bus.
 
-    Fields are found by their names, whatever their case; one that it lacks has its default.
+    Fields are matched by name, without regard to case; a missing one has its default.
 
     Raises:
-        BadMessage: it lacks a field that has no default.
+        BadMessage: a field without a default is missing.
     """
     values: dict[str, Any] = {}
-    # of a constant POINTS and a field points the field, which is the later in this order
-    theirs = {name.lower(): name for name in sorted(vars(found))}
+    # a field (points) follows a constant of its name (POINTS) in this order, and is kept
+    source_fields = {name.lower(): name for name in sorted(vars(message))}
     for field, description in ros2_store().fielddefs[_name_of(kind)][1]:
-        if field.lower() not in theirs:
+        if field.lower() not in source_fields:
             continue
-        value = getattr(found, theirs[field.lower()])
-        form, inner = inner_type(description)
+        value = getattr(message, source_fields[field.lower()])
+        form, type_name = inner_type(description)
         if form == "one":
-            value = of_class(ros2_store().types[inner], value)
+            value = convert_to_class(ros2_store().types[type_name], value)
         elif form == "list":
-            value = [of_class(ros2_store().types[inner], each) for each in value]
+            value = [convert_to_class(ros2_store().types[type_name], element) for element in value]
         values[field] = value
     try:
         return kind(**values)

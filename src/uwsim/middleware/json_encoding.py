@@ -1,8 +1,8 @@
 """Messages as JSON objects, in the form of the rosbridge protocol.
 
-Arrays of bytes are base64 text; what is not finite is null; numbers keep all their digits. On the
-way in a field may be left out, which then has ROS's default, arrays of bytes may be lists, times
-may have the names of ROS 1 (``secs``, ``nsecs``), and a header may have its ``seq``.
+Arrays of bytes are base64 text, numbers that are not finite are null, numbers keep all their
+digits. In a message from a client, missing fields have ROS's default, arrays of bytes may be lists,
+times may have the names of ROS 1 (``secs``, ``nsecs``), and a header may have ROS 1's ``seq``.
 """
 
 from __future__ import annotations
@@ -22,73 +22,76 @@ from ..errors import BadMessage
 from .types import PLACEHOLDER, message_class, ros2_store
 
 M = TypeVar("M")
-BYTES = ("uint8", "byte", "char")
+BYTE_TYPES = ("uint8", "byte", "char")
 DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
-INTEGERS = ("byte", "char", *(f"{sign}int{n}" for sign in ("", "u") for n in (8, 16, 32, 64)))
-LARGEST = {name: float(np.finfo(name).max) for name in ("float32", "float64")}
-"""Type -> its largest number; JSON can have larger ones."""
+INTEGER_TYPES = ("byte", "char", *(f"{sign}int{n}" for sign in ("", "u") for n in (8, 16, 32, 64)))
+MAX_FLOATS = {name: float(np.finfo(name).max) for name in ("float32", "float64")}
+"""The largest numbers of the float types; JSON can have larger ones."""
 ROS1_NAMES = {"secs": "sec", "nsecs": "nanosec"}
-"""Names of ROS 1 in times."""
-IGNORED = frozenset({"seq"})
-"""Of the header of ROS 1."""
+"""The names of ROS 1 in times."""
+IGNORED_FIELDS = frozenset({"seq"})
+"""The field of ROS 1 headers that is ignored."""
 
 
 def to_json(message: object) -> dict[str, Any]:
     """Return a message as a JSON object; BadMessage if its type has no definition."""
-    found = _fields(_name(type(message)))
-    return {name: _out(getattr(message, name), kind) for name, kind, _, _ in found}
+    fields = _fields(_name(type(message)))
+    return {name: _json_value(getattr(message, name), kind) for name, kind, _, _ in fields}
 
 
 def to_plain(message: object) -> dict[str, Any]:
     """Return a message as nested dicts and lists with its arrays, for encodings that have them."""
-    found = _fields(_name(type(message)))
-    return {name: _plain(getattr(message, name), kind) for name, kind, _, _ in found}
+    fields = _fields(_name(type(message)))
+    return {name: _plain_value(getattr(message, name), kind) for name, kind, _, _ in fields}
 
 
-def _plain(value: Any, kind: str) -> Any:
+def _plain_value(value: Any, kind: str) -> Any:
     if kind == "message":
         return to_plain(value)
     if kind == "messages":
-        return [to_plain(each) for each in value]
+        return [to_plain(element) for element in value]
     if kind in ("bytes", "numbers"):
         return np.asarray(value)
     if kind == "number":
         return value.item() if isinstance(value, np.generic) else value
-    return _out(value, kind)
+    return _json_value(value, kind)
 
 
 def from_json(cls: type[M], values: object) -> M:
-    """Return the message of a class that a JSON object holds.
+    """Return the message of a class from a JSON object.
 
     Raises:
-        BadMessage: it has a field that the type does not have, or one of another kind.
+        BadMessage: it has a field that the type lacks, or a field of another type.
     """
-    return _message(cls, values, "")
+    return _read_message(cls, values, "")
 
 
-def _message(cls: type[M], values: object, at: str) -> M:
+def _read_message(cls: type[M], values: object, path: str) -> M:
     name = _name(cls)
     if not isinstance(values, Mapping):
-        raise BadMessage(f"{at.rstrip('.') or name} is {_shown(values)}; expected an object.")
-    known = {field[0]: field for field in _fields(name)}
-    if len(values) > len(known) + len(ROS1_NAMES) + len(IGNORED):
+        raise BadMessage(f"{path.rstrip('.') or name} is {_excerpt(values)}; expected an object.")
+    type_fields = {field[0]: field for field in _fields(name)}
+    if len(values) > len(type_fields) + len(ROS1_NAMES) + len(IGNORED_FIELDS):
         raise BadMessage(
-            f"{at.rstrip('.') or name} has {len(values)} fields; {name} has {', '.join(known)}."
+            f"{path.rstrip('.') or name} has {len(values)} fields; {name} has "
+            f"{', '.join(type_fields)}."
         )
-    found: dict[str, object] = {}
+    field_values: dict[str, object] = {}
     for key, value in values.items():
-        field = ROS1_NAMES.get(key, key) if key not in known else key
-        if field in known:
-            _, kind, inner, length = known[field]
-            found[field] = _in(value, kind, inner, length, f"{at}{field}")
-        elif key not in IGNORED:
-            raise BadMessage(f"{name} has no field {at}{key!s:.100}; it has {', '.join(known)}.")
-    for field, default in _needed(cast(Any, cls)):
-        found.setdefault(field, default() if callable(default) else default)
-    return cls(**found)
+        field = ROS1_NAMES.get(key, key) if key not in type_fields else key
+        if field in type_fields:
+            _, kind, type_name, length = type_fields[field]
+            field_values[field] = _read_value(value, kind, type_name, length, f"{path}{field}")
+        elif key not in IGNORED_FIELDS:
+            raise BadMessage(
+                f"{name} has no field {path}{key!s:.100}; it has {', '.join(type_fields)}."
+            )
+    for field, default in _required_fields(cast(Any, cls)):
+        field_values.setdefault(field, default() if callable(default) else default)
+    return cls(**field_values)
 
 
-def _out(value: Any, kind: str) -> Any:
+def _json_value(value: Any, kind: str) -> Any:
     if kind == "number":
         number = value.item() if isinstance(value, np.generic) else value
         return None if isinstance(number, float) and not math.isfinite(number) else number
@@ -99,116 +102,128 @@ def _out(value: Any, kind: str) -> Any:
     if kind == "numbers":
         array = np.asarray(value)
         if array.dtype.kind == "f" and not np.isfinite(array).all():
-            return [each if math.isfinite(each) else None for each in array.tolist()]
+            return [element if math.isfinite(element) else None for element in array.tolist()]
         return array.tolist()
     if kind == "messages":
-        return [to_json(each) for each in value]
+        return [to_json(element) for element in value]
     return list(value) if kind == "texts" else str(value)
 
 
-def _in(value: Any, kind: str, inner: str, length: int, at: str) -> Any:
+def _read_value(value: Any, kind: str, type_name: str, length: int, path: str) -> Any:
     if kind == "message":
-        return _message(message_class(inner), value, f"{at}.")
+        return _read_message(message_class(type_name), value, f"{path}.")
     if kind == "text":
         if not isinstance(value, str):
-            raise BadMessage(f"{at} is {_shown(value)}; expected text.")
+            raise BadMessage(f"{path} is {_excerpt(value)}; expected text.")
         return value
     if kind == "number":
-        return _number(value, inner, at)
+        return _read_number(value, type_name, path)
     if kind == "bytes" and isinstance(value, str):
         try:
             array = np.frombuffer(base64.b64decode(value, validate=True), np.uint8).copy()
         except (binascii.Error, ValueError):
-            raise BadMessage(f"{at} is {_shown(value)}; expected base64.") from None
-        return _sized(array, length, at)
+            raise BadMessage(f"{path} is {_excerpt(value)}; expected base64.") from None
+        return _check_length(array, length, path)
     if not isinstance(value, list):
-        raise BadMessage(f"{at} is {_shown(value)}; expected a list.")
+        raise BadMessage(f"{path} is {_excerpt(value)}; expected a list.")
     if kind == "messages":
-        cls = message_class(inner)
-        items: list[Any] = [_message(cls, each, f"{at}[{i}].") for i, each in enumerate(value)]
-        return _sized(items, length, at)
+        cls = message_class(type_name)
+        messages: list[Any] = [
+            _read_message(cls, element, f"{path}[{i}].") for i, element in enumerate(value)
+        ]
+        return _check_length(messages, length, path)
     if kind == "texts":
-        return _sized([_in(each, "text", "", 0, at) for each in value], length, at)
+        return _check_length(
+            [_read_value(element, "text", "", 0, path) for element in value], length, path
+        )
     try:
-        numbers = [math.nan if each is None else each for each in value]
+        numbers = [math.nan if element is None else element for element in value]
         with np.errstate(over="raise", invalid="raise"):
-            array = np.array(numbers, dtype=DTYPES.get(inner, inner))
-        if array.ndim != 1 or (inner.startswith("float") and np.isinf(array).any()):
-            raise ValueError("it is nested, or a number is too large")
-        return _sized(array, length, at)
+            array = np.array(numbers, dtype=DTYPES.get(type_name, type_name))
+        if array.ndim != 1 or (type_name.startswith("float") and np.isinf(array).any()):
+            raise ValueError("the list is nested, or a number is too large")
+        return _check_length(array, length, path)
     except (TypeError, ValueError, OverflowError, FloatingPointError):
-        raise BadMessage(f"{at} is {_shown(value)}; expected numbers ({inner}).") from None
+        raise BadMessage(f"{path} is {_excerpt(value)}; expected numbers ({type_name}).") from None
 
 
-def _number(value: Any, inner: str, at: str) -> Any:
-    if inner == "bool" and isinstance(value, bool):
+def _read_number(value: Any, type_name: str, path: str) -> Any:
+    if type_name == "bool" and isinstance(value, bool):
         return value
-    if inner.startswith("float") and value is None:
+    if type_name.startswith("float") and value is None:
         return math.nan
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if is_number and inner.startswith("float") and not abs(value) > LARGEST.get(inner, 0):
+    if (
+        is_number
+        and type_name.startswith("float")
+        and not abs(value) > MAX_FLOATS.get(type_name, 0)
+    ):
         return float(value)
-    if is_number and inner in INTEGERS:
-        limits = np.iinfo(DTYPES.get(inner, inner))
+    if is_number and type_name in INTEGER_TYPES:
+        limits = np.iinfo(DTYPES.get(type_name, type_name))
         if limits.min <= value <= limits.max and value == int(value):
             return int(value)
-    raise BadMessage(f"{at} is {_shown(value)}; expected a value of type {inner}.")
+    raise BadMessage(f"{path} is {_excerpt(value)}; expected a value of type {type_name}.")
 
 
-def _sized(values: Any, length: int, at: str) -> Any:
+def _check_length(values: Any, length: int, path: str) -> Any:
     if length and len(values) != length:
-        raise BadMessage(f"{at} has {len(values)} values; expected {length}.")
+        raise BadMessage(f"{path} has {len(values)} values; expected {length}.")
     return values
 
 
 @functools.cache
 def _fields(name: str) -> tuple[tuple[str, str, str, int], ...]:
-    """Field, kind, type inside, and length of an array of fixed length (else 0)."""
-    found = []
-    for field, (node, inner) in ros2_store().fielddefs[name][1]:
+    """Return each field's name, kind, inner type, and length of a fixed-size array (else 0)."""
+    type_fields = []
+    for field, (node, content) in ros2_store().fielddefs[name][1]:
         if field == PLACEHOLDER:
             continue
         length = 0
         is_many = node in (Nodetype.ARRAY, Nodetype.SEQUENCE)
         if is_many:
-            length = inner[1] if node == Nodetype.ARRAY else 0
-            node, inner = inner[0]
+            length = content[1] if node == Nodetype.ARRAY else 0
+            node, content = content[0]
         if node == Nodetype.NAME:
-            kind, inside = ("messages" if is_many else "message"), str(inner)
+            kind, type_name = ("messages" if is_many else "message"), str(content)
         else:
-            inside = str(inner[0])
-            kind = "text" if inside in ("string", "wstring") else "number"
+            type_name = str(content[0])
+            kind = "text" if type_name in ("string", "wstring") else "number"
             if is_many:
-                kind = "texts" if kind == "text" else "bytes" if inside in BYTES else "numbers"
-        found.append((field, kind, inside, length))
-    return tuple(found)
+                kind = (
+                    "texts" if kind == "text" else "bytes" if type_name in BYTE_TYPES else "numbers"
+                )
+        type_fields.append((field, kind, type_name, length))
+    return tuple(type_fields)
 
 
 @functools.cache
-def _needed(cls: type) -> tuple[tuple[str, Any], ...]:
-    """Fields whose class has no default for them, with ROS's."""
-    without = {
+def _required_fields(cls: type) -> tuple[tuple[str, Any], ...]:
+    """Return the fields for which the class has no default, with ROS's default."""
+    names = {
         field.name
         for field in fields(cls)
         if field.default is MISSING and field.default_factory is MISSING
     }
     return tuple(
-        (field, functools.partial(_default, kind, inner, length))
-        for field, kind, inner, length in _fields(_name(cls))
-        if field in without
+        (field, functools.partial(_default, kind, content_type, length))
+        for field, kind, content_type, length in _fields(_name(cls))
+        if field in names
     )
 
 
-def _default(kind: str, inner: str, length: int) -> Any:
+def _default(kind: str, type_name: str, length: int) -> Any:
     if kind == "message":
-        return _message(message_class(inner), {}, "")
+        return _read_message(message_class(type_name), {}, "")
     if kind in ("bytes", "numbers"):
-        return np.zeros(length, dtype=DTYPES.get(inner, inner))
+        return np.zeros(length, dtype=DTYPES.get(type_name, type_name))
     if kind == "number":
-        return False if inner == "bool" else 0.0 if inner.startswith("float") else 0
+        return False if type_name == "bool" else 0.0 if type_name.startswith("float") else 0
     if kind == "text":
         return ""
-    return [_default("message" if kind == "messages" else "text", inner, 0) for _ in range(length)]
+    return [
+        _default("message" if kind == "messages" else "text", type_name, 0) for _ in range(length)
+    ]
 
 
 def _name(cls: type) -> str:
@@ -218,6 +233,6 @@ def _name(cls: type) -> str:
     return name
 
 
-def _shown(value: object) -> str:
+def _excerpt(value: object) -> str:
     text = " ".join(repr(value)[:200].split())
     return text if len(text) <= 60 else text[:57] + "..."

@@ -1,4 +1,4 @@
-"""What a transport reports: a line on standard error for each event, few of each kind."""
+"""The log of a transport: a line on standard error for each event, few of each kind."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from collections.abc import Callable
 
 from ..base.terminal import clean_text, escape_to_one_line
 
-MAX_OF_A_KIND = 5
-"""Lines of one kind that are printed; the next says that there are more."""
+MAX_LINES_OF_A_KIND = 5
+"""The number of lines of one kind that are printed; the next line states that there are more."""
 MAX_KINDS = 1000
-"""Kinds that are counted; that there are more is printed once."""
+"""The number of kinds that are counted; that there are more is printed once."""
 
 
 def to_standard_error(line: str) -> None:
@@ -21,25 +21,25 @@ def to_standard_error(line: str) -> None:
 
 
 class Log:
-    """Lines of one transport. Any thread may write.
+    """The log lines of one transport; any thread may write.
 
     Args:
-        name: what each line begins with, as ``ros1``.
-        write: where lines go.
+        name: the beginning of each line, as ``ros1``.
+        write: the function that prints a line.
     """
 
     def __init__(self, name: str, write: Callable[[str], None] = to_standard_error) -> None:
         self._name, self._write = name, write
         self._lock = threading.Lock()
         self._counts: Counter[str] = Counter()
-        self._others: list[Callable[[str], None]] = []
+        self._listeners: list[Callable[[str], None]] = []
         self.lines: deque[str] = deque(maxlen=200)
-        """The newest lines, for whoever shows them."""
+        """The newest lines, for display."""
 
-    def say(self, line: str, *, kind: str = "") -> None:
-        """Report an event; of one ``kind`` (default: the line itself) only a few.
+    def report(self, line: str, *, kind: str = "") -> None:
+        """Report an event; print only a few of one ``kind`` (default: the line itself).
 
-        Line ends in what a peer has sent are escaped: it writes no lines of its own.
+        Line ends in texts of a peer are escaped, so that it cannot write lines of its own.
         """
         line = escape_to_one_line(line)
         key = kind or line
@@ -50,21 +50,21 @@ class Log:
                     return
             self._counts[key] += 1
             n = self._counts[key]
-            if n > MAX_OF_A_KIND + 1:
+            if n > MAX_LINES_OF_A_KIND + 1:
                 return
-            more = " (further such lines are not shown)" if n > MAX_OF_A_KIND else ""
+            suffix = " (further such lines are not shown)" if n > MAX_LINES_OF_A_KIND else ""
             self.lines.append(line)
-            others = list(self._others)
-        self._write(f"uwsim: {self._name}: {line}{more}")
-        for write in others:
+            listeners = list(self._listeners)
+        self._write(f"uwsim: {self._name}: {line}{suffix}")
+        for write in listeners:
             write(line)
 
-    def also(self, write: Callable[[str], None]) -> None:
-        """Give the lines to ``write``, too, from now on; without the name in front."""
+    def add_listener(self, write: Callable[[str], None]) -> None:
+        """Pass the lines to ``write``, too, from now on, without the name of the log."""
         with self._lock:
-            self._others.append(write)
+            self._listeners.append(write)
 
     def count(self, kind: str) -> int:
-        """How many events of a kind there were, shown or not."""
+        """Return the number of events of a kind, printed or not."""
         with self._lock:
             return self._counts[kind]

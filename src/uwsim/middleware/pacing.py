@@ -1,4 +1,4 @@
-"""Simulation time in step with the clock on the wall."""
+"""The pace of simulation time relative to wall time."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from collections.abc import Callable
 from ..errors import RunFailed
 
 SHORTEST_SLEEP_S = 0.001
-"""A step that is early by less is not held up [s]."""
+"""The shortest time that a step is held back [s]."""
 MIN_SPEED = 1e-6
-"""The least simulation time per real time: that of the longest wait between two steps."""
+"""The minimum simulation time per real time, which bounds the wait between two steps."""
 MAX_LAG_S = 0.2
-"""A simulation that lags by more does not catch up: time is lost instead [s]."""
+"""The maximum lag that a simulation catches up [s]; the time of a longer lag is lost."""
 
 
 class Pace:
-    """Holds the simulation up so that its time passes at ``speed`` times real time.
+    """A limit on the pace of a simulation: its time passes at ``speed`` times real time.
 
     `step` is called at the end of each step. A simulation that is too slow runs as fast as it can;
     after a short lag it catches up, after a long one the lost time stays lost.
@@ -25,8 +25,8 @@ class Pace:
     Args:
         clock: returns the simulation time [s].
         speed: simulation time per real time, > 0.
-        max_lag: a step that is later than this ends the run [s]: a strict clock, for hardware in
-            the loop; None: no step does.
+        max_lag: the lag of a step that ends the run [s]: a strict clock, for hardware in the loop;
+            None: no limit.
         now: returns real time [s].
         sleep: waits for some time [s].
     """
@@ -43,29 +43,29 @@ class Pace:
         self._clock, self._speed = clock, speed
         self._max_lag = math.inf if max_lag is None else max_lag
         self._now, self._sleep = now, sleep
-        self._began: float | None = None
-        self._first = 0.0
-        self.lost = 0.0
-        """Real time that was not caught up [s]."""
+        self._wall_start: float | None = None
+        self._start_time = 0.0
+        self.lost_time = 0.0
+        """The real time that was not caught up [s]."""
 
     def step(self) -> None:
-        """Wait until it is time.
+        """Wait until the step is due.
 
         Raises:
-            RunFailed: the clock is strict, and it is later than that.
+            RunFailed: the clock is strict, and the step is later than its limit.
         """
         now = self._now()
-        if self._began is None:
-            self._began, self._first = now, self._clock()
+        if self._wall_start is None:
+            self._wall_start, self._start_time = now, self._clock()
             return
-        early = self._began + (self._clock() - self._first) / self._speed - now
-        if -early > self._max_lag:
+        lead = self._wall_start + (self._clock() - self._start_time) / self._speed - now
+        if -lead > self._max_lag:
             raise RunFailed(
-                f"At {self._clock():g} s of simulation time the computer is {-early:.3g} s late; "
+                f"At {self._clock():g} s of simulation time the computer is {-lead:.3g} s late; "
                 f"--max-lag allows {self._max_lag:g} s."
             )
-        if early >= SHORTEST_SLEEP_S:
-            self._sleep(early)
-        elif early < -MAX_LAG_S:
-            self._began -= early
-            self.lost -= early
+        if lead >= SHORTEST_SLEEP_S:
+            self._sleep(lead)
+        elif lead < -MAX_LAG_S:
+            self._wall_start -= lead
+            self.lost_time -= lead

@@ -12,9 +12,9 @@ MAX_BYTES = 64 * 2**20
 
 
 class LatestQueue(Generic[T]):
-    """Keeps at most ``max_items`` of ``max_bytes`` together, and at least the newest.
+    """A queue of at most ``max_items`` and ``max_bytes`` that keeps at least the newest item.
 
-    `put` never waits, so that a slow reader holds nobody up.
+    `put` never waits, so that a slow reader delays no other thread.
     """
 
     def __init__(self, max_items: int = MAX_ITEMS, max_bytes: int = MAX_BYTES) -> None:
@@ -22,30 +22,30 @@ class LatestQueue(Generic[T]):
         self._items: deque[tuple[T, int]] = deque()
         self._n_bytes = 0
         self._is_closed = False
-        self._changed = threading.Condition()
+        self._condition = threading.Condition()
         self.n_dropped = 0
-        """Items dropped so far."""
+        """The number of items dropped so far."""
 
     def put(self, item: T, size: int = 0) -> int:
-        """Put an item of ``size`` bytes in; returns how many were dropped for it."""
-        with self._changed:
+        """Put an item of ``size`` bytes in; return the number of items dropped for it."""
+        with self._condition:
             if self._is_closed:
                 return 0
             self._items.append((item, size))
             self._n_bytes += size
-            before = self.n_dropped
+            n_dropped_before = self.n_dropped
             while len(self._items) > self._max_items or (
                 self._n_bytes > self._max_bytes and len(self._items) > 1
             ):
                 self._n_bytes -= self._items.popleft()[1]
                 self.n_dropped += 1
-            self._changed.notify()
-            return self.n_dropped - before
+            self._condition.notify()
+            return self.n_dropped - n_dropped_before
 
     def get(self, timeout: float | None = None) -> T | None:
-        """Take the oldest item out; waits for one. None when closed, or after ``timeout`` [s]."""
-        with self._changed:
-            self._changed.wait_for(lambda: bool(self._items) or self._is_closed, timeout)
+        """Take the oldest item out; wait for one. None when closed, or after ``timeout`` [s]."""
+        with self._condition:
+            self._condition.wait_for(lambda: bool(self._items) or self._is_closed, timeout)
             if not self._items:
                 return None
             item, size = self._items.popleft()
@@ -54,25 +54,25 @@ class LatestQueue(Generic[T]):
 
     def take(self) -> list[T]:
         """Take all items out, oldest first."""
-        with self._changed:
+        with self._condition:
             items = [item for item, _ in self._items]
             self._items.clear()
             self._n_bytes = 0
             return items
 
     def close(self) -> None:
-        """Take nothing more in; whoever waits is released."""
-        with self._changed:
+        """Accept no more items, and release waiting threads."""
+        with self._condition:
             self._is_closed = True
             self._items.clear()
             self._n_bytes = 0
-            self._changed.notify_all()
+            self._condition.notify_all()
 
     @property
     def is_closed(self) -> bool:
-        """Whether it is closed."""
+        """A flag: the queue is closed."""
         return self._is_closed
 
     def __len__(self) -> int:
-        with self._changed:  # while one is put in there may be one too many
+        with self._condition:  # while one is put in there may be one too many
             return len(self._items)

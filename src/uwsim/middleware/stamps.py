@@ -1,8 +1,8 @@
-"""Stamps on the clock of ROS, which begins at 1 s: ROS takes 0 for "no clock yet".
+"""Stamps on the clock of ROS, which begins at 1 s: ROS interprets 0 as "no clock yet".
 
-Inside, simulation time begins at 0. Adapters publish ``/clock`` as `CLOCK_START` later than that,
-move the stamps of outgoing headers by as much, and those of incoming ones back. A stamp of 0 means
-"none" on its way in, and stays.
+In the simulator, time begins at 0. Adapters publish ``/clock`` with an offset of `CLOCK_START`, add
+it to the stamps of outgoing headers, and subtract it from those of incoming ones. An incoming stamp
+of 0 means "none", and stays.
 """
 
 from __future__ import annotations
@@ -18,67 +18,67 @@ from .types import ros2_store
 
 M = TypeVar("M")
 CLOCK_START = 1
-"""What ``/clock`` shows at the beginning of a simulation [s]."""
+"""The time on ``/clock`` at the beginning of a simulation [s]."""
 
 
 def clock_time(time: float) -> Time:
-    """Return simulation time ``time`` [s] as ``/clock`` shows it."""
-    shown = time_from_seconds(time)
-    return Time(sec=shown.sec + CLOCK_START, nanosec=shown.nanosec)
+    """Return simulation time ``time`` [s] as a stamp of ``/clock``."""
+    stamp = time_from_seconds(time)
+    return Time(sec=stamp.sec + CLOCK_START, nanosec=stamp.nanosec)
 
 
-def outward(message: M) -> M:
-    """Return a message with its stamps on the clock of ROS; the message itself stays as it is."""
-    return moved(message, CLOCK_START * NANOSECONDS)
+def to_ros_clock(message: M) -> M:
+    """Return a copy of a message with its stamps on the clock of ROS."""
+    return shift_stamps(message, CLOCK_START * NANOSECONDS)
 
 
-def inward(message: M) -> M:
-    """Return a message with its stamps in simulation time; at least 0, and 0 stays."""
-    return moved(message, -CLOCK_START * NANOSECONDS)
+def to_simulation_time(message: M) -> M:
+    """Return a copy of a message with its stamps in simulation time; at least 0, and 0 stays."""
+    return shift_stamps(message, -CLOCK_START * NANOSECONDS)
 
 
 @functools.cache
-def _stamped(name: str) -> tuple[tuple[str, str, str], ...]:
-    """Fields that are, or hold, headers: field, ``one`` or ``list``, inner type."""
+def _stamped_fields(name: str) -> tuple[tuple[str, str, str], ...]:
+    """Return the fields that are, or contain, headers: field, ``one`` or ``list``, inner type."""
     if name not in ros2_store().fielddefs:
         return ()
-    found: list[tuple[str, str, str]] = []
+    fields: list[tuple[str, str, str]] = []
     for field, description in ros2_store().fielddefs[name][1]:
-        kind, inner = inner_type(description)
-        if kind in ("one", "list") and (inner == HEADER or _stamped(inner)):
-            found.append((field, kind, inner))
-    return tuple(found)
+        kind, type_name = inner_type(description)
+        if kind in ("one", "list") and (type_name == HEADER or _stamped_fields(type_name)):
+            fields.append((field, kind, type_name))
+    return tuple(fields)
 
 
-def moved(message: M, nanoseconds: int) -> M:
-    """Return a message with the stamps of its headers moved; at least 0.
+def shift_stamps(message: M, nanoseconds: int) -> M:
+    """Return a copy of a message with the stamps of its headers shifted; at least 0.
 
     On the way back a stamp of 0 stays.
     """
     name = str(getattr(message, "__msgtype__", ""))
     if name == HEADER:
-        return cast(M, _header_moved(message, nanoseconds))
-    fields = _stamped(name)
+        return cast(M, _shift_header(message, nanoseconds))
+    fields = _stamped_fields(name)
     if not fields:
         return message
-    copied = copy.copy(message)
+    message_copy = copy.copy(message)
     for field, kind, _ in fields:
         value: Any = getattr(message, field)
-        new = (
-            moved(value, nanoseconds)
+        shifted_value = (
+            shift_stamps(value, nanoseconds)
             if kind == "one"
-            else [moved(each, nanoseconds) for each in value]
+            else [shift_stamps(element, nanoseconds) for element in value]
         )
-        object.__setattr__(copied, field, new)  # of a frozen one, too
-    return copied
+        object.__setattr__(message_copy, field, shifted_value)  # the message may be frozen
+    return message_copy
 
 
-def _header_moved(header: Any, nanoseconds: int) -> Any:
+def _shift_header(header: Any, nanoseconds: int) -> Any:
     stamp = header.stamp
-    before = stamp.sec * NANOSECONDS + stamp.nanosec
-    if nanoseconds < 0 and before == 0:
+    old_stamp = stamp.sec * NANOSECONDS + stamp.nanosec
+    if nanoseconds < 0 and old_stamp == 0:
         return header
-    after = max(0, before + nanoseconds)
-    copied = copy.copy(header)
-    copied.stamp = Time(sec=after // NANOSECONDS, nanosec=after % NANOSECONDS)
-    return copied
+    new_stamp = max(0, old_stamp + nanoseconds)
+    header_copy = copy.copy(header)
+    header_copy.stamp = Time(sec=new_stamp // NANOSECONDS, nanosec=new_stamp % NANOSECONDS)
+    return header_copy

@@ -1,8 +1,8 @@
-"""Message and service types of the bus as ROS 1 and ROS 2 know them: names, hashes, definitions.
+"""Names, hashes and definitions of the bus's message and service types in ROS 1 and ROS 2.
 
 The source is text: ROS's own definitions, which rosbags ships, and the files of a folder
 for each package in ``messages``. From it rosbags derives the MD5 sum by which ROS 1 compares types,
-the RIHS01 hash of ROS 2, and the definition that goes into bags.
+the RIHS01 hash of ROS 2, and the definition in bags.
 
 A class of the bus is looked up by either name, ``geometry_msgs/Twist`` or
 ``geometry_msgs/msg/Twist``. Types that `uwsim.messages` lacks (``std_msgs/Int32``) are the classes
@@ -28,15 +28,15 @@ from ..messages.services import Service
 from ..messages.simulation_control import MESSAGES, SIMULATION_SERVICES
 
 SERVICES: dict[str, Service] = {**OWN_SERVICES, **SIMULATION_SERVICES}
-"""Service types by their names in ROS 2."""
+"""The service types by their names in ROS 2."""
 FOLDER = Path(messages.__file__).parent
-"""Where ``msg/`` and ``srv/`` are."""
+"""The folder of the packages, with ``msg/`` and ``srv/``."""
 EVENT_INFO = "service_msgs/msg/ServiceEventInfo"
-"""Its ``char`` is ROS 2's uint8, also for the hash, which rosbags takes for another type."""
+"""The type whose ``char`` is ROS 2's uint8; rosbags uses another type in the hash."""
 PLACEHOLDER = "structure_needs_at_least_one_member"
-"""The field of a type of ROS 2 that has none."""
+"""The field of a ROS 2 type without fields."""
 TF_MESSAGE = "geometry_msgs/TransformStamped[] transforms"
-"""Definition of ``tf2_msgs/TFMessage``, which rosbags has for ROS 2 only."""
+"""The definition of ``tf2_msgs/TFMessage``, which rosbags has for ROS 2 only."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,15 +48,15 @@ class WireType:
     ros1_name: str
     """``package/Name``."""
     md5: str
-    """MD5 sum of ROS 1; empty if ROS 1 has no such type."""
+    """The MD5 sum of ROS 1; empty if ROS 1 has no such type."""
     ros1_definition: str
-    """Full text in ROS 1, with the types inside it; empty if it has none."""
+    """The full text in ROS 1, with the types inside it; empty if it has none."""
     ros2_name: str
     """``package/msg/Name``."""
     type_hash: str
     """``RIHS01_`` and 64 hexadecimal digits."""
     ros2_definition: str
-    """Full text in ROS 2, with the types inside it."""
+    """The full text in ROS 2, with the types inside it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,19 +64,19 @@ class WireService:
     """A service type outside the process."""
 
     service: Service
-    """Its classes on the bus."""
+    """The classes on the bus."""
     ros1_name: str
     """``package/Name``."""
     md5: str
-    """MD5 sum of ROS 1, over request and response."""
+    """The MD5 sum of ROS 1, over request and response."""
     request: WireType
-    """Its request; named ``package/NameRequest`` in ROS 1."""
+    """The request; named ``package/NameRequest`` in ROS 1."""
     response: WireType
-    """Its response."""
+    """The response."""
     ros2_name: str
     """``package/srv/Name``."""
     type_hash: str
-    """RIHS01 hash of the service."""
+    """The RIHS01 hash of the service."""
 
 
 @functools.cache
@@ -84,29 +84,32 @@ def message_class(name: str) -> type:
     """Return the class of a message type by its ROS 1 or ROS 2 name.
 
     Raises:
-        UnknownName: there is none; the message has the nearest.
+        UnknownName: there is none; the text has the nearest name.
     """
-    full = full_name(name)
-    found = _classes().get(full) or ros2_store().types.get(full)
-    if found is None:
+    type_name = full_name(name)
+    message_type = _classes().get(type_name) or ros2_store().types.get(type_name)
+    if message_type is None:
         raise UnknownName("message type", name, sorted(ros2_store().types))
-    return found
+    return message_type
 
 
 @functools.cache
 def service(name: str) -> Service:
     """Return a service type by its ROS 1 or ROS 2 name; UnknownName if there is none."""
     package, _, base = name.partition("/")
-    full = f"{package}/srv/{base.rpartition('/')[2]}"
-    if full not in SERVICES:
+    type_name = f"{package}/srv/{base.rpartition('/')[2]}"
+    if type_name not in SERVICES:
         raise UnknownName("service type", name, SERVICES)
-    return SERVICES[full]
+    return SERVICES[type_name]
 
 
 @functools.cache
 def service_of(request: type) -> Service | None:
     """Return the service whose requests are of this class; None if it has no definition."""
-    return next((each for each in SERVICES.values() if each.request is request), None)
+    return next(
+        (service_type for service_type in SERVICES.values() if service_type.request is request),
+        None,
+    )
 
 
 @functools.cache
@@ -133,19 +136,19 @@ def wire_type(message: type) -> WireType | None:
 
 
 @functools.cache
-def wire_service(of: Service) -> WireService:
+def wire_service(service_type: Service) -> WireService:
     """Return a service type with its names and hashes."""
-    request, response = wire_type(of.request), wire_type(of.response)
+    request, response = wire_type(service_type.request), wire_type(service_type.response)
     assert request is not None
     assert response is not None
     return WireService(
-        service=of,
-        ros1_name=of.name.replace("/srv/", "/"),
-        md5=_md5_of_service(of.name),
+        service=service_type,
+        ros1_name=service_type.name.replace("/srv/", "/"),
+        md5=_md5_of_service(service_type.name),
         request=request,
         response=response,
-        ros2_name=of.name,
-        type_hash=_hash_of_service(of.name),
+        ros2_name=service_type.name,
+        type_hash=_hash_of_service(service_type.name),
     )
 
 
@@ -153,15 +156,15 @@ def wire_service(of: Service) -> WireService:
 def ros2_store() -> Any:
     """Return rosbags' types of ROS 2 (Jazzy) and ours; it reads into the classes of the bus."""
     store: Any = get_typestore(Stores.ROS2_JAZZY)
-    _register_ours(store)
+    _register_own_types(store)
     constants, fields = store.fielddefs[EVENT_INFO]
     gid = ("client_gid", (Nodetype.ARRAY, ((Nodetype.BASE, ("uint8", 0)), 16)))
     store.fielddefs[EVENT_INFO] = (
         constants,
-        [gid if each[0] == gid[0] else each for each in fields],
+        [gid if field[0] == gid[0] else field for field in fields],
     )
     for name in SERVICES:
-        _register_event(store, name)
+        _register_event_types(store, name)
     store.types.update(_classes())
     return store
 
@@ -171,74 +174,74 @@ def ros1_store() -> Any:
     """Return rosbags' types of ROS 1 (Noetic) and ours."""
     store = get_typestore(Stores.ROS1_NOETIC)
     store.register(get_types_from_msg(TF_MESSAGE, "tf2_msgs/msg/TFMessage"))
-    _register_ours(store)
+    _register_own_types(store)
     return store
 
 
 def full_name(name: str) -> str:
-    """``package/Name`` as ``package/msg/Name``; a full name stays."""
+    """Return ``package/msg/Name`` for ``package/Name``; a full name stays."""
     package, _, base = name.strip().partition("/")
     return name.strip() if "/" in base else f"{package}/msg/{base}"
 
 
 def is_fieldless(name: str) -> bool:
-    """Whether a type, by its full name, has no fields, as the request of ``std_srvs/Empty``."""
+    """Return whether a type, by full name, has no fields, as the request of ``std_srvs/Empty``."""
     return all(field == PLACEHOLDER for field, _ in ros2_store().fielddefs[name][1])
 
 
 @functools.cache
 def _classes() -> dict[str, type]:
-    """Full name -> class of the bus, of all messages and of both halves of the services.
+    """Return the classes of the bus by full name: all messages, requests and responses.
 
     A message that `uwsim.messages` does not list is in the module of its package.
     """
-    public = [getattr(messages, name) for name in messages.__all__]
-    public += MESSAGES
-    public += [half for each in SERVICES.values() for half in (each.request, each.response)]
-    found = {each.__msgtype__: each for each in public if hasattr(each, "__msgtype__")}
+    kinds = [getattr(messages, name) for name in messages.__all__]
+    kinds += MESSAGES
+    kinds += [half for kind in SERVICES.values() for half in (kind.request, kind.response)]
+    classes = {kind.__msgtype__: kind for kind in kinds if hasattr(kind, "__msgtype__")}
     modules = {
-        name.split("/")[0]: kind.__module__ for name, kind in found.items() if "/msg/" in name
+        name.split("/")[0]: kind.__module__ for name, kind in classes.items() if "/msg/" in name
     }
     for path in FOLDER.glob("*/msg/*.msg"):
         package, name = path.parts[-3], f"{path.parts[-3]}/msg/{path.stem}"
-        if name not in found:
+        if name not in classes:
             module = modules.get(package, f"{messages.__name__}.{package}")
-            found[name] = getattr(importlib.import_module(module), path.stem)
-    return found
+            classes[name] = getattr(importlib.import_module(module), path.stem)
+    return classes
 
 
-def _register_ours(store: Any) -> None:
-    """Register the types of ``messages/``, those that others need first."""
+def _register_own_types(store: Any) -> None:
+    """Register the types of ``messages/``, dependencies first."""
     texts = {
-        name: _text(name)
+        name: _read_definition(name)
         for name in sorted(_classes())
         if "/msg/" in name and name not in get_typestore(Stores.ROS2_JAZZY).types
     }
-    found: dict[str, Any] = {}
+    definitions: dict[str, Any] = {}
     for name, text in texts.items():
         if name not in store.fielddefs:
-            found |= get_types_from_msg(text, name)
+            definitions |= get_types_from_msg(text, name)
     for name in SERVICES:
-        for half, text in zip(("Request", "Response"), _halves(name), strict=True):
+        for half, text in zip(("Request", "Response"), _split_definition(name), strict=True):
             (fields,) = get_types_from_msg(text, f"{name}_{half}").values()
-            found[f"{name}_{half}"] = fields
-    store.register(found)
+            definitions[f"{name}_{half}"] = fields
+    store.register(definitions)
 
 
-def _text(name: str) -> str:
-    """The definition of a type of ours."""
+def _read_definition(name: str) -> str:
+    """Return the definition of a type of this project."""
     package, kind, base = name.split("/")
     return (FOLDER / package / kind / f"{base}.{kind}").read_text(encoding="utf-8")
 
 
-def _halves(name: str) -> tuple[str, str]:
-    lines = _text(name).splitlines()
+def _split_definition(name: str) -> tuple[str, str]:
+    lines = _read_definition(name).splitlines()
     cut = lines.index("---")
     return "\n".join(lines[:cut]), "\n".join(lines[cut + 1 :])
 
 
 def _md5_of_service(name: str) -> str:
-    """MD5 sum over the texts that the sums of its two halves are over."""
+    """Return the MD5 sum of a service: over the texts of its request and response."""
     md5 = hashlib.md5(usedforsecurity=False)
     for half in ("Request", "Response"):
         md5.update(_md5_text(f"{name}_{half}").encode())
@@ -246,30 +249,30 @@ def _md5_of_service(name: str) -> str:
 
 
 def _md5_text(name: str) -> str:
-    """The text whose MD5 sum is that of a type in ROS 1: constants, then fields.
+    """Return the text whose MD5 sum is that of a type in ROS 1: constants, then fields.
 
     A type inside is its own MD5 sum there.
     """
     store = ros1_store()
     constants, fields = store.fielddefs[name]
-    fields = [each for each in fields if each[0] != PLACEHOLDER]
+    fields = [entry for entry in fields if entry[0] != PLACEHOLDER]
     lines = [f"{kind} {field}={value}" for field, kind, value in constants]
-    for field, (kind, inner) in fields:
+    for field, (kind, content_type) in fields:
         suffix = ""
         if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
-            (kind, inner), count = inner
+            (kind, content_type), count = content_type
             suffix = f"[{count or ''}]"
         if kind == Nodetype.BASE:
-            lines.append(f"{inner[0]}{suffix} {field}")
-        elif inner in ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"):
-            lines.append(f"{inner.rpartition('/')[2].lower()}{suffix} {field}")
+            lines.append(f"{content_type[0]}{suffix} {field}")
+        elif content_type in ("builtin_interfaces/msg/Time", "builtin_interfaces/msg/Duration"):
+            lines.append(f"{content_type.rpartition('/')[2].lower()}{suffix} {field}")
         else:
-            lines.append(f"{store.generate_msgdef(inner, ros_version=1)[1]} {field}")
+            lines.append(f"{store.generate_msgdef(content_type, ros_version=1)[1]} {field}")
     return "\n".join(lines)
 
 
-def _register_event(store: Any, name: str) -> None:
-    """Register the types that the RIHS01 hash of a service is over."""
+def _register_event_types(store: Any, name: str) -> None:
+    """Register the types that the RIHS01 hash of a service covers."""
     package, _, base = name.partition("/")
     request, response = f"{name}_Request", f"{name}_Response"
     info = (Nodetype.NAME, EVENT_INFO)

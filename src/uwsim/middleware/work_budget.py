@@ -8,11 +8,11 @@ from collections.abc import Callable
 
 
 class WorkBudget:
-    """A share of wall time that some work may take (a token bucket). Any thread may use it.
+    """A limit on the share of wall time for some work (a token bucket); any thread may use it.
 
     Args:
-        share: of the wall time, above 0 and at most 1.
-        burst: how much work may be done at once after a rest [s].
+        share: the share of the wall time, above 0 and at most 1.
+        burst: the work that may be done at once after a pause [s].
         clock: returns the wall time [s].
     """
 
@@ -20,23 +20,23 @@ class WorkBudget:
         self, share: float, burst: float, clock: Callable[[], float] = time.monotonic
     ) -> None:
         self._share, self._burst, self._clock = share, burst, clock
-        self._left, self._since = burst, clock()
+        self._balance, self._refill_time = burst, clock()
         self._lock = threading.Lock()
 
     def spend(self, seconds: float) -> None:
         """Count work that was done [s]."""
         with self._lock:
             self._refill()
-            self._left -= seconds
+            self._balance -= seconds
 
     @property
     def delay(self) -> float:
         """The time until more work may be done [s]; 0: now."""
         with self._lock:
             self._refill()
-            return max(0.0, -self._left / self._share)
+            return max(0.0, -self._balance / self._share)
 
     def _refill(self) -> None:
         now = self._clock()
-        self._left = min(self._burst, self._left + self._share * (now - self._since))
-        self._since = now
+        self._balance = min(self._burst, self._balance + self._share * (now - self._refill_time))
+        self._refill_time = now

@@ -14,10 +14,10 @@ from uwsim.errors import NeverStarted, UwsimError
 from uwsim.messages import Empty, EmptyResponse, Float64, String
 from uwsim.messages.services import Service
 from uwsim.messages.simulation_control import StepSimulation
-from uwsim.middleware.admission import MAX_KINDS, Joined
+from uwsim.middleware.admission import MAX_KINDS, SingleProgram
 from uwsim.middleware.bridge import Bridge
 from uwsim.middleware.connection import ConnectionSpec
-from uwsim.middleware.lockstep.outside import outside_client
+from uwsim.middleware.lockstep.external_client import make_external_client
 from uwsim.middleware.lockstep.spec import ClientSpec, OutputSpec, Sync
 from uwsim.middleware.lockstep.topics import ACK, JOIN, TICK
 from uwsim.middleware.log import Log
@@ -51,20 +51,20 @@ class Outside(Bridge):
 
     def answer(self, said: dict[str, Any]) -> None:
         """The program acknowledges; before that, it and the other publish."""
-        for by, value in ((OTHER, 99.0), (ITS, 1.0), (OTHER, 99.0)):
-            self.put("estimate", Float64(data=value), by)
-        self.says(ACK, by=OTHER, tick=said["tick"], published={"/estimate": 3})
-        self.says(ACK, by=ITS, tick=said["tick"], published={"/estimate": 1})
+        for sender, value in ((OTHER, 99.0), (ITS, 1.0), (OTHER, 99.0)):
+            self.put("estimate", Float64(data=value), sender)
+        self.says(ACK, sender=OTHER, tick=said["tick"], published={"/estimate": 3})
+        self.says(ACK, sender=ITS, tick=said["tick"], published={"/estimate": 1})
 
-    def says(self, topic: str, *, by: str, **content: Any) -> None:
-        self.put(topic, String(data=json.dumps({"client": "a", **content})), by)
+    def says(self, topic: str, *, sender: str, **content: Any) -> None:
+        self.put(topic, String(data=json.dumps({"client": "a", **content})), sender)
 
-    def send_to(self, by: str, topic: str, message: object) -> None:
+    def send_to(self, sender: str, topic: str, message: object) -> None:
         assert (topic, type(message)) == (TICK, String)
-        self.alone.append((by, json.loads(message.data)))
+        self.alone.append((sender, json.loads(message.data)))
 
-    def tell(self, by: str, text: str) -> None:
-        self.told.append((by, text))
+    def report_error(self, sender: str, text: str) -> None:
+        self.told.append((sender, text))
 
 
 class Run:
@@ -85,7 +85,7 @@ class Run:
             sync=sync,
             **more,
         )
-        self.client: Any = outside_client(spec, [self.outside], timestep=TIMESTEP)
+        self.client: Any = make_external_client(spec, [self.outside], timestep=TIMESTEP)
         self.node = InProcessNode(
             self.bus, name="a", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
         )
@@ -105,9 +105,9 @@ class Run:
         self.node.tick()
         self.bus.deliver()
 
-    def called(self, by: str) -> str | None:
+    def called(self, sender: str) -> str | None:
         """Call startBench; returns the error."""
-        future = self.outside.request("startBench", Empty(), by)
+        future = self.outside.request("startBench", Empty(), sender)
         self.outside.step()
         error = future.exception(timeout=5.0)
         assert error is None or isinstance(error, UwsimError)
@@ -116,7 +116,7 @@ class Run:
 
 def test_after_the_join_only_the_joined_connection_publishes_and_calls() -> None:
     run = Run()
-    run.outside.says(JOIN, by=ITS, topics=["/depth"], next=0.0)
+    run.outside.says(JOIN, sender=ITS, topics=["/depth"], next=0.0)
     run.start()
     run.step()
     run.outside.put("status", String(data="failed: falsified"), OTHER)
@@ -124,32 +124,32 @@ def test_after_the_join_only_the_joined_connection_publishes_and_calls() -> None
     assert run.called(ITS) is None
     assert (run.n_started, [m.data for m in run.estimates.take()]) == (1, [1.0])
     assert run.status.take() == []
-    assert run.client.take_refused() == (
+    assert run.client.take_refusals() == (
         (OTHER, "/estimate", 2),
         (OTHER, "/startBench", 1),
         (OTHER, "/status", 1),
         (OTHER, f"/{ACK}", 1),
     )
-    assert run.client.take_refused() == ()
-    assert {by for by, _ in run.outside.told} == {OTHER}
+    assert run.client.take_refusals() == ()
+    assert {sender for sender, _ in run.outside.told} == {OTHER}
 
 
 def test_what_the_program_publishes_before_its_join_is_kept_and_that_of_others_is_not() -> None:
     run = Run()
-    for by, text in ((OTHER, "failed: falsified"), (ITS, "tracking"), (OTHER, "lost: no")):
-        run.outside.put("status", String(data=text), by)
+    for sender, text in ((OTHER, "failed: falsified"), (ITS, "tracking"), (OTHER, "lost: no")):
+        run.outside.put("status", String(data=text), sender)
     assert "takes part" in str(run.called(OTHER))
-    run.outside.says(JOIN, by=ITS, topics=["/depth"])
+    run.outside.says(JOIN, sender=ITS, topics=["/depth"])
     run.start()
     assert [message.data for message in run.status.take()] == ["tracking"]
 
 
-@pytest.mark.parametrize("by", [ITS, OTHER, ""])
-def test_answers_from_before_the_join_are_dropped(by: str) -> None:
+@pytest.mark.parametrize("sender", [ITS, OTHER, ""])
+def test_answers_from_before_the_join_are_dropped(sender: str) -> None:
     run = Run()
-    run.outside.says(ACK, by=by, tick=1)
-    run.outside.says(ACK, by=by, call=1, values={})
-    run.outside.says(JOIN, by=ITS, topics=["/depth"], next=0.0)
+    run.outside.says(ACK, sender=sender, tick=1)
+    run.outside.says(ACK, sender=sender, call=1, values={})
+    run.outside.says(JOIN, sender=ITS, topics=["/depth"], next=0.0)
     run.outside.answer = lambda said: None  # type: ignore[method-assign]
     run.start()
     run.outside.wait_for(lambda: False, 0.01)
@@ -163,14 +163,14 @@ def test_a_join_without_the_secret_is_refused_and_the_right_one_still_counts(giv
     run = Run(secret="opensesame")
     more = {} if given is None else {"secret": given}
     for _ in range(150):  # more than the joins that wait
-        run.outside.says(JOIN, by=OTHER, topics=["/depth"], **more)
-    run.outside.says(JOIN, by=ITS, topics=["/depth"], secret="opensesame", next=0.0)
+        run.outside.says(JOIN, sender=OTHER, topics=["/depth"], **more)
+    run.outside.says(JOIN, sender=ITS, topics=["/depth"], secret="opensesame", next=0.0)
     for _ in range(150):
-        run.outside.says(JOIN, by=OTHER, topics=["/depth"], **more)
+        run.outside.says(JOIN, sender=OTHER, topics=["/depth"], **more)
     run.start()
     run.step()
     assert [message.data for message in run.estimates.take()] == [1.0]
-    assert any(by == OTHER and "secret" in text for by, text in run.outside.told)
+    assert any(sender == OTHER and "secret" in text for sender, text in run.outside.told)
 
 
 @pytest.mark.parametrize(
@@ -184,7 +184,7 @@ def test_a_join_without_the_secret_is_refused_and_the_right_one_still_counts(giv
 def test_a_join_that_cannot_be_read_is_none(text: str) -> None:
     run = Run(secret="opensesame" if "secret" in text else None)
     run.outside.put(JOIN, String(data=text), OTHER)
-    run.outside.says(JOIN, by=ITS, topics=["/depth"], next=0.0, secret="opensesame")
+    run.outside.says(JOIN, sender=ITS, topics=["/depth"], next=0.0, secret="opensesame")
     run.start()
     run.step()
     assert [message.data for message in run.estimates.take()] == [1.0]
@@ -196,11 +196,11 @@ def test_a_join_that_cannot_be_read_is_none(text: str) -> None:
 def test_a_join_that_is_refused_is_told_to_who_sent_it_alone(join: dict[str, Any]) -> None:
     """The program that is waited for read that its own was refused, and ended."""
     run = Run(secret="opensesame")
-    run.outside.says(JOIN, by=OTHER, id="others", next=0.0, **join)
-    run.outside.says(JOIN, by=ITS, id="its", topics=["/depth"], secret="opensesame", next=0.0)
+    run.outside.says(JOIN, sender=OTHER, id="others", next=0.0, **join)
+    run.outside.says(JOIN, sender=ITS, id="its", topics=["/depth"], secret="opensesame", next=0.0)
     run.start()
-    ((by, said),) = run.outside.alone
-    assert (by, said["client"], said["id"]) == (OTHER, "a", "others")
+    ((sender, said),) = run.outside.alone
+    assert (sender, said["client"], said["id"]) == (OTHER, "a", "others")
     assert "its join was refused" in said["error"]
     assert not any("error" in tick for tick in run.outside.ticks)
 
@@ -208,7 +208,7 @@ def test_a_join_that_is_refused_is_told_to_who_sent_it_alone(join: dict[str, Any
 def test_with_a_secret_nobody_else_can_join() -> None:
     run = Run(secret="opensesame")
     run.client._limit = 0.05
-    run.outside.says(JOIN, by=OTHER, topics=["/depth"], secret="sesame")
+    run.outside.says(JOIN, sender=OTHER, topics=["/depth"], secret="sesame")
     with pytest.raises(NeverStarted, match="No client 'a' has joined"):
         run.client.start(run.node)
 
@@ -216,11 +216,11 @@ def test_with_a_secret_nobody_else_can_join() -> None:
 def test_a_program_that_is_known_by_an_id_alone_is_not_answered_for_without_it() -> None:
     run = Run()
     run.outside.answer = lambda said: None  # type: ignore[method-assign]
-    run.outside.says(JOIN, by="", topics=["/depth"], next=0.0, id="7f")
+    run.outside.says(JOIN, sender="", topics=["/depth"], next=0.0, id="7f")
     run.start()
     run.client._limit = 0.05
-    run.outside.says(ACK, by="", tick=1)
-    run.outside.says(ACK, by="", tick=1, id="8a")
+    run.outside.says(ACK, sender="", tick=1)
+    run.outside.says(ACK, sender="", tick=1, id="8a")
     with pytest.raises(UwsimError, match="did not answer the tick"):
         run.step()
 
@@ -247,8 +247,8 @@ def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish()
     assert run.called(OTHER) is None  # a tracker starts the benchmark before its first output
     put("status", String(data="failed: falsified"), OTHER)
     put("status", String(data="tracking"), ITS)
-    for value, by in ((1.0, ITS), (99.0, OTHER)):
-        put("estimate", Float64(data=value), by)
+    for value, sender in ((1.0, ITS), (99.0, OTHER)):
+        put("estimate", Float64(data=value), sender)
     put("speed", Float64(data=0.5), "node /another_part")
     assert "takes part" in str(run.called(OTHER))
     assert run.outside.arrivals.n_arrived == {"estimate": 1, "status": 1, "speed": 1}
@@ -257,20 +257,20 @@ def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish()
     assert [message.data for message in run.status.take()] == ["tracking"]
     put("status", String(data="failed: falsified"), OTHER)
     assert admission is not None
-    assert (OTHER, "/status", 1) in admission.take_refused()
+    assert (OTHER, "/status", 1) in admission.take_refusals()
 
 
 def test_in_real_time_each_topic_belongs_to_who_published_it_first_until_it_leaves() -> None:
     run = Run("none")
     put, admission = run.outside.put, run.outside.admission
-    for value, by in ((1.0, ITS), (99.0, OTHER), (2.0, ITS)):
-        put("estimate", Float64(data=value), by)
+    for value, sender in ((1.0, ITS), (99.0, OTHER), (2.0, ITS)):
+        put("estimate", Float64(data=value), sender)
     put("status", String(data="tracking"), OTHER)  # a system of several programs
     run.outside.step()
     assert [message.data for message in run.estimates.take()] == [1.0, 2.0]
     assert [message.data for message in run.status.take()] == ["tracking"]
     assert admission is not None
-    admission.leave(ITS)
+    admission.remove(ITS)
     put("estimate", Float64(data=3.0), OTHER)
     run.outside.step()
     assert [message.data for message in run.estimates.take()] == [3.0]
@@ -278,10 +278,10 @@ def test_in_real_time_each_topic_belongs_to_who_published_it_first_until_it_leav
 
 def test_a_flood_of_senders_and_topics_is_counted_without_growing() -> None:
     lines: list[str] = []
-    admission = Joined(lambda by, text: lines.append(text))
+    admission = SingleProgram(lambda sender, text: lines.append(text))
     admission.admit(ITS)
     for n in range(10 * MAX_KINDS):
-        assert not admission.takes(f"t{n % 333}", f"client {n}", lambda: None, 8)
-    refused = admission.take_refused()
+        assert not admission.may_publish(f"t{n % 333}", f"client {n}", lambda: None, 8)
+    refused = admission.take_refusals()
     assert sum(n for _, _, n in refused) == 10 * MAX_KINDS
     assert len(refused) == len(lines) == MAX_KINDS + 1

@@ -55,11 +55,11 @@ class Outside(Bridge):
             self.ticks.append(said)
             self.answer(self, said)
 
-    def says(self, topic: str, *, by: str = "", **content: Any) -> None:
-        self.put(topic, String(data=json.dumps(content)), by)
+    def says(self, topic: str, *, sender: str = "", **content: Any) -> None:
+        self.put(topic, String(data=json.dumps(content)), sender)
 
-    def tell(self, by: str, text: str) -> None:
-        self.told.append((by, text))
+    def report_error(self, sender: str, text: str) -> None:
+        self.told.append((sender, text))
 
 
 def echoes(outside: Outside, tick: dict[str, Any]) -> None:
@@ -241,9 +241,9 @@ def test_a_service_that_is_not_answered_ends_the_run_and_a_wrong_answer_is_an_er
 def test_topics_that_a_client_publishes_itself_are_not_waited_for() -> None:
     bus = Bus()
     outside = Outside(bus, is_silent)
-    outside.traits = TransportTraits(must_meet=True)  # type: ignore[misc]
+    outside.traits = TransportTraits(needs_discovery=True)  # type: ignore[misc]
     for topic in (TICK, "depth"):  # what it reads of others
-        outside.demand.want(topic)
+        outside.external_subscribers.add(topic)
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
     own = {"/mine": "std_msgs/Float64"}
     outside.says(JOIN, client="a", topics=["/depth", "/mine"], publishes=own)
@@ -298,9 +298,9 @@ def test_a_client_that_leaves_ends_the_run_at_once() -> None:
 
 def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -> None:
     bus = Bus()
-    outside = Outside(bus, lambda outside, tick: outside.demand.unwant(TICK))
-    outside.traits = TransportTraits(sees_leaving=True)  # type: ignore[misc]
-    outside.demand.want(TICK)
+    outside = Outside(bus, lambda outside, tick: outside.external_subscribers.remove(TICK))
+    outside.traits = TransportTraits(detects_leaving=True)  # type: ignore[misc]
+    outside.external_subscribers.add(TICK)
     kind = "underwater_sensor_msgs/srv/GTpublish"
     nodes = started(bus, outside, "a", services={"/init": kind})
     bus.publisher("depth", Float64)(Float64(data=1.0))
@@ -329,9 +329,9 @@ def test_a_second_program_that_joined_and_left_before_the_start_changes_nothing(
     bus = Bus()
     outside = Outside(bus, echoes)
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    outside.says(JOIN, client="a", topics=["/depth"], by="first")
-    outside.says(JOIN, client="a", topics=["/depth"], by="second")
-    outside.says(JOIN, client="a", left=True, by="second")
+    outside.says(JOIN, client="a", topics=["/depth"], sender="first")
+    outside.says(JOIN, client="a", topics=["/depth"], sender="second")
+    outside.says(JOIN, client="a", left=True, sender="second")
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
@@ -364,9 +364,9 @@ def test_a_program_that_left_before_the_start_gives_way_to_the_next_of_its_name(
     bus = Bus()
     outside = Outside(bus, echoes)
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    outside.says(JOIN, client="a", topics=["/nothing"], by="first")
-    outside.says(JOIN, client="a", left=True, by="first")
-    outside.says(JOIN, client="a", topics=["/depth"], by="second")
+    outside.says(JOIN, client="a", topics=["/nothing"], sender="first")
+    outside.says(JOIN, client="a", left=True, sender="first")
+    outside.says(JOIN, client="a", topics=["/depth"], sender="second")
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
@@ -419,7 +419,7 @@ def test_a_join_that_is_wrong_is_refused_with_the_field_and_the_client_told(case
     outside = Outside(bus, echoes)
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
     wrong, said = JOINS[case]
-    outside.says(JOIN, client="a", **{"topics": ["/depth"], **wrong}, by="who")
+    outside.says(JOIN, client="a", **{"topics": ["/depth"], **wrong}, sender="who")
     outside.says(JOIN, client="a", topics=["/depth"])
     nodes = [node_of(bus, client)]
     assert said in outside.errors[0]
@@ -504,13 +504,13 @@ def test_another_program_of_the_same_name_is_told_and_changes_nothing() -> None:
     bus = Bus()
 
     def answer(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(JOIN, client="a", topics=["/depth"], by="second")
-        outside.says(ACK, client="a", tick=99, by="second")
-        outside.says(JOIN, client="a", left=True, by="second")
-        outside.says(ACK, client="a", tick=tick["tick"], by="first")
+        outside.says(JOIN, client="a", topics=["/depth"], sender="second")
+        outside.says(ACK, client="a", tick=99, sender="second")
+        outside.says(JOIN, client="a", left=True, sender="second")
+        outside.says(ACK, client="a", tick=tick["tick"], sender="first")
 
     outside = Outside(bus, answer)
-    nodes = started(bus, outside, "a", by="first")
+    nodes = started(bus, outside, "a", sender="first")
     for _ in range(2):
         bus.publisher("depth", Float64)(Float64(data=1.0))
         step(bus, nodes)

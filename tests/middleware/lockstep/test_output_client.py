@@ -41,7 +41,7 @@ class Outside(Bridge):
     def on_services(self, services: Mapping[str, Service]) -> None:
         pass
 
-    def is_fed(self, topic: str) -> bool:
+    def has_publisher(self, topic: str) -> bool:
         return self.fed
 
     def send(self, topic: str, message: object) -> None:
@@ -77,7 +77,7 @@ class Sea:
         )
 
     def start(self) -> None:
-        self.outside.demand.want("depth")
+        self.outside.external_subscribers.add("depth")
         self.node.run(self.client)
         assert self.node.error is None
 
@@ -175,7 +175,7 @@ def test_a_node_that_answers_nothing_until_it_is_initialised_is_waited_for_from_
     for value in range(n_silent):
         sea.say(Float64(data=float(value)))
         assert sea.step() == []
-    sea.outside.outside_services.n_called += 1  # autoInit
+    sea.outside.external_services.n_called += 1  # autoInit
     sea.outside.on_message = answer_on(sea, "cmd", "status")
     for value in (10.0, 11.0):
         sea.say(Float64(data=value))
@@ -192,7 +192,7 @@ def test_an_initialised_node_that_answers_nothing_ends_the_run() -> None:
     sea.start()
     sea.say(Float64(data=1.0))
     sea.step()
-    sea.outside.outside_services.n_called += 1
+    sea.outside.external_services.n_called += 1
     sea.say(Float64(data=2.0))
     with pytest.raises(ClientLost, match="did not publish on /cmd"):
         sea.step()

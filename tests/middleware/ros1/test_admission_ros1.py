@@ -20,7 +20,7 @@ from uwsim.messages import (
     String,
     floats,
 )
-from uwsim.middleware.admission import Joined
+from uwsim.middleware.admission import SingleProgram
 from uwsim.middleware.ros1 import Ros1Bridge
 
 ITS, OTHER = "node /tracker", "node /stranger"
@@ -36,7 +36,7 @@ def graph() -> Iterator[Graph]:
 @pytest.fixture
 def sim(graph: Graph) -> Ros1Bridge:
     found = graph.node()
-    found.admission = Joined(lambda by, text: None)
+    found.admission = SingleProgram(lambda sender, text: None)
     found.admission.admit(ITS)
     return found
 
@@ -58,7 +58,7 @@ def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -
             publisher(floats([value]))
         graph.step()
         heard.extend(float(message.data[0]) for message in estimates.take())
-        refused.extend(sim.admission.take_refused() if sim.admission is not None else ())
+        refused.extend(sim.admission.take_refusals() if sim.admission is not None else ())
 
     until(lambda: heard and refused, publish)
     assert set(heard) == {1.0}

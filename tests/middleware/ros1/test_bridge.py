@@ -241,7 +241,7 @@ def test_what_happens_is_on_rosout(graph: Graph) -> None:
     peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "topic": "/rosout", "type": "*"}))
     assert read_header(peer)["type"] == "rosgraph_msgs/Log"
     until(lambda: sim.n_connected("/rosout"))
-    sim.log.say("something happened")
+    sim.log.report("something happened")
     frame = read_frame(peer)
     assert frame is not None
     assert b"something happened" in frame

@@ -16,7 +16,7 @@ import pytest
 from tests.middleware.ros1.nodes import Graph
 from tests.support.waiting import LIMIT, until
 from uwsim.messages import Empty, EmptyResponse, Float64, Image, JointState, image
-from uwsim.middleware.admission import Joined
+from uwsim.middleware.admission import SingleProgram
 from uwsim.middleware.encodings import to_ros1
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import subscription
@@ -209,7 +209,7 @@ def test_a_node_that_the_run_waits_for_does_not_wait(
     monkeypatch.setattr(subscription, "LINK_BURST", 1e-3)  # [s]
     monkeypatch.setattr(subscription, "LINK_SHARE", 1e-7)
     sim = graph.node()
-    sim.admission = Joined(lambda by, text: None)
+    sim.admission = SingleProgram(lambda sender, text: None)
     sim.admission.admit("node /x")
     sim.bus.subscribe("cmd", Float64, print)
     graph.ready()
@@ -222,7 +222,7 @@ def test_a_node_that_the_run_waits_for_does_not_wait(
 
 
 def _newest(sim: Ros1Bridge, topic: str) -> float | None:
-    queue = sim.arrivals._incoming.get(topic)
+    queue = sim.arrivals._queues.get(topic)
     items = list(queue._items) if queue else []
     return items[-1][0][0].data if items else None  # type: ignore[attr-defined]
 

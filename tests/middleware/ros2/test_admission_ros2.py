@@ -11,7 +11,7 @@ pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip insta
 from tests.middleware.ros2.simulator import Simulator, running
 from tests.support.waiting import until
 from uwsim.messages import Empty, EmptyResponse, String
-from uwsim.middleware.admission import Joined
+from uwsim.middleware.admission import SingleProgram
 from uwsim.middleware.encodings import to_cdr
 from uwsim.middleware.ros2.participant import Participant
 from uwsim.middleware.ros2.quality import Quality
@@ -25,7 +25,7 @@ from uwsim.middleware.types import ros2_store
 def simulator(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulator]:
     monkeypatch.setenv("UWSIM_ROS2", "dds")
     with running() as found:
-        found.bridge.admission = Joined(lambda by, text: None)
+        found.bridge.admission = SingleProgram(lambda sender, text: None)
         yield found
 
 
@@ -62,7 +62,7 @@ def test_another_participant_publishes_nothing(
         heard.extend(message.data for message in inbox.take())
 
     refused: list[tuple[str, str, int]] = []
-    until(lambda: heard and refused, publish, lambda: refused.extend(admission.take_refused()))
+    until(lambda: heard and refused, publish, lambda: refused.extend(admission.take_refusals()))
     assert set(heard) == {"tracking"}
     assert {entry[:2] for entry in refused} == {(named(two[0]), "/status")}
 
@@ -91,7 +91,7 @@ def test_another_participant_calls_no_service(
         lambda: refused,
         lambda: writers[0].write(call),  # again: a reader may not know the writer yet
         simulator.step,
-        lambda: refused.extend(admission.take_refused()),
+        lambda: refused.extend(admission.take_refusals()),
     )
     assert (n, {entry[:2] for entry in refused}) == ([0], {(named(two[0]), "/reset")})
     until(lambda: n[0], lambda: writers[1].write(call), simulator.step)

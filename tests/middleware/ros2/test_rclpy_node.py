@@ -123,7 +123,7 @@ spin_until(lambda: False)
         got.extend(each.twist.linear.x for each in inbox.take())
 
     step()
-    assert not simulator.bridge.demand.is_wanted("rov/twist"), (
+    assert not simulator.bridge.external_subscribers.is_read("rov/twist"), (
         "the simulation's own reader is no demand"
     )
     with peer(source.replace("3.0 in got", "len(got) > 20"), simulator.domain):
@@ -172,14 +172,14 @@ def test_a_reader_knows_whether_a_node_outside_feeds_it(simulator: Simulator) ->
     simulator.bus.inbox("rov/twist", TwistStamped)
     for _ in range(3):
         simulator.step()
-    assert not simulator.bridge.is_fed("rov/twist"), "the simulation's own writer is none"
+    assert not simulator.bridge.has_publisher("rov/twist"), "the simulation's own writer is none"
     source = """
 from geometry_msgs.msg import TwistStamped
 out = node.create_publisher(TwistStamped, "/rov/twist", 10)
 spin_until(lambda: False)
 """
     with peer(source, simulator.domain):
-        until(lambda: simulator.bridge.is_fed("rov/twist"), simulator.step)
+        until(lambda: simulator.bridge.has_publisher("rov/twist"), simulator.step)
 
 
 def test_a_service_outside_whose_type_rclpy_lacks_is_an_error_that_names_it(

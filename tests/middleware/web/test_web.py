@@ -332,7 +332,7 @@ def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
     most = 0
     until_ = time.monotonic() + LIMIT
     while setting.bridge.arrivals.n_arrived["text"] < n:  # while it does not step
-        most = max(most, len(setting.bridge.arrivals._incoming.get("text", ())))
+        most = max(most, len(setting.bridge.arrivals._queues.get("text", ())))
         assert time.monotonic() < until_, "they never came"
         time.sleep(0.01)
     thread.join()

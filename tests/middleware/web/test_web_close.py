@@ -67,7 +67,7 @@ def test_connections_without_a_handshake_are_closed(unraisable: list[str]) -> No
     bridge = opened()
     with peer(bridge), peer(bridge) as second:
         second.sendall(b"GET / HTTP/1.1\r\n")
-        until(lambda: len(bridge._limits._open) == 2)
+        until(lambda: len(bridge._limits._open_connections) == 2)
         close(bridge)
     assert unraisable == []
 
@@ -81,7 +81,7 @@ def test_a_connection_whose_client_takes_nothing_is_closed(unraisable: list[str]
         (session,) = bridge._sessions
         for _ in range(8):
             session.reply({"op": "status", "msg": 2**20 * "a"})
-        (connection,) = bridge._limits._open
+        (connection,) = bridge._limits._open_connections
         until(connection.transport.get_write_buffer_size)
         close(bridge)
     assert unraisable == []

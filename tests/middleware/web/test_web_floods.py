@@ -11,7 +11,7 @@ from websockets.sync.client import connect
 from tests.support.waiting import until
 from uwsim.bus import Bus
 from uwsim.messages import TwistStamped
-from uwsim.middleware.admission import FirstCaller, Joined, TopicOwners
+from uwsim.middleware.admission import FirstCaller, SingleProgram, TopicOwners
 from uwsim.middleware.lockstep.topics import JOIN
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
@@ -36,7 +36,7 @@ def rests(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 
 ADMISSIONS = {
-    "ack": Joined(lambda by, what: None),
+    "ack": SingleProgram(lambda by, what: None),
     "step": FirstCaller("step_simulation", lambda by, what: None),
     "output": TopicOwners({"twist"}, lambda by, what: None),
     "none": TopicOwners(None, lambda by, what: None),
@@ -64,7 +64,7 @@ def test_what_a_run_waits_for_is_read_at_once(sync: str, rests: list[float]) -> 
 def test_a_client_that_calls_itself_a_participant_waits_as_others_do(rests: list[float]) -> None:
     bus, n = Bus(), 200
     bridge = WebBridge(bus, lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
-    bridge.admission = Joined(lambda by, what: None)
+    bridge.admission = SingleProgram(lambda sender, what: None)
     join = {"op": "publish", "topic": f"/{JOIN}", "msg": {"data": '{"client": "a"}'}}
     try:
         bridge.step()

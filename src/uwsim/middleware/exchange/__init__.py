@@ -1,1 +1,1 @@
-"""Parts of a bridge: what is exchanged between a bus and those outside."""
+"""Parts of a bridge that exchange messages and calls between a bus and external programs."""

@@ -18,10 +18,10 @@ from ...bus import Node
 from ...errors import BadMessage, BadSetting, ClientLost, NeverStarted
 from ...messages import Empty, String
 from ...messages.services import Service
-from ..admission import Refused
+from ..admission import Refusal
 from ..bridge import Bridge
 from ..json_encoding import from_json, to_json
-from ..stamps import inward, outward
+from ..stamps import to_ros_clock, to_simulation_time
 from ..types import message_class, service
 from .contract import given, names, wrong_in_answer, wrong_in_join, wrong_in_reply
 from .topics import ACK, JOIN, TICK
@@ -86,7 +86,7 @@ class LockStepClient:
         self._node = node
         bridge = self._bridge
         bridge.step()
-        if bridge.traits.invites:
+        if bridge.traits.needs_invitation:
             invitation = {"client": self._name, "tick": 0, "run": self._run}
             bridge.send(TICK, String(data=json.dumps(invitation)))
         joined = self._joined()
@@ -102,37 +102,40 @@ class LockStepClient:
         """
         end, wrong = time.monotonic() + self._limit, None
         while self._bridge.wait_for(lambda: bool(self._joins), end - time.monotonic()):
-            said, by = self._joins.popleft()
-            if said.get("left") or ({"client": said["client"], "left": True}, by) in self._joins:
+            said, sender = self._joins.popleft()
+            if (
+                said.get("left")
+                or ({"client": said["client"], "left": True}, sender) in self._joins
+            ):
                 continue  # who left before it could take part
             wrong = wrong_in_join(said, self._bridge.bus)
             if wrong is None:
-                self._id, self._by, self._has_joined = said.get("id"), by, True
+                self._id, self._by, self._has_joined = said.get("id"), sender, True
                 if self._bridge.admission is not None:
-                    self._bridge.admission.admit(by)
+                    self._bridge.admission.admit(sender)
                 for other, its in tuple(self._joins):
                     if self._is_other(other, its):
                         self._turn_away(JOIN, other, its)
                 return said
-            self._refuse("join", wrong, by, said.get("id"))
+            self._refuse("join", wrong, sender, said.get("id"))
         raise NeverStarted(
             f"No client {self._name!r} has joined within {self._limit:g} s of wall time "
             f"(--client-limit){f'; its join was refused: {wrong}' if wrong else ''}."
         )
 
-    def _refuse(self, what: str, wrong: str, by: str, its: object) -> None:
+    def _refuse(self, what: str, wrong: str, sender: str, its: object) -> None:
         """Tell who said something, and the log, that it is not heard.
 
         The program that is waited for may read it, too: it tells by its ``id`` that another is
         meant, where the transport does not send to one alone.
         """
         text = f"its {what} was refused: {wrong}"
-        self._bridge.log.say(f"client {self._name!r}{f' ({by})' if by else ''}: {text}")
+        self._bridge.log.report(f"client {self._name!r}{f' ({sender})' if sender else ''}: {text}")
         who = {"client": self._name, "run": self._run}
         if isinstance(its, str):
             who["id"] = its[:MAX_ID]
-        self._bridge.send_to(by, TICK, String(data=json.dumps({**who, "error": text})))
-        self._bridge.tell(by, f"client {self._name!r}: {text}")
+        self._bridge.send_to(sender, TICK, String(data=json.dumps({**who, "error": text})))
+        self._bridge.report_error(sender, f"client {self._name!r}: {text}")
 
     def _connect(self, joined: dict[str, Any]) -> None:
         """Subscribe for the client, and read what it will publish."""
@@ -150,7 +153,10 @@ class LockStepClient:
         read = [topic.lstrip("/") for topic in topics]
         met = [TICK, *(topic for topic in read if topic not in own and self._is_sent(topic))]
         if not bridge.wait_for(
-            lambda: not bridge.traits.must_meet or all(map(bridge.demand.is_wanted, met)),
+            lambda: (
+                not bridge.traits.needs_discovery
+                or all(map(bridge.external_subscribers.is_read, met))
+            ),
             self._limit,
         ):
             raise NeverStarted(
@@ -169,39 +175,41 @@ class LockStepClient:
         """Those of the client are its own."""
         return {}
 
-    def take_refused(self) -> tuple[Refused, ...]:
+    def take_refusals(self) -> tuple[Refusal, ...]:
         """Return what was refused since the last call of programs that do not take part."""
         admission = self._bridge.admission
-        return () if admission is None else admission.take_refused()
+        return () if admission is None else admission.take_refusals()
 
-    def hear(self, topic: str, content: dict[str, Any], by: str) -> None:
+    def hear(self, topic: str, content: dict[str, Any], sender: str) -> None:
         """Take in what the client says on one of the topics of lock-step. Any thread.
 
-        ``by`` is who says it, where the transport can tell: another program of the same name is
+        ``sender`` is who says it, where the transport can tell: another program of the same name is
         not heard, nor an answer before the join.
         """
         if content.get("run", self._run) != self._run:
             return  # to a simulation before this one
-        if self._is_other(content, by):
-            self._turn_away(topic, content, by)
+        if self._is_other(content, sender):
+            self._turn_away(topic, content, sender)
         elif topic == JOIN:
             if not content.get("left") and not self._has_secret(content):
-                self._refuse("join", WRONG_SECRET, by, content.get("id"))
+                self._refuse("join", WRONG_SECRET, sender, content.get("id"))
             elif not self._takes_part or content.get("left"):
-                self._joins.append((content, by))
+                self._joins.append((content, sender))
         elif not self._has_joined:
-            self._bridge.log.say(f"client {self._name!r}: an answer before its join is not heard")
+            self._bridge.log.report(
+                f"client {self._name!r}: an answer before its join is not heard"
+            )
         elif "call" in content:
             if content["call"] == self._n_calls or wrong_in_reply(content):
                 self._replies[self._n_calls] = content
         else:
             self._acks.append(content)
 
-    def _is_other(self, content: dict[str, Any], by: str) -> bool:
+    def _is_other(self, content: dict[str, Any], sender: str) -> bool:
         """Whether another program than the one that has joined says something."""
-        if by and self._by and by != self._by:
+        if sender and self._by and sender != self._by:
             return True
-        its, is_from_connection = content.get("id"), bool(by) and content.get("left")
+        its, is_from_connection = content.get("id"), bool(sender) and content.get("left")
         return self._id is not None and its != self._id and not is_from_connection
 
     def _has_secret(self, content: dict[str, Any]) -> bool:
@@ -212,15 +220,15 @@ class LockStepClient:
         is_text = isinstance(given, str)
         return is_text and hmac.compare_digest(str(given).encode(), self._secret.encode())
 
-    def _turn_away(self, topic: str, content: dict[str, Any], by: str) -> None:
+    def _turn_away(self, topic: str, content: dict[str, Any], sender: str) -> None:
         """Tell another program of the same name, and the log, that it is not heard."""
         if not content.get("left"):
             if self._bridge.admission is not None:
-                self._bridge.admission.refuse(by, f"/{topic}")
-            first, second = self._by or "another program", by or "a second one"
+                self._bridge.admission.refuse(sender, f"/{topic}")
+            first, second = self._by or "another program", sender or "a second one"
             text = f"client {self._name!r} is {first} already; {second} is not heard"
-            self._bridge.log.say(text)
-            self._bridge.tell(by, text)
+            self._bridge.log.report(text)
+            self._bridge.report_error(sender, text)
 
     def _counter(self, topic: str) -> Any:
         def count(message: object) -> None:
@@ -267,7 +275,7 @@ class LockStepClient:
             if self._bridge.bus.services.serves(name):
                 self._node.call(name, Empty())
             else:
-                self._bridge.log.say(f"client {self._name!r} calls {name}: nobody offers it")
+                self._bridge.log.report(f"client {self._name!r} calls {name}: nobody offers it")
 
     def _ask(self, name: str, of: Service, request: object) -> object:
         """Call a service that the client offers by the topics of lock-step.
@@ -279,7 +287,7 @@ class LockStepClient:
         self._n_calls += 1
         number = self._n_calls
         who = {"client": self._name, "run": self._run}
-        asked = {"call": number, "service": name, "args": to_json(outward(request))}
+        asked = {"call": number, "service": name, "args": to_json(to_ros_clock(request))}
         self._bridge.send(TICK, String(data=json.dumps({**who, **asked})))
         if not self._bridge.wait_for(lambda: self._is_replied(number), self._limit):
             raise ClientLost(
@@ -290,7 +298,9 @@ class LockStepClient:
         self._check(wrong_in_reply(answer), f"answer to the call of {name}")
         self._call(answer)
         try:
-            response: object = inward(from_json(of.response, answer.get("values") or {}))
+            response: object = to_simulation_time(
+                from_json(of.response, answer.get("values") or {})
+            )
         except BadMessage as error:
             raise BadMessage(f"Client {self._name!r}: service {name}: {error}") from None
         return response
@@ -316,10 +326,12 @@ class LockStepClient:
     def _check_presence(self) -> None:
         """Raise ClientLost if the client has left."""
         has_said = any(
-            said.get("left") and not self._is_other(said, by) for said, by in tuple(self._joins)
+            said.get("left") and not self._is_other(said, sender)
+            for said, sender in tuple(self._joins)
         )
         if has_said or (
-            self._bridge.traits.sees_leaving and not self._bridge.demand.is_wanted(TICK)
+            self._bridge.traits.detects_leaving
+            and not self._bridge.external_subscribers.is_read(TICK)
         ):
             now = self._node.now
             raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")
@@ -393,12 +405,12 @@ def lockstep_clients(
         for name in sorted(dict.fromkeys(names))
     }
 
-    def hear(topic: str, message: object, by: str) -> None:
+    def hear(topic: str, message: object, sender: str) -> None:
         content = _object_in(message)
         n_letters = len(message.data) if isinstance(message, String) else 0
         client = clients.get(str(content.get("client")))
         if client is not None:
-            client.hear(topic, content, by)
+            client.hear(topic, content, sender)
             return
         if n_letters > MAX_TEXT:
             wrong = f"/{topic}: a message has {n_letters} letters; at most {MAX_TEXT} are read"
@@ -406,8 +418,8 @@ def lockstep_clients(
             wrong = f"/{topic}: a message is no JSON object with a 'client'"
         else:
             wrong = f"/{topic}: no client of this run: {str(content.get('client'))[:100]!r}"
-        bridge.log.say(wrong)
-        bridge.tell(by, wrong)
+        bridge.log.report(wrong)
+        bridge.report_error(sender, wrong)
 
     for topic in (JOIN, ACK):
         bridge.read_all(topic)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from ...bus import Node
-from .outside_program import OutsideProgram
+from .external_program import ExternalProgram
 
 
-class FreeClient(OutsideProgram):
+class FreeClient(ExternalProgram):
     """Whatever is connected; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Its messages and calls take effect at the end of the step in which they have come, so that two

@@ -25,7 +25,7 @@ from ...bus import Bus, Node
 from ...errors import BadSetting, ClientLost, NeverStarted, did_you_mean
 from ..bridge import Bridge
 from ..clock_topic import COARSE_PERIOD
-from .outside_program import OutsideProgram
+from .external_program import ExternalProgram
 from .spec import ClientSpec, OutputSpec
 
 STAND_S = 1.0
@@ -38,7 +38,7 @@ GLANCE_S = 0.05
 """How often ``/clock`` is sent while a node has not come yet [s of wall time]."""
 
 
-class OutputClient(OutsideProgram):
+class OutputClient(ExternalProgram):
     """One node; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Args:
@@ -73,7 +73,7 @@ class OutputClient(OutsideProgram):
             self._read(output)
         for topic in dict.fromkeys(o.follows for o in spec.outputs if o.follows is not None):
             node.subscribe(topic, object, self._counter(topic))
-        self._n_called = bridge.outside_services.n_called
+        self._n_called = bridge.external_services.n_called
         bridge.step()
         if not self._stand(spec.limit, until=lambda: not self._missing()):
             raise NeverStarted(
@@ -109,9 +109,15 @@ class OutputClient(OutsideProgram):
     def _missing(self) -> list[str]:
         """Say which ends of the topics are not there."""
         bridge, outputs = self._bridge, self._spec.outputs
-        nobody = [f"nobody publishes /{o.topic}" for o in outputs if not bridge.is_fed(o.topic)]
+        nobody = [
+            f"nobody publishes /{o.topic}" for o in outputs if not bridge.has_publisher(o.topic)
+        ]
         inputs = dict.fromkeys(o.follows for o in outputs if o.follows is not None)
-        nobody += [f"nobody reads /{name}" for name in inputs if not bridge.demand.is_wanted(name)]
+        nobody += [
+            f"nobody reads /{name}"
+            for name in inputs
+            if not bridge.external_subscribers.is_read(name)
+        ]
         has_timer = any(o.rate is not None for o in outputs)
         if has_timer and not bridge.clock_topic.is_read:
             nobody.append("nobody reads /clock (use_sim_time must be true before the node starts)")
@@ -124,9 +130,9 @@ class OutputClient(OutsideProgram):
         if due == self._due and not bridge.clock_topic.is_due:
             return
         before, self._due = self._due, due
-        if bridge.demand.n_sent > self._n_sent and self._spec.settling:
+        if bridge.external_subscribers.n_sent > self._n_sent and self._spec.settling:
             bridge.wait_for(_never, self._spec.settling)
-        self._n_sent = bridge.demand.n_sent
+        self._n_sent = bridge.external_subscribers.n_sent
         bridge.clock_topic.send()
         for output in self._spec.outputs:
             topic, n = output.topic, due[output.topic]
@@ -171,7 +177,7 @@ class OutputClient(OutsideProgram):
             ClientLost: there is still no answer, and the limit has passed.
         """
         bridge, limit = self._bridge, self._spec.limit
-        is_called = bridge.outside_services.n_called > self._n_called
+        is_called = bridge.external_services.n_called > self._n_called
         if has_input:
             left = limit if is_called else min(FIRST_S, limit - self._waited[topic])
             began = time.monotonic()

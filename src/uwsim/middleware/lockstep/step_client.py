@@ -20,13 +20,13 @@ from ...messages.simulation_control import (
     StepSimulationResponse,
 )
 from ..bridge import Bridge
-from .outside_program import OutsideProgram
+from .external_program import ExternalProgram
 from .spec import ClientSpec
 
 SERVICE = "step_simulation"
 
 
-class StepClient(OutsideProgram):
+class StepClient(ExternalProgram):
     """One program; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Args:
@@ -49,7 +49,7 @@ class StepClient(OutsideProgram):
             NeverStarted: there was none within the limit.
         """
         self._node = node
-        self._bridge.later.offer(SERVICE, StepSimulation, self._asked)
+        self._bridge.deferred_responses.offer(SERVICE, StepSimulation, self._asked)
         self._bridge.step()
         if not self._next():
             raise NeverStarted(

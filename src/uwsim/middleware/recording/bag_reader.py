@@ -17,8 +17,8 @@ from rosbags.typesys import Stores, get_typestore
 
 from ...errors import AssetError, BadMessage, UnknownName
 from ...messages.build import NANOSECONDS
-from ..encodings import of_class
-from ..stamps import moved
+from ..encodings import convert_to_class
+from ..stamps import shift_stamps
 from ..types import message_class
 
 WALL_TIME = 10**8 * NANOSECONDS
@@ -84,10 +84,10 @@ class BagReader:
                 raise self._unreadable(error) from error
             topic = f"/{connection.topic.strip('/')}"
             try:
-                ours: object = of_class(self.topics[topic], message)
+                ours: object = convert_to_class(self.topics[topic], message)
             except BadMessage as error:
                 raise AssetError(f"{self._name}: {topic}: {error}") from None
-            yield (time - self._origin) / NANOSECONDS, topic, moved(ours, -self._origin)
+            yield (time - self._origin) / NANOSECONDS, topic, shift_stamps(ours, -self._origin)
 
     def close(self) -> None:
         """Close the files."""

@@ -67,7 +67,7 @@ class Ros1Bridge(Bridge):
         waits: how long it waits for peers.
     """
 
-    traits = TransportTraits(must_meet=True, sees_leaving=True, clock_period=ROS_PERIOD)
+    traits = TransportTraits(needs_discovery=True, detects_leaving=True, clock_period=ROS_PERIOD)
 
     def __init__(
         self,
@@ -107,7 +107,7 @@ class Ros1Bridge(Bridge):
             master, node, self.uri, self.log, self._update, parameters=parameters, poll=waits.poll
         )
         self._stop_elsewhere = bus.services.serve_elsewhere(
-            self._is_offered_outside, self.outside_services.ask
+            self._is_offered_outside, self.external_services.call_and_wait
         )
         self._register()
 
@@ -130,7 +130,7 @@ class Ros1Bridge(Bridge):
         for name, ends in topics.items():
             kind = wire_type(ends.type)
             if kind is None or not kind.md5:
-                self.log.say(f"/{name}: ROS 1 has no type {ends.type.__name__}")
+                self.log.report(f"/{name}: ROS 1 has no type {ends.type.__name__}")
                 continue
             topic = f"/{name}"
             if ends.is_published and topic not in publications:
@@ -165,11 +165,11 @@ class Ros1Bridge(Bridge):
         if publication is not None:
             publication.send(message)
 
-    def send_to(self, by: str, topic: str, message: object) -> None:
+    def send_to(self, sender: str, topic: str, message: object) -> None:
         """Hand a message to the subscribers of one node."""
         publication = self._publications.get(f"/{topic}")
         if publication is not None:
-            publication.send(message, only=by)
+            publication.send(message, only=sender)
 
     def _publish_clock(self) -> None:
         """Publish the time, if anybody reads it."""
@@ -180,7 +180,7 @@ class Ros1Bridge(Bridge):
         """Whether anybody has subscribed to ``/clock``."""
         return self._clock.n_subscribers > 0
 
-    def is_fed(self, topic: str) -> bool:
+    def has_publisher(self, topic: str) -> bool:
         """Whether it is connected with a publisher of ``topic``."""
         subscription = self._subscriptions.get(f"/{topic}")
         return subscription is not None and subscription.n_publishers > 0
@@ -206,11 +206,11 @@ class Ros1Bridge(Bridge):
         return found
 
     def _receiver(self, topic: str) -> Callable[[object, str], None]:
-        return lambda message, by: self.put(topic, message, by)
+        return lambda message, sender: self.put(topic, message, sender)
 
-    def _is_waited_for(self, by: str) -> bool:
+    def _is_waited_for(self, sender: str) -> bool:
         """Whether the run waits for what a node publishes; any thread."""
-        return self.admission is not None and self.admission.is_waited_for(by)
+        return self.admission is not None and self.admission.is_waited_for(sender)
 
     def _register(self) -> None:
         at = f"rosrpc://{self._host}:{self._listener.port}"
@@ -238,7 +238,9 @@ class Ros1Bridge(Bridge):
             return refusal
         if publication in (self._clock, self._rosout):
             return publication.serve
-        return partial(publication.serve, count=partial(self.demand.change, publication.topic))
+        return partial(
+            publication.serve, count=partial(self.external_subscribers.change, publication.topic)
+        )
 
     def _choose_service(self, header: dict[str, str]) -> Serve | str:
         name = header["service"]
@@ -247,7 +249,7 @@ class Ros1Bridge(Bridge):
             return f"service {name[:100]!r} is not offered here"
         if (refusal := tcp_services.check(offered, header)) is not None:
             return refusal
-        request = partial(self.request, name, by=node_of(header))
+        request = partial(self.request, name, sender=node_of(header))
         return lambda connection, header: tcp_services.serve(
             connection, header, offered, self._node, request, self._idle
         )
@@ -258,7 +260,7 @@ class Ros1Bridge(Bridge):
         except PeerError:
             return False
 
-    def call_outside(self, name: str, request: object) -> Future[object]:
+    def call_external_service(self, name: str, request: object) -> Future[object]:
         """Call a service that another node offers, in a thread of its own.
 
         Raises:
@@ -284,9 +286,9 @@ class Ros1Bridge(Bridge):
         threading.Thread(target=run, name="ros1-call", daemon=True).start()
         return future
 
-    def _may_answer(self, name: str, by: str) -> bool:
+    def _may_answer(self, name: str, sender: str) -> bool:
         """Whether a node may answer a call of a service; any thread."""
-        return self.admission is None or self.admission.may_answer(name.lstrip("/"), by)
+        return self.admission is None or self.admission.may_answer(name.lstrip("/"), sender)
 
     def _publisherUpdate(self, caller: str, topic: str, uris: list[str]) -> Answer:  # noqa: N802
         self._registrar.update(topic, [each for each in uris if isinstance(each, str)])
@@ -331,7 +333,7 @@ class Ros1Bridge(Bridge):
         return [1, "", 0]
 
     def _shutdown(self, caller: str, why: str = "") -> Answer:
-        self.log.say(f"{caller[:100]} asks this node to leave the graph: {why[:200]}")
+        self.log.report(f"{caller[:100]} asks this node to leave the graph: {why[:200]}")
         self._registrar.give_up()
         return [1, "", 0]
 

@@ -78,7 +78,7 @@ def connect(
         master = _start(log, "127.0.0.1" if name in LOOPBACK else name, port, error)
         uri = master.uri
     if name not in LOOPBACK and options.host in LOOPBACK:
-        log.say(
+        log.report(
             f"the master is on {name}, but this node listens on {options.host} only: "
             "--ros1-host ADDRESS gives other computers access"
         )
@@ -98,5 +98,5 @@ def _start(log: Log, host: str, port: int, why: PeerError) -> Master:
         raise BadSetting(
             f"{why}, and no master can be started at port {port}: {error.strerror or error}."
         ) from None
-    log.say(f"no master answers; one was started at {master.uri}")
+    log.report(f"no master answers; one was started at {master.uri}")
     return master

@@ -60,7 +60,7 @@ class Listener:
                 if not is_full and not self._is_closed:
                     self._open.add(connection)
             if is_full or self._is_closed:
-                self._log.say(f"more than {MAX_CONNECTIONS} connections; one is refused")
+                self._log.report(f"more than {MAX_CONNECTIONS} connections; one is refused")
                 close(connection)
                 continue
             threading.Thread(
@@ -82,7 +82,7 @@ class Listener:
             serve(connection, header)
         except (PeerError, OSError) as error:
             if not self._is_closed:
-                self._log.say(
+                self._log.report(
                     f"{caller}: {error}", kind=NUMBER.sub("#", f"connection {error}")[:200]
                 )
         finally:

@@ -12,7 +12,7 @@ from ...errors import BadMessage
 from ..encodings import to_ros1
 from ..log import Log
 from ..queues import LatestQueue
-from ..stamps import outward
+from ..stamps import to_ros_clock
 from ..types import WireType
 from .tcpros import PeerError, encode_header, framed, has_left, node_of, write
 
@@ -27,7 +27,7 @@ Encode = Callable[[Any, int], memoryview]
 
 def encode_message(message: object, seq: int) -> memoryview:
     """Return a message of the bus as ROS 1 has it, stamps on the clock of ROS."""
-    return to_ros1(outward(message), seq=seq)
+    return to_ros1(to_ros_clock(message), seq=seq)
 
 
 class Outgoing:
@@ -91,7 +91,7 @@ class Publication:
                 self._newest = outgoing if self._is_latched else None
         for queue in queues:
             if queue.put(outgoing, outgoing.size):
-                self._log.say(
+                self._log.report(
                     f"{self.topic}: a subscriber reads too slowly; the oldest messages are dropped",
                     kind=f"slow {self.topic}",
                 )
@@ -166,7 +166,7 @@ class Publication:
             try:
                 write(connection, outgoing.frame())
             except BadMessage as error:
-                self._log.say(f"{self.topic}: {error}", kind=f"unencodable {self.topic}")
+                self._log.report(f"{self.topic}: {error}", kind=f"unencodable {self.topic}")
             except PeerError:
                 if has_left(connection):
                     return

@@ -119,11 +119,13 @@ class Registrar:
                     self._reconcile()
             except PeerError as error:
                 if not self._is_lost:
-                    self._log.say(f"the master: {error}; it is tried again", kind="master lost")
+                    self._log.report(f"the master: {error}; it is tried again", kind="master lost")
                 self._is_lost = True
             except Exception as error:  # a defect here must not end the registrations
                 what = f"{type(error).__name__}: {error}"
-                self._log.say(f"registering failed: {what}; it is tried again", kind="registering")
+                self._log.report(
+                    f"registering failed: {what}; it is tried again", kind="registering"
+                )
             self._news.wait(self._poll)
             self._news.clear()
         with suppress(PeerError):
@@ -138,15 +140,15 @@ class Registrar:
         except Refused:
             found = None
         if found is not None and found != self._uri:
-            self._log.say(f"another node is called {self._caller}; this one leaves the graph")
+            self._log.report(f"another node is called {self._caller}; this one leaves the graph")
             self.give_up()
         elif found != self._uri:
-            self._log.say("the master was restarted; the node registers again", kind="restarted")
+            self._log.report("the master was restarted; the node registers again", kind="restarted")
             with self._lock:
                 self._registered = set()
             self._before = {}
         elif self._is_lost:
-            self._log.say("the master is back", kind="back")
+            self._log.report("the master is back", kind="back")
         self._is_lost = False
 
     def _reconcile(self) -> None:
@@ -172,7 +174,7 @@ class Registrar:
             else:
                 self.call("registerService", name, value, self._uri)
         except Refused as error:
-            self._log.say(f"not on the graph: {name}: {error}")
+            self._log.report(f"not on the graph: {name}: {error}")
         with self._lock:
             self._registered.add(item)
 

@@ -54,5 +54,5 @@ def rosout(node: str, log: Log, clock: Callable[[], float], send_timeout: float)
         return encoded
 
     publication = Publication("/rosout", kind, node, log, send_timeout, encode=encode)
-    log.also(publication.send)
+    log.add_listener(publication.send)
     return publication

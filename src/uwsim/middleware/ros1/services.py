@@ -17,7 +17,7 @@ from typing import Any
 
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_ros1, to_ros1
-from ..stamps import inward, outward
+from ..stamps import to_ros_clock, to_simulation_time
 from ..types import WireService
 from .address import read_address
 from .tcpros import (
@@ -130,9 +130,9 @@ def serve(
 
 def _answer(data: bytes, offered: WireService, request: Callable[[Any], Future[object]]) -> bytes:
     try:
-        asked: object = inward(from_ros1(offered.service.request, data))
+        asked: object = to_simulation_time(from_ros1(offered.service.request, data))
         response = request(asked).result(timeout=ANSWER_TIMEOUT)
-        return b"\x01" + framed(to_ros1(outward(response)))
+        return b"\x01" + framed(to_ros1(to_ros_clock(response)))
     except FutureTimeout:
         return b"\x00" + framed(b"the simulation does not advance")
     except UwsimError as error:
@@ -173,7 +173,7 @@ def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
         header = read_header(connection)  # rospy loses what comes together with the header
         if "callerid" in header and not wanted.may_answer(name, node_of(header)):
             raise PeerError(f"service {name}: {node_of(header)} does not take part in this run")
-        write(connection, framed(to_ros1(outward(request))))
+        write(connection, framed(to_ros1(to_ros_clock(request))))
         success = connection.recv(1)
         data = read_frame(connection)
     except OSError as error:
@@ -184,7 +184,7 @@ def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
         what = "closed the connection" if data is None else data[:300].decode("utf-8", "replace")
         raise PeerError(f"service {name}: {what}")
     try:
-        response: object = inward(from_ros1(wanted.type.service.response, data))
+        response: object = to_simulation_time(from_ros1(wanted.type.service.response, data))
         return response
     except BadMessage as error:
         raise PeerError(f"service {name}: {error}") from error

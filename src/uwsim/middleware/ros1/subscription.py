@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from ...errors import BadMessage
 from ..encodings import from_ros1
 from ..log import Log
-from ..stamps import inward
+from ..stamps import to_simulation_time
 from ..types import WireType
 from ..work_budget import WorkBudget
 from .tcpros import (
@@ -92,7 +92,7 @@ class Subscription:
         found = sorted(set(uris))
         wanted = set(found[:MAX_PUBLISHERS])
         if len(found) > MAX_PUBLISHERS:
-            self._log.say(
+            self._log.report(
                 f"{self.topic}: {len(found)} publishers; {MAX_PUBLISHERS} of them are read",
                 kind=f"publishers {self.topic}",
             )
@@ -149,23 +149,23 @@ class Subscription:
         connection.settimeout(None)  # a publisher may have nothing to say for long
         return node_of(header)
 
-    def take(self, data: bytes, by: str) -> None:
+    def take(self, data: bytes, sender: str) -> None:
         """Decode a message and hand it on; one that is none is reported."""
         try:
-            message: object = inward(from_ros1(self.kind.message, data))
+            message: object = to_simulation_time(from_ros1(self.kind.message, data))
         except BadMessage as error:
-            self._log.say(f"{self.topic}: from {by}: {error}", kind=f"garbage {self.topic}")
+            self._log.report(f"{self.topic}: from {sender}: {error}", kind=f"garbage {self.topic}")
         else:
-            self._receive(message, by)
+            self._receive(message, sender)
 
-    def report_flood(self, by: str) -> None:
+    def report_flood(self, sender: str) -> None:
         """Report that a publisher has to wait."""
-        line = f"{self.topic}: {by} publishes faster than it is read; its messages wait"
-        self._log.say(line, kind=f"faster than it is read {self.topic}")
+        line = f"{self.topic}: {sender} publishes faster than it is read; its messages wait"
+        self._log.report(line, kind=f"faster than it is read {self.topic}")
 
     def report(self, uri: str, error: PeerError) -> None:
         """Report what a publisher did."""
-        self._log.say(f"{self.topic}: publisher {uri}: {error}", kind=f"lost {self.topic} {uri}")
+        self._log.report(f"{self.topic}: publisher {uri}: {error}", kind=f"lost {self.topic} {uri}")
 
 
 class _Link:
@@ -182,9 +182,9 @@ class _Link:
     def _run(self) -> None:
         while not self._stopped.is_set():
             try:
-                self._connection, by = self._subscription.connect(self._uri)
+                self._connection, sender = self._subscription.connect(self._uri)
                 self.is_connected = True
-                self._read(self._connection, by)
+                self._read(self._connection, sender)
             except PeerError as error:
                 if not self._stopped.is_set():
                     self._subscription.report(self._uri, error)
@@ -194,7 +194,7 @@ class _Link:
                     close(self._connection)
             self._stopped.wait(RETRY)
 
-    def _read(self, connection: socket.socket, by: str) -> None:
+    def _read(self, connection: socket.socket, sender: str) -> None:
         """Hand on messages until the connection ends; a flood waits in the sockets, not here."""
         limit = self._subscription.limit
         while not self._stopped.is_set():
@@ -202,13 +202,13 @@ class _Link:
             data = read_frame(connection)
             if data is None:
                 return
-            self._subscription.take(data, by)
-            if not limit.is_waited_for(by):
+            self._subscription.take(data, sender)
+            if not limit.is_waited_for(sender):
                 took = time.thread_time() - began
                 self._work.spend(took)
                 limit.all.spend(took)
                 if (delay := max(self._work.delay, limit.all.delay)) > 0.0:
-                    self._subscription.report_flood(by)
+                    self._subscription.report_flood(sender)
                     self._stopped.wait(delay + REST)
 
     def close(self) -> None:

@@ -124,7 +124,9 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
     def refused(self, headers: Mapping[str, str]) -> str | None:
         """Say why a request is refused by its headers; None if it is not."""
         if (why := wrong_in_headers(headers, self._hosts)) is not None:
-            self._log.say(f"{self._name}: a request is refused: {why}", kind=f"{self._name} page")
+            self._log.report(
+                f"{self._name}: a request is refused: {why}", kind=f"{self._name} page"
+            )
         return None if why is None else "not for pages in browsers"
 
     @property
@@ -135,7 +137,9 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
     def process_request(self, request: Any, client_address: Any) -> None:
         """Work on a request in a thread, if there are not too many."""
         if not self._free.acquire(blocking=False):
-            self._log.say(f"{self._name}: more than {MAX_AT_ONCE} requests at once; one is refused")
+            self._log.report(
+                f"{self._name}: more than {MAX_AT_ONCE} requests at once; one is refused"
+            )
             self.shutdown_request(request)
             return
         super().process_request(request, client_address)
@@ -149,7 +153,7 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Report a request that broke off."""
-        self._log.say(f"{self._name}: a request broke off")
+        self._log.report(f"{self._name}: a request broke off")
 
     def close(self) -> None:
         """Stop listening."""

@@ -21,7 +21,7 @@ from ..clock_topic import ROS_PERIOD
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
 from ..queues import MAX_ITEMS, LatestQueue
-from ..stamps import clock_time, inward, outward
+from ..stamps import clock_time, to_ros_clock, to_simulation_time
 from ..types import message_class, wire_service
 from .names import MAX_NAME, is_legal
 from .node import BytesReader, BytesWriter, Endpoint, Ros2Node
@@ -41,7 +41,7 @@ class Ros2(Bridge):
         log: where events are reported.
     """
 
-    traits = TransportTraits(must_meet=True, invites=True, clock_period=ROS_PERIOD)
+    traits = TransportTraits(needs_discovery=True, needs_invitation=True, clock_period=ROS_PERIOD)
 
     def __init__(self, bus: Bus, clock: Callable[[], float], node: Ros2Node, log: Log) -> None:
         super().__init__(bus, clock, log)
@@ -56,7 +56,9 @@ class Ros2(Bridge):
         self._n_clocks = 0
         self._add_writer(CLOCK, self._clock_class, self._on_clocks)
         node.tell()
-        self._stop_elsewhere = bus.services.serve_elsewhere(node.offers, self.outside_services.ask)
+        self._stop_elsewhere = bus.services.serve_elsewhere(
+            node.offers, self.external_services.call_and_wait
+        )
         self._thread = threading.Thread(target=self._write, name="uwsim-ros2-out", daemon=True)
         self._thread.start()
 
@@ -91,7 +93,7 @@ class Ros2(Bridge):
             return True
         if name not in self._left_out:
             self._left_out.add(name)
-            self.log.say(
+            self.log.report(
                 f"not on the graph: /{name[:300]}. A name of ROS 2 has letters, digits and _ "
                 f"between slashes, no part begins with a digit, and it has {MAX_NAME} letters at "
                 "most"
@@ -101,7 +103,7 @@ class Ros2(Bridge):
     def send(self, topic: str, message: object) -> None:
         """Queue a message; the oldest are dropped while readers are too slow."""
         if self._outgoing.put((topic, message), size_of(message)):
-            self.log.say(
+            self.log.report(
                 "readers do not keep up; the oldest messages are dropped", kind="outgoing flood"
             )
 
@@ -120,7 +122,7 @@ class Ros2(Bridge):
     def _tick(self) -> None:
         """Tell the time when it is due, and whether the thread of the node has ended."""
         if self._node.error is not None:
-            self.log.say(f"stopped: {self._node.error}", kind="stopped")
+            self.log.report(f"stopped: {self._node.error}", kind="stopped")
         super()._tick()
 
     def _publish_clock(self) -> None:
@@ -132,7 +134,7 @@ class Ros2(Bridge):
         """Whether a reader matches the writer of ``/clock``."""
         return self._n_clocks > 0
 
-    def is_fed(self, topic: str) -> bool:
+    def has_publisher(self, topic: str) -> bool:
         """Whether a writer outside matches the reader of ``topic``."""
         reader = self._readers.get(topic)
         return reader is not None and reader.n_writers > 0
@@ -146,7 +148,7 @@ class Ros2(Bridge):
         self._node.close()
         super().close()
 
-    def call_outside(self, name: str, request: object) -> Future[object]:
+    def call_external_service(self, name: str, request: object) -> Future[object]:
         """Call a service that another node offers."""
         return self._node.call(name, request)
 
@@ -169,14 +171,14 @@ class Ros2(Bridge):
             name, type, quality, partial(self._receive, name, type), partial(self._refuse, name)
         )
 
-    def _receive(self, name: str, type: type, data: bytes, by: str = "") -> None:
+    def _receive(self, name: str, type: type, data: bytes, sender: str = "") -> None:
         try:
-            self.put(name, inward(from_cdr(type, data)), by)
+            self.put(name, to_simulation_time(from_cdr(type, data)), sender)
         except BadMessage as error:
-            self.log.say(f"/{name}: a message was refused: {error}", kind=f"refused {name}")
+            self.log.report(f"/{name}: a message was refused: {error}", kind=f"refused {name}")
 
     def _refuse(self, name: str) -> None:
-        self.log.say(
+        self.log.report(
             f"/{name}: a publisher offers best effort only; it is not read, as commands must not "
             "be lost: set its reliability to RELIABLE",
             kind=f"best effort {name}",
@@ -192,12 +194,12 @@ class Ros2(Bridge):
             if writer is None:
                 continue
             try:
-                is_sent = writer.write(bytes(to_cdr(outward(message))))
+                is_sent = writer.write(bytes(to_cdr(to_ros_clock(message))))
             except UwsimError as error:
-                self.log.say(f"/{topic}: not sent: {error}", kind=f"unsent {topic}")
+                self.log.report(f"/{topic}: not sent: {error}", kind=f"unsent {topic}")
                 continue
             if not is_sent:
-                self.log.say(
+                self.log.report(
                     f"/{topic}: a reader does not keep up; messages are dropped",
                     kind=f"behind {topic}",
                 )
@@ -211,11 +213,11 @@ class _ReaderCount:
 
     def __call__(self, n_readers: int) -> None:
         for _ in range(n_readers - self._n):
-            self._bridge.demand.want(self._topic)
+            self._bridge.external_subscribers.add(self._topic)
         for _ in range(self._n - n_readers):
-            self._bridge.demand.unwant(self._topic)
+            self._bridge.external_subscribers.remove(self._topic)
         if n_readers < self._n:
-            self._bridge.log.say(
+            self._bridge.log.report(
                 f"/{self._topic}: a reader has left, or was not heard of {self._lease}",
                 kind=f"left {self._topic}",
             )

@@ -45,10 +45,10 @@ def open_node(environment: Mapping[str, str], domain: int | None, log: Log) -> R
                 f"--ros2: {VARIABLE}=rclpy, and it cannot be imported: {error}"
             ) from None
         if importlib.util.find_spec("rclpy") is not None:
-            log.say(f"rclpy is there, and cannot be imported: {str(error).splitlines()[0]}")
+            log.report(f"rclpy is there, and cannot be imported: {str(error).splitlines()[0]}")
         return _dds(environment, domain, log)
     node = RclpyNode(settings_from(environment, domain), log)
-    log.say(f"a node of rclpy, on {get_rmw_implementation_identifier()}")
+    log.report(f"a node of rclpy, on {get_rmw_implementation_identifier()}")
     return node
 
 
@@ -78,7 +78,7 @@ def _dds(environment: Mapping[str, str], domain: int | None, log: Log) -> Ros2No
     reach = (
         "for nodes on this computer" if node.is_closed else "its ports are open on all addresses"
     )
-    log.say(f"a node on Cyclone DDS, without rclpy; {reach}")
+    log.report(f"a node on Cyclone DDS, without rclpy; {reach}")
     return node
 
 

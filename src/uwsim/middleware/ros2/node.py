@@ -17,15 +17,15 @@ from .quality import Quality
 class Receive(Protocol):
     """Takes in an encoded message, its CDR header included."""
 
-    def __call__(self, data: bytes, by: str = "") -> None:
-        """``by``: who sent it; empty where the node cannot tell."""
+    def __call__(self, data: bytes, sender: str = "") -> None:
+        """``sender``: who sent it; empty where the node cannot tell."""
 
 
 class Call(Protocol):
     """Hands a request to the simulation; returns the response to come."""
 
-    def __call__(self, request: object, by: str = "") -> Future[object]:
-        """``by``: who calls; empty where the node cannot tell."""
+    def __call__(self, request: object, sender: str = "") -> Future[object]:
+        """``sender``: who calls; empty where the node cannot tell."""
 
 
 class Endpoint(Protocol):

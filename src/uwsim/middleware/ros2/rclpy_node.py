@@ -143,7 +143,7 @@ class RclpyNode:
     def tell(self) -> None:
         """Report what is not on the graph, as rclpy has no type for it."""
         for line in self._types.faults():
-            self._log.say(line)
+            self._log.report(line)
 
     def offers(self, name: str) -> bool:
         """Whether a service is offered on the graph."""

@@ -16,7 +16,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
-from ..stamps import inward, outward
+from ..stamps import to_ros_clock, to_simulation_time
 from ..types import WireService, service_of, wire_service
 from .node import Call, Endpoint
 from .rclpy_endpoints import Nowhere, RclpyServer
@@ -63,12 +63,14 @@ class RclpyServices:
 
         async def answer(asked: Any, _: Any) -> Any:
             try:
-                request: object = inward(from_cdr(kind.service.request, serialize_message(asked)))
+                request: object = to_simulation_time(
+                    from_cdr(kind.service.request, serialize_message(asked))
+                )
                 response = await self._answered(call(request))
             except UwsimError as error:
-                self._log.say(f"service /{name}: no answer: {error}", kind=name)
+                self._log.report(f"service /{name}: no answer: {error}", kind=name)
                 raise Unanswered from error
-            return deserialize_message(bytes(to_cdr(outward(response))), found.Response)
+            return deserialize_message(bytes(to_cdr(to_ros_clock(response))), found.Response)
 
         return answer
 
@@ -101,13 +103,13 @@ class RclpyServices:
             raise UwsimError(f"Service /{name}: {type(request).__name__} has no definition.")
         kind = wire_service(service)
         client = self._client(name, kind)
-        asked = deserialize_message(bytes(to_cdr(outward(request))), client.srv_type.Request)
+        asked = deserialize_message(bytes(to_cdr(to_ros_clock(request))), client.srv_type.Request)
         future: Future[object] = Future()
 
         def pass_on(answered: Any) -> None:
             try:
                 found = serialize_message(answered.result())
-                future.set_result(inward(from_cdr(kind.service.response, found)))
+                future.set_result(to_simulation_time(from_cdr(kind.service.response, found)))
             except (BadMessage, RuntimeError) as error:
                 future.set_exception(UwsimError(f"Service /{name}: {error}"))
 

@@ -17,7 +17,7 @@ from cyclonedds.idl import types
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
-from ..stamps import inward, outward
+from ..stamps import to_ros_clock, to_simulation_time
 from ..types import WireService, ros2_store
 from .names import reply_name, request_name, type_hash_data
 from .node import Call
@@ -79,7 +79,7 @@ class ServiceServer:
             vendor = CYCLONE if found is None else bytes(found.key.bytes[:2])
             if vendor != CYCLONE:
                 name = VENDORS.get(vendor, "another DDS")
-                self._log.say(
+                self._log.report(
                     f"service /{self._name} cannot answer a client that uses {name}; its node "
                     "needs RMW_IMPLEMENTATION=rmw_cyclonedds_cpp",
                     kind=f"vendor {self._name}",
@@ -90,12 +90,12 @@ class ServiceServer:
             return
         try:
             call, body = split_call(sample.data)
-            request: object = inward(from_cdr(self._kind.service.request, body))
+            request: object = to_simulation_time(from_cdr(self._kind.service.request, body))
         except (BadMessage, struct.error) as error:
-            self._log.say(f"service /{self._name}: a call was refused: {error}", kind=self._name)
+            self._log.report(f"service /{self._name}: a call was refused: {error}", kind=self._name)
             return
-        by = self._senders.sender_of(self.reader, sample)
-        self._call(request, by).add_done_callback(partial(self._reply, call))
+        sender = self._senders.sender_of(self.reader, sample)
+        self._call(request, sender).add_done_callback(partial(self._reply, call))
 
     def _is_of_cyclone(self, sample: RawSample) -> bool:
         handle = sample.sample_info.publication_handle
@@ -104,9 +104,9 @@ class ServiceServer:
 
     def _reply(self, call: bytes, response: Future[object]) -> None:
         try:
-            data = bytes(to_cdr(outward(response.result())))
+            data = bytes(to_cdr(to_ros_clock(response.result())))
         except UwsimError as error:
-            self._log.say(f"service /{self._name}: no answer: {error}", kind=self._name)
+            self._log.report(f"service /{self._name}: no answer: {error}", kind=self._name)
             return
         self.writer.write(data[:CDR_HEADER] + call + data[CDR_HEADER:])
 

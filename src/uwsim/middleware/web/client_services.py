@@ -9,7 +9,7 @@ from functools import partial
 from ...errors import UwsimError
 from ...messages.services import Service
 from ..admission import Admission
-from ..exchange.outside_services import OutsideServices
+from ..exchange.external_services import ExternalServices
 from .contract import Client
 
 
@@ -22,7 +22,7 @@ class ClientServices:
     """
 
     def __init__(
-        self, services: OutsideServices, admission: Callable[[], Admission | None]
+        self, services: ExternalServices, admission: Callable[[], Admission | None]
     ) -> None:
         self._services, self._admission = services, admission
         self._offerers: dict[str, tuple[Client, ...]] = {}

@@ -63,8 +63,8 @@ class SessionBridge(Protocol):
     log: Log
     admission: Admission | None
 
-    def put(self, topic: str, message: object, by: str = "") -> None:
+    def put(self, topic: str, message: object, sender: str = "") -> None:
         """Take in a message of a client."""
 
-    def request(self, name: str, request: object, by: str = "") -> Future[object]:
+    def request(self, name: str, request: object, sender: str = "") -> Future[object]:
         """Call a service of the bus."""

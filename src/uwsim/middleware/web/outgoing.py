@@ -13,7 +13,7 @@ import numpy as np
 
 from ..encodings import to_cdr
 from ..json_encoding import to_json, to_plain
-from ..stamps import outward
+from ..stamps import to_ros_clock
 from .cbor import encode_cbor
 
 COMPRESSIONS = ("none", "png", "cbor", "cbor-raw")
@@ -55,7 +55,7 @@ class Outgoing:
     def _message(self) -> object:
         """The message that is sent, with its stamps on the clock of ROS."""
         if self._converted is None:
-            self._converted = outward(self._convert(self._source))
+            self._converted = to_ros_clock(self._convert(self._source))
         return self._converted
 
     def _frame(self, compression: str) -> str | bytes:

@@ -7,7 +7,7 @@ from ...messages import Image
 from ...messages.compressed import as_jpeg
 from ..bridge import LATCHED
 from ..clock_topic import ClockTopic
-from ..exchange.demand import Demand
+from ..exchange.external_subscribers import ExternalSubscribers
 from .contract import Client, Subscription
 from .graph import COMPRESSED, WebGraph
 from .outgoing import Outgoing
@@ -25,8 +25,14 @@ class WebReaders:
         clock_topic: sent to who has come.
     """
 
-    def __init__(self, graph: WebGraph, demand: Demand, clock_topic: ClockTopic) -> None:
-        self._graph, self._demand, self._clock_topic = graph, demand, clock_topic
+    def __init__(
+        self, graph: WebGraph, external_subscribers: ExternalSubscribers, clock_topic: ClockTopic
+    ) -> None:
+        self._graph, self._external_subscribers, self._clock_topic = (
+            graph,
+            external_subscribers,
+            clock_topic,
+        )
         self._readers: dict[str, tuple[Reader, ...]] = {}
         self._latched: dict[str, Outgoing] = {}
 
@@ -49,7 +55,7 @@ class WebReaders:
         else:
             if topic not in self._graph.topics:
                 subscription.source = self._graph.image_of(topic) or topic
-            self._demand.want(subscription.source)
+            self._external_subscribers.add(subscription.source)
 
     def unread(self, topic: str, subscription: Subscription) -> None:
         """A client does so no more. In the thread of the server."""
@@ -59,7 +65,7 @@ class WebReaders:
         else:
             self._readers.pop(topic, None)
         if topic != CLOCK:
-            self._demand.unwant(subscription.source)
+            self._external_subscribers.remove(subscription.source)
 
     def send(self, topic: str, message: object) -> None:
         """Give a message to all who read its topic. In the thread of the simulation."""

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from ...base.message_fields import size_of
 from ...messages import TFMessage
-from ..exchange.demand import Demand
+from ..exchange.external_subscribers import ExternalSubscribers
 from .contract import Client
 from .frame_republisher import FEEDBACK, SOURCES, FrameRepublisher, feedback
 from .outgoing import Outgoing
@@ -22,8 +22,17 @@ class Republications:
         clock: returns the simulation time [s].
     """
 
-    def __init__(self, demand: Demand, readers: WebReaders, clock: Callable[[], float]) -> None:
-        self._demand, self._readers, self._clock = demand, readers, clock
+    def __init__(
+        self,
+        external_subscribers: ExternalSubscribers,
+        readers: WebReaders,
+        clock: Callable[[], float],
+    ) -> None:
+        self._external_subscribers, self._readers, self._clock = (
+            external_subscribers,
+            readers,
+            clock,
+        )
         self._republisher = FrameRepublisher()
         self._topics: dict[Client, list[str]] = {}
 
@@ -38,7 +47,7 @@ class Republications:
         topic = self._republisher.request(arguments, goal).topic
         if client not in self._topics:
             for source in SOURCES:
-                self._demand.want(source)
+                self._external_subscribers.add(source)
         self._topics = {**self._topics, client: [*self._topics.get(client, []), topic]}
         return topic
 
@@ -55,7 +64,7 @@ class Republications:
         if client in self._topics:
             self._topics = {each: mine for each, mine in self._topics.items() if each != client}
             for source in SOURCES:
-                self._demand.unwant(source)
+                self._external_subscribers.remove(source)
 
     def send(self, topic: str, message: object) -> None:
         """Take transforms of a topic, and send what is due. In the thread of the simulation."""

@@ -70,7 +70,7 @@ class WebBridge(Bridge):
         BadSetting: it cannot listen there.
     """
 
-    traits = TransportTraits(sends_back=True)
+    traits = TransportTraits(relays_between_clients=True)
 
     def __init__(
         self,
@@ -84,9 +84,9 @@ class WebBridge(Bridge):
         self._sessions: set[Session] = set()
         self.graph = WebGraph(clock, self._sessions)
         """What clients may ask about."""
-        self._readers = WebReaders(self.graph, self.demand, self.clock_topic)
-        self._client_services = ClientServices(self.outside_services, lambda: self.admission)
-        self._republications = Republications(self.demand, self._readers, clock)
+        self._readers = WebReaders(self.graph, self.external_subscribers, self.clock_topic)
+        self._client_services = ClientServices(self.external_services, lambda: self.admission)
+        self._republications = Republications(self.external_subscribers, self._readers, clock)
         self._parts = SessionParts(
             graph=self.graph,
             readers=self._readers,
@@ -110,7 +110,7 @@ class WebBridge(Bridge):
             raise BadSetting(
                 f"--web {options.port}: cannot listen at {options.host}: {error.strerror or error}."
             ) from None
-        self.log.say(f"listening at ws://{options.host}:{self.port}", kind="listening")
+        self.log.report(f"listening at ws://{options.host}:{self.port}", kind="listening")
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
         """Note what is there; clients ask."""
@@ -125,9 +125,9 @@ class WebBridge(Bridge):
         self._readers.send(topic, message)
         self._republications.send(topic, message)
 
-    def send_to(self, by: str, topic: str, message: object) -> None:
+    def send_to(self, sender: str, topic: str, message: object) -> None:
         """Give a message to one client, if it reads the topic."""
-        self._readers.post(topic, Outgoing(topic, message, size_of(message)), only=by)
+        self._readers.post(topic, Outgoing(topic, message, size_of(message)), only=sender)
 
     def _tick(self) -> None:
         """Serve those who came before the first step, and tell the time when it is due.
@@ -149,17 +149,17 @@ class WebBridge(Bridge):
         """Whether a client has subscribed to ``/clock``."""
         return CLOCK in self._readers
 
-    def is_fed(self, topic: str) -> bool:
+    def has_publisher(self, topic: str) -> bool:
         """Whether a client has advertised ``topic``."""
         return any(session.advertises(topic) for session in tuple(self._sessions))
 
-    def tell(self, by: str, text: str) -> None:
+    def report_error(self, sender: str, text: str) -> None:
         """Send a client a status."""
         for session in tuple(self._sessions):
-            if session.name == by:
+            if session.name == sender:
                 session.reply({"op": "status", "level": "error", "msg": text})
 
-    def call_outside(self, name: str, request: object) -> Future[object]:
+    def call_external_service(self, name: str, request: object) -> Future[object]:
         """Call a service of a client."""
         return self._client_services.call(name, request)
 
@@ -217,11 +217,13 @@ class WebBridge(Bridge):
     def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
         """Refuse who has no token, and more clients than are served."""
         if len(self._sessions) >= MAX_CLIENTS:
-            self.log.say(f"more than {MAX_CLIENTS} clients; one is refused")
+            self.log.report(f"more than {MAX_CLIENTS} clients; one is refused")
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many clients.\n")
         token = self._options.token
         if token and not hmac.compare_digest(_token_of(request), token.encode()):
-            self.log.say(f"a client at {_peer(connection)} was refused: no token, or a wrong one")
+            self.log.report(
+                f"a client at {_peer(connection)} was refused: no token, or a wrong one"
+            )
             return connection.respond(http.HTTPStatus.UNAUTHORIZED, "A token is needed.\n")
         return None
 
@@ -231,10 +233,10 @@ class WebBridge(Bridge):
         name = f"client {_peer(connection)}"
         session = Session(self, self._parts, self._loop, name)
         self._sessions.add(session)
-        self.log.say(f"{name} has come", kind="has come")
+        self.log.report(f"{name} has come", kind="has come")
         writer = asyncio.create_task(_write(connection, session))
-        connection.is_spared = lambda: session.is_waited_for
-        connection.report_rest = lambda: self.log.say(
+        connection.is_exempt = lambda: session.is_waited_for
+        connection.report_pause = lambda: self.log.report(
             f"{name} sends faster than it is read; its frames wait", kind="faster than it is read"
         )
         protocol = connection.protocol
@@ -250,10 +252,10 @@ class WebBridge(Bridge):
             writer.cancel()
             session.close()
             if self.admission is not None:
-                self.admission.leave(name)
+                self.admission.remove(name)
             self._sessions.discard(session)
             why = connection.close_reason or connection.close_code or "its connection broke"
-            self.log.say(f"{name} has left ({why})", kind="has left")
+            self.log.report(f"{name} has left ({why})", kind="has left")
 
 
 async def _stop_accepting(server: Server) -> None:

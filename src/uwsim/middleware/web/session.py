@@ -17,7 +17,7 @@ from ...errors import BadMessage, UwsimError, did_you_mean
 from ...messages import String
 from ..json_encoding import from_json, to_json
 from ..lockstep.topics import JOIN
-from ..stamps import inward, outward
+from ..stamps import to_ros_clock, to_simulation_time
 from ..types import message_class, service, service_of, wire_type
 from . import rosapi
 from .client_services import ClientServices
@@ -104,7 +104,7 @@ class Session:
             handler(asked)
         except UwsimError as error:
             about = asked.get("id") if isinstance(asked, dict) else None
-            self._bridge.log.say(f"{self._name}: {error}", kind=f"{self._name} is wrong")
+            self._bridge.log.report(f"{self._name}: {error}", kind=f"{self._name} is wrong")
             self.reply({"op": "status", "level": "error", "msg": str(error), "id": about})
 
     def post(self, subscription: Subscription, message: Outgoing) -> None:
@@ -114,7 +114,7 @@ class Session:
             return
         subscription.last = now
         if self._queue.put(subscription.lane, message):
-            self._bridge.log.say(
+            self._bridge.log.report(
                 f"{self._name} reads /{subscription.topic} too slowly; the oldest are dropped",
                 kind=f"{self._name} is slow",
             )
@@ -157,7 +157,7 @@ class Session:
             number = f"call:{self._n_asked}"
             self._asked[number] = future, of.response
         content = {"op": "call_service", "id": number, "service": f"/{name}"}
-        self.reply({**content, "args": to_json(outward(request))})
+        self.reply({**content, "args": to_json(to_ros_clock(request))})
         return future
 
     def advertises(self, topic: str) -> bool:
@@ -215,7 +215,7 @@ class Session:
             return
         if cls is None:
             raise BadMessage(f"Topic /{topic} is not known; advertise it with its type first.")
-        message: object = inward(from_json(cls, asked.get("msg", {})))
+        message: object = to_simulation_time(from_json(cls, asked.get("msg", {})))
         if topic == JOIN and isinstance(message, String):
             self._joined_as = _client_in(message.data)
         self._bridge.put(topic, message, self._name)
@@ -293,11 +293,13 @@ class Session:
         def respond(done: Future[object]) -> None:
             error = done.exception()
             if error is None:
-                self.reply({**answer, "values": to_json(outward(done.result())), "result": True})
+                self.reply(
+                    {**answer, "values": to_json(to_ros_clock(done.result())), "result": True}
+                )
             else:
                 self.reply({**answer, "values": str(error), "result": False})
 
-        answer_to_come = self._bridge.request(name, inward(request), self._name)
+        answer_to_come = self._bridge.request(name, to_simulation_time(request), self._name)
         answer_to_come.add_done_callback(respond)
 
     def _advertise_service(self, asked: dict[str, Any]) -> None:
@@ -322,7 +324,7 @@ class Session:
             )
             return
         try:
-            future.set_result(inward(from_json(cls, asked.get("values") or {})))
+            future.set_result(to_simulation_time(from_json(cls, asked.get("values") or {})))
         except BadMessage as error:
             future.set_exception(error)
 

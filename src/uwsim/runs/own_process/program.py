@@ -8,8 +8,8 @@ from functools import partial
 
 from ...bus import Algorithm
 from ...middleware.lockstep.client import LockStepClient
-from ...middleware.lockstep.outside import outside_client
-from ...middleware.lockstep.outside_program import OutsideProgram
+from ...middleware.lockstep.external_client import make_external_client
+from ...middleware.lockstep.external_program import ExternalProgram
 from ...middleware.lockstep.spec import FREE, LOCK_STEP, ClientSpec
 from ...middleware.pacing import Pace
 from ...simulation import Simulation
@@ -55,7 +55,7 @@ def _client(
     """Open the connection of a program outside, until the stack is closed."""
     opened = spec.connection.open(simulation.bus, lambda: simulation.time)
     bridges = stack.enter_context(opened)
-    client = outside_client(spec, bridges, timestep=simulation.timestep)
+    client = make_external_client(spec, bridges, timestep=simulation.timestep)
     for bridge in bridges:
         simulation.watch(bridge.step)
     if spec.sync == "none":
@@ -68,8 +68,8 @@ def refused_of(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
 
     Sender, topic or service, and how often; nothing where the algorithm is no program outside.
     """
-    if isinstance(algorithm, LockStepClient | OutsideProgram):
-        return algorithm.take_refused()
+    if isinstance(algorithm, LockStepClient | ExternalProgram):
+        return algorithm.take_refusals()
     return ()
 
 

@@ -10,24 +10,25 @@ from concurrent.futures import Future
 from ..work_budget import WorkBudget
 
 MAX_CALLS = 1000
-"""Calls that may wait for the end of a step."""
-SHARE, BURST = 0.01, 0.05
-"""Share of the wall time in which a flood of calls is answered, and the time at once [s]."""
-AT_ONCE = 10
-"""Calls that are answered together while the simulation waits; more are a flood when it runs."""
+"""The maximum number of calls that wait for the end of a step."""
+FLOOD_SHARE, FLOOD_BURST = 0.01, 0.05
+"""The share of the wall time for a flood of calls, and the time at once [s]."""
+CALLS_AT_ONCE = 10
+"""The number of calls that are answered together while the simulation waits; more are a flood when
+it runs."""
 Call = tuple[str, object, "Future[object]"]
-"""The service, the request, and what gets the response."""
+"""The service, the request, and the future of the response."""
 
 
-class WaitingCalls:
-    """A queue of calls. Calls are added in any thread, and answered in that of the simulation."""
+class CallQueue:
+    """A queue of calls; any thread adds calls, the thread of the simulation answers them."""
 
     def __init__(self) -> None:
         self._calls: deque[Call] = deque()
-        self._budget = WorkBudget(SHARE, BURST)
+        self._budget = WorkBudget(FLOOD_SHARE, FLOOD_BURST)
 
     def __bool__(self) -> bool:
-        """Whether a call waits."""
+        """Return whether a call waits."""
         return bool(self._calls)
 
     def add(self, call: Call) -> bool:
@@ -45,15 +46,15 @@ class WaitingCalls:
         """Answer calls in their order.
 
         Args:
-            answer: called with each call.
-            limit: of the calls that are answered now; None: all, or those that the budget allows
-                where more than `AT_ONCE` wait, so that a flood does not stop the simulation.
+            answer: the function that answers a call.
+            limit: the number of calls that are answered now; None: all, or those that the budget
+                allows if more than `CALLS_AT_ONCE` wait: a flood does not stop the simulation.
         """
         n_waiting = len(self._calls)
-        is_flood = limit is None and n_waiting > AT_ONCE
+        is_flood = limit is None and n_waiting > CALLS_AT_ONCE
         for _ in range(n_waiting if limit is None else min(limit, n_waiting)):
             if is_flood and self._budget.delay > 0.0:
                 return
-            began = time.thread_time()
+            start_time = time.thread_time()
             answer(self._calls.popleft())
-            self._budget.spend(time.thread_time() - began)
+            self._budget.spend(time.thread_time() - start_time)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from functools import partial
 
 from ...bus import Algorithm
-from ..admission import Admission, FirstCaller, Joined, Report, TopicOwners
+from ..admission import Admission, FirstCaller, Report, SingleProgram, TopicOwners
 from ..bridge import Bridge
 from .client import lockstep_clients
 from .free_client import FreeClient
@@ -15,7 +15,9 @@ from .spec import ClientSpec
 from .step_client import SERVICE, StepClient
 
 
-def outside_client(spec: ClientSpec, bridges: Sequence[Bridge], *, timestep: float) -> Algorithm:
+def make_external_client(
+    spec: ClientSpec, bridges: Sequence[Bridge], *, timestep: float
+) -> Algorithm:
     """Return what stands for the program in the simulation; attach it.
 
     Args:
@@ -44,14 +46,14 @@ def outside_client(spec: ClientSpec, bridges: Sequence[Bridge], *, timestep: flo
 def admission_of(spec: ClientSpec, report: Report) -> Admission:
     """Return who may publish and call in the run of a program."""
     if spec.sync == "ack":
-        return Joined(report)
+        return SingleProgram(report)
     if spec.sync == "step":
         return FirstCaller(SERVICE, report)
     is_free = spec.sync == "none"
     return TopicOwners(None if is_free else (each.topic for each in spec.outputs), report)
 
 
-def report(bridge: Bridge, by: str, text: str) -> None:
+def report(bridge: Bridge, sender: str, text: str) -> None:
     """Report what is refused to the log, and to who sent it."""
-    bridge.log.say(text, kind="refused: does not take part")
-    bridge.tell(by, text)
+    bridge.log.report(text, kind="refused: does not take part")
+    bridge.report_error(sender, text)

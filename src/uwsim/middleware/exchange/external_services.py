@@ -1,4 +1,4 @@
-"""Services that programs outside offer to the bus."""
+"""Services that external programs offer to the bus."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from ...bus import Services
 from ...errors import RunFailed
 from ...messages.services import Service
 from ..log import Log
-from .intake import Intake
+from .work_signal import WorkSignal
 
 CALL_LIMIT = 60.0
-"""How long a call of a service that is offered outside may take [s of wall time]."""
+"""The time within which an external service must answer [s of wall time]."""
 Offer = tuple[str, Service | None]
-"""The name of a service, and its type; None if it is offered no more."""
+"""The name of a service, and its type; None withdraws it."""
 
 
-class OutsideServices:
-    """Offers services of the outside on a bus; the simulation waits for their responses.
+class ExternalServices:
+    """The external services that a bus offers; the simulation waits for their responses.
 
     Args:
-        services: those of the bus.
-        log: where a service is reported whose name is taken.
-        intake: of the bridge.
-        call: calls a service outside.
+        services: the services of the bus.
+        log: the log for services whose name is in use.
+        signal: the work signal of the bridge.
+        call: calls an external service.
         wait_for: waits until a condition holds, at most a time [s]; returns whether it does.
     """
 
@@ -33,59 +33,57 @@ class OutsideServices:
         self,
         services: Services,
         log: Log,
-        intake: Intake,
+        signal: WorkSignal,
         *,
         call: Callable[[str, object], Future[object]],
         wait_for: Callable[[Callable[[], bool], float], bool],
     ) -> None:
-        self._services, self._log, self._intake = services, log, intake
+        self._services, self._log, self._signal = services, log, signal
         self._call, self._wait_for = call, wait_for
         self._offers: list[Offer] = []
         self._names: set[str] = set()
         self.n_called = 0
-        """Services of the outside that the simulation has called so far."""
+        """The number of calls of external services so far."""
 
     def __contains__(self, name: str) -> bool:
-        """Whether a service on the bus is one of the outside. In the thread of the simulation."""
+        """Return whether a service on the bus is external. In the thread of the simulation."""
         return name in self._names
 
     def offer(self, name: str, service: Service) -> None:
-        """Somebody outside offers a service. Any thread."""
+        """Offer a service of an external program. Any thread."""
         self._add((name.lstrip("/"), service))
 
     def withdraw(self, name: str) -> None:
-        """A service is no longer offered outside. Any thread."""
+        """Withdraw a service of an external program. Any thread."""
         self._add((name.lstrip("/"), None))
 
     def take(self) -> list[Offer]:
-        """Remove and return the offers that wait. With the lock of the intake."""
+        """Remove and return the offers that wait. With the lock of the signal."""
         offers, self._offers = self._offers, []
         return offers
 
-    def follow(self, offers: list[Offer]) -> None:
-        """Offer services of the outside on the bus, or no longer."""
+    def apply(self, offers: list[Offer]) -> None:
+        """Offer external services on the bus, or withdraw them."""
         for name, service in offers:
             if service is None:
                 if name in self._names:
                     self._names.discard(name)
                     self._services.withdraw(name)
             elif self._services.serves(name):
-                self._log.say(
-                    f"service /{name} is offered already; that of the outside is not taken"
-                )
+                self._log.report(f"service /{name} is offered already; the external one is ignored")
             else:
                 self._names.add(name)
-                self._services.serve(name, service.request, partial(self.ask, name))
+                self._services.serve(name, service.request, partial(self.call_and_wait, name))
 
-    def ask(self, name: str, request: object) -> object:
-        """Call a service of the outside and wait for its response.
+    def call_and_wait(self, name: str, request: object) -> object:
+        """Call an external service and wait for its response.
 
         Raises:
-            RunFailed: there is none.
+            RunFailed: the response does not come in time.
         """
         future = self._call(name, request)
         self.n_called += 1
-        future.add_done_callback(lambda _: self._intake.wake())
+        future.add_done_callback(lambda _: self._signal.wake())
         if not self._wait_for(future.done, CALL_LIMIT):
             raise RunFailed(f"Service /{name}: no response within {CALL_LIMIT:g} s of wall time.")
         return future.result()
@@ -97,7 +95,7 @@ class OutsideServices:
         self._names.clear()
 
     def _add(self, offer: Offer) -> None:
-        with self._intake.lock:
+        with self._signal.lock:
             self._offers.append(offer)
-            self._intake.add_urgent()
-        self._intake.wake()
+            self._signal.mark_urgent()
+        self._signal.wake()

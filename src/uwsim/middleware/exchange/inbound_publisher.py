@@ -9,14 +9,14 @@ from ...errors import BadMessage, UwsimError
 from ..log import Log
 
 
-class Entrance:
-    """Publishes messages from outside on the bus; in the thread of the simulation.
+class InboundPublisher:
+    """The publisher of external messages on the bus; in the thread of the simulation.
 
     Args:
-        bus: of the simulation.
-        log: where messages that do not fit are reported.
-        owner: whose publishers these are for the bus.
-        publisher_of: names who publishes a topic outside, where a message does not say it.
+        bus: the bus of the simulation.
+        log: the log for invalid messages.
+        owner: the owner of the publishers on the bus.
+        publisher_of: returns the external publisher of a topic, if its messages do not state it.
     """
 
     def __init__(
@@ -24,40 +24,40 @@ class Entrance:
     ) -> None:
         self._bus, self._log, self._owner, self._publisher_of = bus, log, owner, publisher_of
         self._publishers: dict[str, Callable[[object], None]] = {}
-        self._published: set[int] = set()
+        self._published_ids: set[int] = set()
         self._sender = ""  # of the message that is being published
 
-    def publish(self, topic: str, message: object, by: str) -> None:
-        """Publish a message of ``by``, which is empty where it is not known.
+    def publish(self, topic: str, message: object, sender: str) -> None:
+        """Publish a message of ``sender``, which is empty if it is not known.
 
-        A message that does not fit is reported and dropped.
+        An invalid message is reported and dropped.
         """
-        self._sender = by
+        self._sender = sender
         try:
             if self._bus.is_withheld(topic):
-                raise BadMessage(f"Topic {topic!r} is not for the outside.")
+                raise BadMessage(f"Topic {topic!r} is not open to external programs.")
             if topic not in self._publishers:
                 self._publishers[topic] = self._bus.publisher(
                     topic, type(message), owner=self._owner, say=self._report_remark
                 )
-            self._published.add(id(message))
+            self._published_ids.add(id(message))
             self._publishers[topic](message)
         except UwsimError as error:
             text = f"a message{self._source(topic)} was refused: {error}"
-            self._log.say(f"/{topic}: {text}", kind=f"refused {topic}")
+            self._log.report(f"/{topic}: {text}", kind=f"refused {topic}")
 
     def has_published(self, message: object) -> bool:
-        """Whether a message has come from outside since `forget_messages`."""
-        return id(message) in self._published
+        """Return whether a message was published since `forget_messages`."""
+        return id(message) in self._published_ids
 
     def forget_messages(self) -> None:
-        """Forget which messages were published: they are delivered."""
-        self._published.clear()
+        """Forget the published messages: they are delivered."""
+        self._published_ids.clear()
 
     def _report_remark(self, topic: str, text: str) -> None:
-        self._log.say(f"/{topic}: in a message{self._source(topic)}, {text}")
+        self._log.report(f"/{topic}: in a message{self._source(topic)}, {text}")
 
     def _source(self, topic: str) -> str:
-        """Return "" or " of" and who has published the message that is being published."""
+        """Return " of" and the publisher of the current message, or "" if it is not known."""
         publisher = self._sender or self._publisher_of(topic)
         return f" of {publisher}" if publisher else ""

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from ..admission import Refused
+from ..admission import Refusal
 from ..bridge import Bridge
 from .spec import ClientSpec
 
 
-class OutsideProgram:
+class ExternalProgram:
     """Stands for a program outside, as an algorithm of the simulation.
 
     Args:
@@ -28,7 +28,7 @@ class OutsideProgram:
         """Those of the program are its own."""
         return {}
 
-    def take_refused(self) -> tuple[Refused, ...]:
+    def take_refusals(self) -> tuple[Refusal, ...]:
         """Return what was refused since the last call of programs that do not take part."""
         admission = self._bridge.admission
-        return () if admission is None else admission.take_refused()
+        return () if admission is None else admission.take_refusals()

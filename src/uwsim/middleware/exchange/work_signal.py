@@ -1,0 +1,33 @@
+"""The signal that work of external programs waits for the simulation."""
+
+from __future__ import annotations
+
+import threading
+
+
+class WorkSignal:
+    """The flags that the parts of a bridge share; the lock guards the queues of all parts."""
+
+    def __init__(self) -> None:
+        self.lock = threading.Lock()
+        """The lock for adding to a queue, and for taking from it."""
+        self.has_work = False
+        """A flag: work waits for the next step boundary."""
+        self.is_urgent = False
+        """A flag: work waits that is also done while the simulation waits."""
+        self.is_closed = False
+        """A flag: nothing more is accepted."""
+        self._wake_event = threading.Event()
+
+    def mark_urgent(self) -> None:
+        """Note that urgent work waits. Any thread that holds the lock."""
+        self.has_work = self.is_urgent = True
+
+    def wake(self) -> None:
+        """Wake the simulation, if it waits. Any thread."""
+        self._wake_event.set()
+
+    def wait(self, limit_s: float) -> None:
+        """Wait for `wake`, at most ``limit_s``. In the thread of the simulation."""
+        self._wake_event.wait(limit_s)
+        self._wake_event.clear()

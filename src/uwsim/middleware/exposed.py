@@ -1,0 +1,33 @@
+"""Topics and services of a bus that external programs may use: their types have definitions."""
+
+from __future__ import annotations
+
+from ..bus import Bus, Services, TopicEnds
+from ..messages.services import Service
+from .log import Log
+from .types import service_of, wire_type
+
+
+def exposed_topics(bus: Bus, *, ignored_owner: object, log: Log) -> dict[str, TopicEnds]:
+    """Return the ends of each topic that is not withheld, without those of one owner."""
+    topics: dict[str, TopicEnds] = {}
+    for name in bus.topics:
+        ends = bus.ends(name, besides=ignored_owner)
+        if ends is None or bus.is_withheld(name):
+            continue
+        if wire_type(ends.type) is None:
+            log.report(f"/{name} is not sent: {ends.type.__name__} has no definition")
+            continue
+        topics[name] = ends
+    return topics
+
+
+def exposed_services(services: Services) -> dict[str, Service]:
+    """Return the services of a bus whose type is known, by name."""
+    service_types: dict[str, Service] = {}
+    for name in services.names:
+        request_type = services.request_type(name)
+        service = service_of(request_type) if request_type is not None else None
+        if service is not None:
+            service_types[name] = service
+    return service_types
