@@ -239,7 +239,7 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
     )
     until(lambda: found, graph.step)
     assert found[0].name == ["a"]
-    assert any("100 bytes are no sensor_msgs/msg/JointState" in line for line in graph.printed)
+    assert any("100 bytes are not a sensor_msgs/msg/JointState" in line for line in graph.printed)
     connection.close()
     publisher.close()
 
