@@ -10,7 +10,8 @@ import pytest
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "src" / "uwsim"
 PAGE = (ROOT / "docs" / "code-map.md").read_text()
-ROWS = dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", PAGE, re.MULTILINE))
+TABLE = PAGE.split("\n## Packages\n")[1].split("\n## ")[0]
+ROWS = dict(re.findall(r"^\| `(\w+)` \| (.*) \|$", TABLE, re.MULTILINE))
 PACKAGES = sorted(path.parent for path in PACKAGE.rglob("__init__.py") if path.parent != PACKAGE)
 TOP_LEVEL = [path.name for path in PACKAGES if path.parent == PACKAGE]
 

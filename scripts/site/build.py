@@ -68,8 +68,8 @@ def copy_pages(pages: Path) -> Navigation:
         (pages / name).write_text(rewritten(path.read_text(), path.parent, outside))
     index = (pages / "index.md").read_text()
     nav = navigation(index)
-    linked = {target for _, target, _ in LINK.findall(index)}
-    nav["More"] = {"": [name for name in sorted(outside.values()) if name not in linked]}
+    targets = {target for _, target, _ in LINK.findall(index)}
+    nav["More"] = {"": [name for name in sorted(outside.values()) if name not in targets]}
     return nav
 
 
@@ -81,7 +81,7 @@ def navigation(index: str) -> Navigation:
     """
     nav: Navigation = {"Start": {"": ["index.md"]}}
     group = ""
-    listed = set[str]()
+    pages = set[str]()
     for line in index.splitlines():
         level, _, title = line.partition(" ")
         if level == "##":
@@ -91,8 +91,8 @@ def navigation(index: str) -> Navigation:
             group = title
         elif len(nav) > 1:
             for _, target, _ in LINK.findall(line):
-                if target.endswith(".md") and target not in listed:
-                    listed.add(target)
+                if target.endswith(".md") and target not in pages:
+                    pages.add(target)
                     section.setdefault(group, []).append(target)
     return nav
 
