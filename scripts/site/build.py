@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import ast
+import json
 import os
 import re
 import shutil
@@ -28,6 +29,8 @@ LINK = re.compile(r"(!?\[[^\]]*\])\(([^)#\s]+)(#[^)\s]*)?\)")
 """A link or an image of Markdown: its text, its target, its anchor."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
 """What Zensical loads so that the search works from disk; a copy of it is in this folder."""
+Navigation = dict[str, dict[str, list[str]]]
+"""The pages of each group of each section, by the titles; pages without a group are in ``""``."""
 
 
 def main() -> None:
@@ -42,8 +45,8 @@ def main() -> None:
     for name in ("style.css", "iframe-worker.js", "iframe-worker.LICENSE"):
         shutil.copy(HERE / name, pages)
     nav = copy_pages(pages)
-    nav.append(("Notebooks", notebook_pages(pages)))
-    nav.append(("Python reference", reference_pages(pages)))
+    nav["Learn"]["Notebooks"] = notebook_pages(pages)
+    nav["Reference"]["Python packages"] = reference_pages(pages)
     configure(work, nav)
     run_zensical(work)
     finish(work / "site")
@@ -52,7 +55,7 @@ def main() -> None:
     shutil.rmtree(work)
 
 
-def copy_pages(pages: Path) -> list[tuple[str, list[str]]]:
+def copy_pages(pages: Path) -> Navigation:
     """Rewrite the links of the copied pages; return the navigation that ``index.md`` gives.
 
     A linked Markdown file from outside ``docs/`` becomes a page of its own; a link to any other
@@ -63,16 +66,35 @@ def copy_pages(pages: Path) -> list[tuple[str, list[str]]]:
         page.write_text(rewritten(page.read_text(), ROOT / "docs", outside))
     for path, name in list(outside.items()):
         (pages / name).write_text(rewritten(path.read_text(), path.parent, outside))
-    nav: list[tuple[str, list[str]]] = []
-    for line in (pages / "index.md").read_text().splitlines():
-        if line.startswith("#"):
-            nav.append((line.lstrip("# "), ["index.md"] if not nav else []))
-        for _, target, _ in LINK.findall(line):
-            if target.endswith(".md") and all(target not in there for _, there in nav):
-                nav[-1][1].append(target)
-    listed = {name for _, there in nav for name in there}
-    rest = sorted(name for name in outside.values() if name not in listed)
-    return [(title, there) for title, there in nav if there] + [("More", rest)]
+    index = (pages / "index.md").read_text()
+    nav = navigation(index)
+    targets = {target for _, target, _ in LINK.findall(index)}
+    nav["More"] = {"": [name for name in sorted(outside.values()) if name not in targets]}
+    return nav
+
+
+def navigation(index: str) -> Navigation:
+    """Return the sections of the site: the headings of the index, with the pages below them.
+
+    A heading of the third level is a group inside its section. A page is in the first section that
+    links to it; links before the first section do not count.
+    """
+    nav: Navigation = {"Start": {"": ["index.md"]}}
+    group = ""
+    pages = set[str]()
+    for line in index.splitlines():
+        level, _, title = line.partition(" ")
+        if level == "##":
+            section = nav[title] = {}
+            group = ""
+        elif level == "###":
+            group = title
+        elif len(nav) > 1:
+            for _, target, _ in LINK.findall(line):
+                if target.endswith(".md") and target not in pages:
+                    pages.add(target)
+                    section.setdefault(group, []).append(target)
+    return nav
 
 
 def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
@@ -149,17 +171,32 @@ def lists_names(init: Path) -> bool:
     return False
 
 
-def configure(work: Path, nav: list[tuple[str, list[str]]]) -> None:
-    """Write ``zensical.toml`` of this build: ours, with the navigation."""
+def configure(work: Path, nav: Navigation) -> None:
+    """Write ``zensical.toml`` of this build: the common settings and the navigation."""
     text = (
         (HERE / "zensical.toml").read_text().replace('paths = ["src"]', f'paths = ["{ROOT}/src"]')
     )
-    entries = [f'  {{"{title}" = {there!r}}},'.replace("'", '"') for title, there in nav if there]
+    entries = [
+        f"  {{{json.dumps(title)} = {toml_array(groups)}}},"
+        for title, groups in nav.items()
+        if any(groups.values())
+    ]
     text = text.replace(
         "\n[project.theme]", "\n".join(["", "nav = [", *entries, "]", "", "[project.theme]"]), 1
     )
     tomllib.loads(text)
     (work / "zensical.toml").write_text(text)
+
+
+def toml_array(groups: dict[str, list[str]]) -> str:
+    """Return the pages and groups of a section as an array of TOML."""
+    parts = [json.dumps(page) for page in groups.get("", [])]
+    parts += [
+        f"{{{json.dumps(title)} = {json.dumps(names)}}}"
+        for title, names in groups.items()
+        if title and names
+    ]
+    return f"[{', '.join(parts)}]"
 
 
 def run_zensical(work: Path) -> None:
