@@ -15,7 +15,7 @@ from collections.abc import Callable
 from measure import kept, main
 
 import uwsim
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.model.scene_model import SceneModel
 from uwsim.simulation import Simulation
 
@@ -76,7 +76,7 @@ def checkpoints(simulation: Simulation, scene: str) -> dict[str, object]:
 def measure() -> dict[str, object]:
     """Measure every bundled scene."""
     found: dict[str, object] = {}
-    for scene in bundled("scenes"):
+    for scene in bundled_files("scenes"):
         with uwsim.load(scene, is_blind=True) as simulation:
             simulation.advance(SECONDS)
             found[scene] = {

@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from PIL import Image
 
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main as uwsim
 
 SIZE, FINER = (800, 450), 2  # of the images [px], supersampling factor
@@ -20,7 +20,7 @@ SIZE, FINER = (800, 450), 2  # of the images [px], supersampling factor
 def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the images of the bundled scenes.")
     parser.add_argument("folder", type=Path)
-    parser.add_argument("scene", nargs="*", default=list(bundled("scenes")))
+    parser.add_argument("scene", nargs="*", default=list(bundled_files("scenes")))
     asked = parser.parse_args()
     asked.folder.mkdir(parents=True, exist_ok=True)
     size = f"{FINER * SIZE[0]}x{FINER * SIZE[1]}"

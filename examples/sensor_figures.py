@@ -18,7 +18,7 @@ from matplotlib.axes import Axes
 
 import uwsim
 from uwsim.analysis.plots import PALETTE, save_plot, styled_figure
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.devices.battery import BatterySpec
 from uwsim.devices.force_sensor import ForceSensorSpec
 from uwsim.devices.motor_currents import MotorCurrentsSpec
@@ -65,7 +65,7 @@ class Survey:
 
 def scene() -> SceneSpec:
     """The survey, with a battery, motor currents and a wrist."""
-    found = read_scene(bundled("scenes")["survey-scene"])
+    found = read_scene(bundled_files("scenes")["survey-scene"])
     vehicle = found.vehicles[0]
     devices = (
         BatterySpec(name="battery", capacity=1000.0, voltage=48.0, resistance=0.2, hotel_load=60.0),

@@ -18,7 +18,7 @@ from matplotlib.axes import Axes
 
 import uwsim
 from uwsim.analysis.plots import PALETTE, save_plot, styled_figure
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.base.geodesy import Geodetic
 from uwsim.messages import NavSatFix, Twist, TwistStamped, Vector3, header, seconds
 from uwsim.scene.reader import read_scene
@@ -43,7 +43,7 @@ TRUTH = {"color": "0.6", "lw": 2.0}
 def still() -> tuple[np.ndarray, np.ndarray]:
     """Rates and forces of an IMU on a vehicle that stands, (n, 3) each."""
     imu = ImuSpec(name="imu", relative_to="base_link", gyro=GYRO, accelerometer=ACCELEROMETER)
-    scene = read_scene(bundled("scenes")["survey-scene"])
+    scene = read_scene(bundled_files("scenes")["survey-scene"])
     vehicle = replace(scene.vehicles[0], parts=(imu,), dynamics=None)
     scene = replace(scene, vehicles=(vehicle,), ros_interfaces=())
     rates, forces = np.empty((2, N_SAMPLES, 3))
@@ -96,7 +96,7 @@ def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Times (n,) and places (n, 3) of the antenna; those that the GPS says, (m,) and (m, 2)."""
     antenna = (0.0, 0.0, -0.4)
     gps = GpsSensorSpec(name="gps", relative_to="base_link", position=antenna, std=STD)
-    scene = read_scene(bundled("scenes")["survey-scene"])
+    scene = read_scene(bundled_files("scenes")["survey-scene"])
     vehicle = replace(scene.vehicles[0], parts=(gps,), dynamics=None, position=(0.0, 0.0, 0.3))
     twist = ROSTwistToPATSpec(topic="/twist", vehicle_name=NAME)
     fixes = GPSSensorToROSSpec(name="gps", topic="/gps", rate=5)

@@ -11,7 +11,7 @@ from typer.main import get_command
 
 from scripts.reference import command_line
 from tests.support.documented import commands
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.cli import COMMANDS
 from uwsim.cli.app import build
 
@@ -82,7 +82,7 @@ def test_every_other_command_is_there(page: Path) -> None:
 @pytest.mark.parametrize("page", PAGES, ids=ids)
 def test_scenes_and_benchmarks_have_names_that_are_there(page: Path) -> None:
     text = page.read_text()
-    names = bundled("scenes").keys() | bundled("benchmarks").keys()
+    names = bundled_files("scenes").keys() | bundled_files("benchmarks").keys()
     for words in typed(page):
         if words[:1] == ("uwsim",) and words[1] in ("bench", "envelope", "info", "render"):
             assert words[2] in names or f"`{words[2]}`" in text or words[2] in FILES_OF_THE_USER

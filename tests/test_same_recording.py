@@ -12,14 +12,14 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.middleware.recording import Recorder
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.sensors.imu import ImuSpec
 from uwsim.topics.sensor_topic import ImuToROSImuSpec
 
-SCENES = bundled("scenes")
+SCENES = bundled_files("scenes")
 SECONDS = 0.15
 ONE_MORE = "one_more"
 NOTHING = hashlib.sha256().hexdigest()

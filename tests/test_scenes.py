@@ -11,13 +11,13 @@ import pytest
 
 from tests.support.opened import open_scene
 from tests.support.whole_scene import SceneRun, run_scene
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.scene.reader import read_scene
 from uwsim.sensors.sonar.message import amplitudes
 from uwsim.simulation.views import viewer_view
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
-SCENES = bundled("scenes")
+SCENES = bundled_files("scenes")
 PAGE = Path(__file__).parent.parent / "docs" / "scenes.md"
 QUICK = ("remus-scene", "shapes-scene", "two-vehicles-scene")
 

@@ -314,7 +314,7 @@ def check(
         data_path: more folders in which files are looked for.
         arguments: values of their xacro arguments, by name.
     """
-    from .assets.bundled import bundled_or
+    from .assets.bundled import resolve_bundled
     from .checks import check_file
 
     folders = _folders_of(data_path)
@@ -322,5 +322,7 @@ def check(
     return tuple(
         diagnostic
         for path in paths
-        for diagnostic in check_file(bundled_or(Path(path)), data_path=folders, arguments=given)
+        for diagnostic in check_file(
+            resolve_bundled(Path(path)), data_path=folders, arguments=given
+        )
     )

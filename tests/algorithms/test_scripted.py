@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.algorithms.scripted import Scripted, twist_of
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.runs.planning.plan import AlgorithmUnderTest, Plan
@@ -41,7 +41,7 @@ def rows(
 ) -> list[LevelRow]:
     file = tmp_path / "benchmark.xml"
     file.write_text(FILE.format(measure=DISTANCE.format(gate=gate), stop=stop, updater=updater))
-    scene = read_scene(bundled("scenes")["visibility-scene"])
+    scene = read_scene(bundled_files("scenes")["visibility-scene"])
     twist = ROSTwistToPATSpec(topic="/twist", vehicle_name="girona500")
     odometry = ROSOdomToPATSpec(topic="/odom", vehicle_name="girona500")
     plan = Plan(

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.assets.bundled import benchmark_file, bundled, scene_file
+from uwsim.assets.bundled import benchmark_file, bundled_files, scene_file
 from uwsim.errors import AssetNotFound
 
 
 def test_a_bundled_file_is_found_by_its_bare_name() -> None:
-    assert benchmark_file("visibility") == bundled("benchmarks")["visibility"]
-    assert scene_file("visibility-scene") == bundled("scenes")["visibility-scene"]
+    assert benchmark_file("visibility") == bundled_files("benchmarks")["visibility"]
+    assert scene_file("visibility-scene") == bundled_files("scenes")["visibility-scene"]
 
 
 def test_a_file_of_that_name_in_the_current_folder_is_meant_first(

@@ -115,7 +115,7 @@ def test_the_unit_is_that_of_the_asset_below_the_root(
     asset: str, unit: float, axis: str, wrong: str, tmp_path: Path
 ) -> None:
     found = read_collada_asset(write(tmp_path, asset).read_bytes())
-    assert (found.unit, found.up_axis, found.wrong_unit) == (unit, axis, wrong)
+    assert (found.unit, found.up_axis, found.invalid_unit) == (unit, axis, wrong)
 
 
 def test_the_asset_of_a_file_that_is_no_xml_is_the_default() -> None:

@@ -11,7 +11,7 @@ import trimesh
 from PIL import Image
 
 from tests.support.opened import open_scene
-from uwsim.assets import load_model, why_unreadable
+from uwsim.assets import load_model, model_read_error
 from uwsim.checks import check_file, model_warnings
 from uwsim.errors import AssetError
 from uwsim.scene.reader import read_scene
@@ -176,7 +176,7 @@ def test_an_image_that_cannot_be_read_is_named(suffix: str, cut: bool, tmp_path:
         write(path, geometry("a"), node("a", "#pic"), [look])
         text = path.read_text().replace("<library_eff", f"{images}</library_images><library_eff")
         path.write_text(text)
-    assert why_unreadable(str(path)) == ""
+    assert model_read_error(str(path)) == ""
     model = load_model(str(path))
     assert model.meshes[0].texture is None
     (remark,) = model.remarks

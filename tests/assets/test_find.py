@@ -3,7 +3,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.assets import find, folders_searched, has_model, load_model, why_unreadable
+from uwsim.assets import find, has_model, load_model, model_read_error, searched_folders
 from uwsim.errors import AssetError
 
 
@@ -98,7 +98,7 @@ def test_blanks_and_url_prefixes_do_not_belong_to_a_name(tmp_path: Path) -> None
 
 def test_folders_are_listed_once_each_in_order(tmp_path: Path) -> None:
     scene = tmp_path / "deep" / "a.xml"
-    folders = folders_searched(named_by=scene, data_path=(tmp_path,))
+    folders = searched_folders(named_by=scene, data_path=(tmp_path,))
     assert len(folders) == len(set(folders))
     assert folders[0] == scene.parent
     assert Path() in folders
@@ -113,7 +113,7 @@ def test_neither_the_home_folder_nor_what_is_above_it_is_searched(home: Path) ->
     assert find("secret.stl", named_by=home / "scene.xml") == home / "secret.stl"
 
 
-OUTSIDE = "is outside the folders that are searched, so that it is not read; --data-path adds"
+OUTSIDE = "is outside the searched folders, so that it is not read; --data-path adds"
 
 
 @pytest.mark.parametrize("by", ["absolute", "up", "link", "url"])
@@ -129,7 +129,7 @@ def test_what_a_file_names_lies_under_the_folders_searched(tmp_path: Path, by: s
         for ask in (find, load_model, has_model):
             with pytest.raises(AssetError, match=OUTSIDE):
                 ask(name, named_by=scene)
-        assert OUTSIDE in why_unreadable(name, named_by=scene)
+        assert OUTSIDE in model_read_error(name, named_by=scene)
         assert find(name, named_by=scene, data_path=(secret.parent,)) is not None
 
 

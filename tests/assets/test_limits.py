@@ -15,7 +15,7 @@ import pytest
 from PIL import Image
 
 from uwsim.assets import load_model
-from uwsim.assets.loaders import by_trimesh, collada_limits, looks
+from uwsim.assets.loaders import by_trimesh, collada_limits, materials
 from uwsim.errors import AssetError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
@@ -95,7 +95,7 @@ def test_what_a_mesh_names_stays_in_its_folder(inside: Path, way: str, suffix: s
         path = written(inside, gltf(buffers=[{"uri": name, "byteLength": 48}]))
     else:
         path = obj(inside, *((name,) if suffix == ".mtl" else ("m.mtl", name)))
-    with pytest.raises(AssetError, match="which is outside its folder; --data-path adds one") as e:
+    with pytest.raises(AssetError, match="outside its folder; --data-path adds a folder") as e:
         load_model(path.name, named_by=path)
     assert str(e.value).startswith(f"{path}: names the file '{name}'")
 
@@ -140,7 +140,7 @@ def test_a_device_is_not_read_for_a_buffer(inside: Path, name: str) -> None:
 def test_an_image_of_a_few_bytes_may_not_fill_the_memory(inside: Path) -> None:
     png(inside, "p.png", 9000, 9000)
     start = time.process_time()
-    with pytest.raises(AssetError, match=r"an image of 9000 x 9000 pixels; at most 67 million"):
+    with pytest.raises(AssetError, match=r"an image has 9000 x 9000 pixels; at most 67 million"):
         load_model(str(obj(inside, "m.mtl")))
     blob = base64.b64encode((inside / "p.png").read_bytes()).decode()
     tree = gltf(
@@ -149,7 +149,7 @@ def test_an_image_of_a_few_bytes_may_not_fill_the_memory(inside: Path) -> None:
         materials=[{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
     )
     tree["meshes"][0]["primitives"][0]["material"] = 0
-    with pytest.raises(AssetError, match=r"an image of 9000 x 9000 pixels; at most 67 million"):
+    with pytest.raises(AssetError, match=r"an image has 9000 x 9000 pixels; at most 67 million"):
         load_model(str(written(inside, tree)))
     assert time.process_time() - start < 2.0
 
@@ -161,7 +161,7 @@ def test_an_image_too_large_to_be_opened_is_not_left_out_in_silence(inside: Path
 
 
 def test_images_are_bounded_in_all_too(inside: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(looks, "MAX_PIXELS_IN_ALL", 300)
+    monkeypatch.setattr(materials, "MAX_TOTAL_PIXELS", 300)
     Image.new("RGB", (10, 10)).save(inside / "p.png")
     text = "".join(f"newmtl m{i}\nmap_Kd p.png\n" for i in range(4))
     (inside / "m.obj").write_text(
@@ -169,7 +169,7 @@ def test_images_are_bounded_in_all_too(inside: Path, monkeypatch: pytest.MonkeyP
         + "".join(f"usemtl m{i}\nf 1/1 2/2 3/3\n" for i in range(4))
     )
     (inside / "m.mtl").write_text(text)
-    with pytest.raises(AssetError, match="an image of 10 x 10 pixels"):
+    with pytest.raises(AssetError, match="an image has 10 x 10 pixels"):
         load_model(str(inside / "m.obj"))
 
 
@@ -227,7 +227,7 @@ def test_instances_are_counted_before_they_are_made(
     monkeypatch.setattr(by_trimesh, "MAX_TRIANGLES", 30)
     nodes = [{"mesh": 0}] * 31
     tree = gltf(nodes=nodes, scenes=[{"nodes": list(range(31))}])
-    with pytest.raises(AssetError, match="31 triangles; at most 30 are read"):
+    with pytest.raises(AssetError, match="31 triangles; expected at most 30"):
         load_model(str(written(inside, tree)))
 
 
@@ -276,7 +276,7 @@ def instances_of_instances(n: int, each: int) -> str:
         (
             '<node> <instance_node url="#n9"/> </node>',
             instances_of_instances(9, 10),
-            "its nodes stand for .* at most 20000 are read",
+            "its nodes have .* at most 20000 are read",
         ),
         (
             '<node> <instance_node url="#n101"/> </node>',
@@ -309,7 +309,7 @@ def test_so_are_those_of_a_skin(n: int, inside: Path, monkeypatch: pytest.Monkey
     assert load_model(str(inside / "x.dae")).n_triangles == n
     monkeypatch.setattr(collada_limits, "MAX_TEXT", n * len("0 1 2") - 1)
     (inside / "y.dae").write_text(text)
-    with pytest.raises(AssetError, match=r"its instances stand for .* MiB of triangles"):
+    with pytest.raises(AssetError, match=r"its instances have .* MiB of triangles"):
         load_model(str(inside / "y.dae"))
 
 
@@ -321,5 +321,5 @@ def test_triangles_of_a_collada_file_are_counted_for_each_instance(
     assert load_model(str(inside / "x.dae")).n_triangles == 25
     monkeypatch.setattr(collada_limits, "MAX_TEXT", 24 * len("0 1 2"))
     (inside / "y.dae").write_text(dae(nodes, library))
-    with pytest.raises(AssetError, match=r"its instances stand for .* MiB of triangles"):
+    with pytest.raises(AssetError, match=r"its instances have .* MiB of triangles"):
         load_model(str(inside / "y.dae"))

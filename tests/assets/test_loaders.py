@@ -6,7 +6,7 @@ import pytest
 import trimesh
 from PIL import Image
 
-from uwsim.assets.loaders import READABLE, read_model
+from uwsim.assets.loaders import MESH_FORMATS, read_model
 from uwsim.errors import AssetError
 
 COLLADA = """<?xml version="1.0"?>
@@ -112,7 +112,7 @@ def test_a_changed_file_is_read_again(tmp_path: Path) -> None:
     assert read_model(path, name="x").n_triangles == 2
 
 
-@pytest.mark.parametrize("suffix", READABLE)
+@pytest.mark.parametrize("suffix", MESH_FORMATS)
 def test_broken_files_are_refused_cleanly(tmp_path: Path, suffix: str) -> None:
     if suffix == ".gltf":
         whole = b'{"asset":{"version":"2.0"},"buffers":[{"uri":"http://nowhere.invalid/x.bin"}]}'

@@ -31,7 +31,7 @@ def written(folder: Path, text: str, name: str = "thing.obj") -> Path:
 
 def fresh(path: Path) -> Model:
     """Read as a new process would."""
-    loaders._kept.clear()
+    loaders._cache.clear()
     return loaders.read_model(path, name=path.name)
 
 

@@ -27,7 +27,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def fresh(name: str) -> Model:
     """Ask as a new process would."""
-    return room.made.__wrapped__(name)
+    return room.generated_model.__wrapped__(name)
 
 
 def models(cache: Path) -> list[Path]:

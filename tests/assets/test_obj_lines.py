@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.fuzzed_obj import trial
-from uwsim.assets import why_unreadable
+from uwsim.assets import model_read_error
 from uwsim.assets.loaders import read_model
 from uwsim.errors import AssetError
 
@@ -42,8 +42,8 @@ def test_damaged_files_are_one_clean_line(tmp_path: Path) -> None:
 
 def test_what_is_in_a_mesh_is_looked_at_before_it_is_needed(tmp_path: Path) -> None:
     (tmp_path / "m.obj").write_text("v 0 0\nf 1 1 1\n")
-    said = why_unreadable("m.obj", named_by=tmp_path)
+    said = model_read_error("m.obj", named_by=tmp_path)
     assert said == f"{tmp_path / 'm.obj'}:1: 'v 0 0': has 2 of the 3 numbers expected"
     (tmp_path / "m.obj").write_text(f"{TRIANGLE}f 1 2 3\n")
-    assert why_unreadable("m.obj", named_by=tmp_path) == ""
-    assert why_unreadable("nowhere.obj", named_by=tmp_path) == ""
+    assert model_read_error("m.obj", named_by=tmp_path) == ""
+    assert model_read_error("nowhere.obj", named_by=tmp_path) == ""

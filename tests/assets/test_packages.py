@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.assets import find, load_model, model_place_remark, package_remark, place_remark
-from uwsim.assets.bundled import bundled
+from uwsim.assets import find, load_model, location_remark, model_location_remark, package_remark
+from uwsim.assets.bundled import bundled_files
 from uwsim.assets.packages import package_of
 from uwsim.checks import check_file, model_warnings
 from uwsim.errors import AssetError, AssetNotFound
@@ -219,7 +219,7 @@ def test_a_model_in_a_package_is_found_from_the_workspace(
         file = f"{scheme}://{name}/meshes/m.obj"
         model = load_model(file, named_by=scene, data_path=(tmp_path / "ws",))
         assert model.box.upper[0] == pytest.approx(edge)
-        assert not model_place_remark(file, named_by=scene, data_path=(tmp_path / "ws",))
+        assert not model_location_remark(file, named_by=scene, data_path=(tmp_path / "ws",))
 
 
 def test_a_package_comes_before_a_folder_of_its_name_in_another(tmp_path: Path) -> None:
@@ -232,7 +232,7 @@ def test_a_package_comes_before_a_folder_of_its_name_in_another(tmp_path: Path) 
     for name in ("arm", "tool-desc"):
         assert edge_of(name, scene, tmp_path / "ws") == pytest.approx(SIZES[name])
         file = f"package://{name}/meshes/base.obj"
-        assert not model_place_remark(file, named_by=scene, data_path=(tmp_path / "ws",))
+        assert not model_location_remark(file, named_by=scene, data_path=(tmp_path / "ws",))
 
 
 def test_the_folders_in_packages_are_counted_apart(
@@ -276,7 +276,7 @@ def test_a_lost_package_is_named_and_a_file_of_that_path_is_used_with_a_warning(
     robot = tmp_path / "copied" / "r.urdf"
     name = "package://gone/meshes/base.obj"
     assert find(name, named_by=robot) == mesh
-    remark = place_remark(name, mesh, named_by=robot)
+    remark = location_remark(name, mesh, named_by=robot)
     assert remark.startswith("package 'gone' is not found; --data-path DIR adds its folder")
     assert remark.endswith(f"{mesh} is used")
 
@@ -299,7 +299,7 @@ def test_a_link_out_of_the_folders_searched_is_refused_in_a_package_too(
     meshes.mkdir(parents=True)
     (meshes / "base.obj").symlink_to(secret)
     robot = tmp_path / "home" / "ws" / "hull" / "r.urdf"
-    with pytest.raises(AssetError, match="is outside the folders that are searched"):
+    with pytest.raises(AssetError, match="is outside the searched folders"):
         find("package://arm/meshes/base.obj", named_by=robot)
 
 
@@ -307,7 +307,7 @@ def test_files_of_the_original_need_no_package(tmp_path: Path) -> None:
     scene = tmp_path / "uwsim" / "scene.xml"  # a folder of the package's name, without its files
     scene.parent.mkdir()
     found = find("package://uwsim/data/scenes/g500ARM5.urdf", named_by=scene)
-    assert found == bundled("scenes")["cirs"].parent / "g500ARM5.urdf"
+    assert found == bundled_files("scenes")["cirs"].parent / "g500ARM5.urdf"
 
 
 ROBOT = """<robot name="r">
@@ -367,10 +367,10 @@ def test_a_package_that_is_there_twice_is_named_where_the_files_differ(
     first, second = (tmp_path / "ws" / folder / "m.obj" for folder in folders)
     cube(first, 0.5)
     cube(second, edge)
-    remark = model_place_remark(
+    remark = model_location_remark(
         "package://tool/m.obj", named_by=asked, data_path=(tmp_path / "ws",)
     )
-    twice = f"package 'tool' is there twice; {first} is used, not {second}"
+    twice = f"package 'tool' exists twice; {first} is used, not {second}"
     assert remark == ("" if edge == 0.5 else twice)
 
 
@@ -378,7 +378,7 @@ def test_a_package_that_is_there_twice_is_named_where_the_files_differ(
 def test_a_mesh_of_another_format_is_named(name: str, tmp_path: Path) -> None:
     robot = tmp_path / "tool" / "r.urdf"
     mesh = cube(robot.parent / "m.obj", 0.2)
-    told = model_place_remark(name, named_by=robot)
+    told = model_location_remark(name, named_by=robot)
     assert told == ("" if name.endswith(".ive") else f"'m.dae' is not found; {mesh} is used")
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.assets import find, load_model, place_remark
+from uwsim.assets import find, load_model, location_remark
 from uwsim.checks import check_file, model_warnings
 from uwsim.errors import AssetError
 from uwsim.scene.reader import read_scene
@@ -41,7 +41,7 @@ def test_it_is_found_by_its_last_parts(
     name = root + (written.replace("/", "\\") if "\\" in root else written)
     found = find(name, named_by=named_by)
     assert found == file
-    assert place_remark(name, found, named_by=named_by).endswith(
+    assert location_remark(name, found, named_by=named_by).endswith(
         f"is a path of another computer; {file} is used"
     )
 
@@ -68,11 +68,11 @@ def test_a_file_that_is_on_this_computer_is_not_replaced(
     secret = mesh(tmp_path / "other" / "x.obj")
     mesh(tmp_path / "home" / "sea" / "x.obj")
     scene = tmp_path / "home" / "sea" / "scene.xml"
-    with pytest.raises(AssetError, match="is outside the folders that are searched"):
+    with pytest.raises(AssetError, match="is outside the searched folders"):
         load_model(str(secret), named_by=scene)
     here = find(str(secret), named_by=scene, data_path=(secret.parent,))
     assert here == secret
-    assert place_remark(str(secret), here, named_by=scene) == ""
+    assert location_remark(str(secret), here, named_by=scene) == ""
 
 
 def test_check_and_run_warn_and_use_the_file(tmp_path: Path) -> None:

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from uwsim.assets import load_model
-from uwsim.assets.loaders.obj_plain import plain
-from uwsim.assets.loaders.polygons import MAX_CORNERS, cut, ears
+from uwsim.assets.loaders.obj_rewriting import rewrite
+from uwsim.assets.loaders.polygons import MAX_CORNERS, cut_ears, triangulate
 from uwsim.errors import AssetError
 
 L = [(2, 0), (2, 1), (1, 1), (1, 2), (0, 2), (0, 0)]
@@ -55,7 +55,7 @@ def test_the_triangles_cover_the_polygon_from_any_corner(name: str, is_reversed:
     shape, area = SHAPES[name]
     for turn in range(len(shape)):
         points = in_space(shape[::-1] if is_reversed else shape, turn)
-        triangles = ears(points)
+        triangles = cut_ears(points)
         assert len(triangles) == len(shape) - 2
         assert area_of(points, triangles) == pytest.approx(area)
         a, b, c = np.moveaxis(points[triangles], 1, 0)
@@ -72,13 +72,13 @@ def test_random_stars_are_covered() -> None:
         x, y = flat.T
         area = abs(float((x * np.roll(y, -1) - y * np.roll(x, -1)).sum())) / 2
         points = in_space(flat)
-        assert area_of(points, cut(points, np.array([n]))) == pytest.approx(area)
+        assert area_of(points, triangulate(points, np.array([n]))) == pytest.approx(area)
 
 
 def test_convex_polygons_are_fans_in_their_order() -> None:
     square = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     points = np.array([*square, *in_space(L), *square, *square[:3]], np.float64)
-    triangles = cut(points, np.array([4, 6, 4, 3])).tolist()
+    triangles = triangulate(points, np.array([4, 6, 4, 3])).tolist()
     assert triangles[:2] == [[0, 1, 2], [0, 2, 3]]
     assert triangles[6:] == [[10, 11, 12], [10, 12, 13], [14, 15, 16]]
     assert set(itertools.chain(*triangles[2:6])) == set(range(4, 10))
@@ -87,14 +87,14 @@ def test_convex_polygons_are_fans_in_their_order() -> None:
 @pytest.mark.parametrize("counts", [[0], [1], [2], [0, 3, 2]])
 def test_what_is_no_polygon_has_no_triangle(counts: list[int]) -> None:
     points = np.zeros((sum(counts), 3))
-    assert len(cut(points, np.array(counts))) == counts.count(3)
+    assert len(triangulate(points, np.array(counts))) == counts.count(3)
 
 
 def test_a_polygon_that_crosses_itself_or_is_flat_ends() -> None:
     bow = np.array([(0, 0, 0), (1, 1, 0), (1, 0, 0), (0, 1, 0)], np.float64)
-    assert len(ears(bow)) == 2
-    assert len(ears(np.zeros((9, 3)))) == 7
-    assert len(ears(np.array([(i, 0, 0) for i in range(9)], np.float64))) == 7
+    assert len(cut_ears(bow)) == 2
+    assert len(cut_ears(np.zeros((9, 3)))) == 7
+    assert len(cut_ears(np.array([(i, 0, 0) for i in range(9)], np.float64))) == 7
 
 
 def test_very_many_corners_do_not_cost_their_square() -> None:
@@ -102,7 +102,7 @@ def test_very_many_corners_do_not_cost_their_square() -> None:
     angles = np.linspace(0.0, 2 * math.pi, n, endpoint=False)
     radii = np.where(np.arange(n) % 2, 1.0, 0.5)
     points = np.stack([radii * np.cos(angles), radii * np.sin(angles), 0 * angles], axis=-1)
-    assert len(cut(points, np.array([n]))) == n - 2
+    assert len(triangulate(points, np.array([n]))) == n - 2
 
 
 DAE = """<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -179,5 +179,5 @@ def test_an_obj_file_with_the_line_ends_of_old_computers_is_read(tmp_path: Path)
 )
 def test_a_long_line_does_not_cost_its_square(line: bytes) -> None:
     began = time.thread_time()
-    plain(b"v 0 0 0\n" + line + b"\nv 0 0 0 # -\n")
+    rewrite(b"v 0 0 0\n" + line + b"\nv 0 0 0 # -\n")
     assert time.thread_time() - began < 5.0

@@ -19,7 +19,7 @@ CLOSED: dict[str, tuple[Shape, float]] = {
     "ring": (shapes.ring(1.0, 0.5, 0.0, 1.0, n=64), math.pi * 0.75),
     "tube": (shapes.tube([(0, 0, 0), (0, 0, 1), (1, 0, 2)], 0.1, n=48),
              math.pi * 0.01 * (1 + math.sqrt(2))),
-    "extrusion": (shapes.extrusion(shapes.rounded(2, 1, 0.1, 8), 0.0, 1.0),
+    "extrusion": (shapes.extrusion(shapes.rounded_rectangle(2, 1, 0.1, 8), 0.0, 1.0),
                   2 - 0.04 + math.pi / 100),
     "rounded box": (shapes.rounded_box((0, 0, 0), (1, 1, 1), radius=0.05, n=4), 1.0),
 }  # fmt: skip
@@ -60,13 +60,13 @@ def test_a_box_has_flat_faces_and_a_sphere_is_smooth() -> None:
 
 def test_mirroring_keeps_the_outside_out() -> None:
     shape = CLOSED["cylinder"][0]
-    assert shape.scaled(1, 1, -1).volume == pytest.approx(shape.volume)
-    assert shape.flipped().volume == pytest.approx(-shape.volume)
+    assert shape.scale(1, 1, -1).volume == pytest.approx(shape.volume)
+    assert shape.flip().volume == pytest.approx(-shape.volume)
 
 
 @given(st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: np.linalg.norm(v) > 1e-3))
 def test_facing_is_a_rotation_that_takes_z_there(direction: tuple[float, float, float]) -> None:
-    rotation = shapes.facing(np.array(direction))
+    rotation = shapes.rotation_to(np.array(direction))
     assert np.allclose(rotation @ rotation.T, np.eye(3), atol=1e-9)
     assert np.linalg.det(rotation) == pytest.approx(1.0)
     assert np.allclose(rotation[:, 2], np.array(direction) / np.linalg.norm(direction))

@@ -28,8 +28,8 @@ def test_tiling_noise_has_no_seam() -> None:
 
 
 def test_words_leave_ink_where_they_are_written_and_nowhere_else() -> None:
-    image = textures.plain(100, 200, (1.0, 1.0, 1.0))
-    textures.write(image, "DO NOT OPEN", (0.5, 0.5), width=0.5, height=0.2)
+    image = textures.fill(100, 200, (1.0, 1.0, 1.0))
+    textures.paint_text(image, "DO NOT OPEN", (0.5, 0.5), width=0.5, height=0.2)
     ink = image.mean(axis=2) < 0.5
     rows, columns = np.nonzero(ink)
     assert 0.2 < ink[40:60, 50:150].mean() < 0.8
@@ -40,8 +40,8 @@ def test_words_leave_ink_where_they_are_written_and_nowhere_else() -> None:
 
 
 def test_words_near_a_border_are_cut_off_not_wrapped() -> None:
-    image = textures.plain(40, 40, (1.0, 1.0, 1.0))
-    textures.write(image, "XXXX", (0.0, 0.0), width=1.0)
+    image = textures.fill(40, 40, (1.0, 1.0, 1.0))
+    textures.paint_text(image, "XXXX", (0.0, 0.0), width=1.0)
     assert (image[20:, :] == 1.0).all()
     assert (image[:10, :10] < 1.0).any()
 
@@ -49,11 +49,11 @@ def test_words_near_a_border_are_cut_off_not_wrapped() -> None:
 def test_relief_is_brighter_on_the_side_of_the_light() -> None:
     y, x = np.mgrid[0:32, 0:32].astype(np.float32)
     dome = -np.hypot(x - 16, y - 16).astype(np.float32)
-    shade = textures.lit(dome, 0.2)
+    shade = textures.shading(dome, 0.2)
     assert shade[8, 8] > 1.1
     assert shade[24, 24] < 0.9
 
 
 def test_pixels_are_rounded_and_clipped() -> None:
-    texture = textures.finished("x", np.array([[[-1.0, 0.5, 2.0]]], dtype=np.float32))
+    texture = textures.to_texture("x", np.array([[[-1.0, 0.5, 2.0]]], dtype=np.float32))
     assert texture.pixels.tolist() == [[[0, 128, 255]]]

@@ -6,7 +6,7 @@ import numpy as np
 
 from uwsim.assets import load_model
 from uwsim.assets.mesh import Model
-from uwsim.assets.weathering import weathered
+from uwsim.assets.weathering import weather_model
 
 
 def box() -> Model:
@@ -14,22 +14,22 @@ def box() -> Model:
 
 
 def face(pattern: int, strength: float = 0.12) -> np.ndarray:
-    texture = weathered(box(), pattern, strength).meshes[0].texture
+    texture = weather_model(box(), pattern, strength).meshes[0].texture
     assert texture is not None
     return texture.pixels
 
 
 def test_pattern_0_and_strength_0_are_the_model_itself() -> None:
     model = box()
-    assert weathered(model, 0, 0.5) is model
-    assert weathered(model, 7, 0.0) is model
+    assert weather_model(model, 0, 0.5) is model
+    assert weather_model(model, 7, 0.0) is model
 
 
 def test_each_pattern_is_another_and_always_the_same() -> None:
     assert np.array_equal(face(3), face(3))
     assert not np.array_equal(face(3), face(4))
     model = box()
-    assert weathered(model, 3, 0.12) is weathered(model, 3, 0.12)  # so it is uploaded once
+    assert weather_model(model, 3, 0.12) is weather_model(model, 3, 0.12)  # so it is uploaded once
 
 
 def test_brightness_varies_by_the_strength_and_not_on_the_whole() -> None:
@@ -42,7 +42,7 @@ def test_brightness_varies_by_the_strength_and_not_on_the_whole() -> None:
 
 def test_shape_and_name_stay_and_shared_textures_stay_shared() -> None:
     model = box()
-    made = weathered(model, 5, 0.2)
+    made = weather_model(model, 5, 0.2)
     assert (made.name, made.sha256, made.box) == (model.name, model.sha256, model.box)
     for before, after in zip(model.meshes, made.meshes, strict=True):
         assert after.vertices is before.vertices

@@ -5,14 +5,14 @@ from pathlib import Path
 from tests.support.short_benchmark import BENCHMARK, run
 from tests.support.synthetic_results import visibility
 from uwsim.analysis.plots import draw_plots
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.cli.bench import folders_of
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Result
 
 
 def test_a_camera_may_be_called_as_no_file_can_be(tmp_path: Path) -> None:
-    scene = bundled("scenes")["visibility-scene"].read_text()
+    scene = bundled_files("scenes")["visibility-scene"].read_text()
     (tmp_path / "tank.xml").write_text(scene.replace("bowtech1", "left/front"))
     text = BENCHMARK.replace("visibility-scene.xml", "tank.xml").replace("LENGTH", "0.2")
     (tmp_path / "b.xml").write_text(text.replace("bowtech1", "left/front"))

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main
 from uwsim.scene.reader import read_scene
 from uwsim.scene.unsupported import UNSUPPORTED
@@ -42,7 +42,7 @@ def test_a_scene_is_reported_before_anything_is_written_for_it(
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [name for name in bundled("scenes") if name != "cirs"])
+@pytest.mark.parametrize("name", [name for name in bundled_files("scenes") if name != "cirs"])
 def test_every_bundled_scene_can_be_shown_and_json_says_the_same(
     name: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -70,7 +70,7 @@ def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setitem(UNSUPPORTED, ("rosInterfaces", "DVLSensorToROS"), "DVLSensorToROS")
-    text = bundled("scenes")["currents-scene"].read_text()
+    text = bundled_files("scenes")["currents-scene"].read_text()
     dvl = "<name>dvl</name> <relativeTo>base_link</relativeTo>"
     text = text.replace("<virtualCamera>", f"<dvlSensor>{dvl}</dvlSensor><virtualCamera>", 1)
     extra = "<DVLSensorToROS> <name>dvl</name> <topic>/dvl</topic> </DVLSensorToROS>"
@@ -177,7 +177,7 @@ def test_an_object_on_the_floor_is_shown_where_it_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Not at the z of the file, which the floor replaces; so is a vehicle."""
-    text = bundled("scenes")["currents-scene"].read_text()
+    text = bundled_files("scenes")["currents-scene"].read_text()
     (place,) = re.findall(r"<object>\s*<name>blackbox</name>.*?(<z>.*?</z>)", text, re.S)
     found = {}
     for z, floor in (("<z>-7</z>", "<u:onFloor/>"), (place, "")):

@@ -10,7 +10,7 @@ import pytest
 from lxml import etree
 
 from uwsim.algorithms import ALGORITHMS
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.benchmark.measures import MEASURES
 from uwsim.checks.benchmark_tables import bundled_tables
 from uwsim.checks.scene.not_simulated import read_only
@@ -43,7 +43,7 @@ def test_without_a_kind_everything_is_listed(capsys: pytest.CaptureFixture[str])
     assert main(["list"]) == 0
     printed = capsys.readouterr().out
     words = printed.split()
-    assert {*KINDS, *MEASURES, *bundled("scenes"), *bundled("benchmarks")} <= set(words)
+    assert {*KINDS, *MEASURES, *bundled_files("scenes"), *bundled_files("benchmarks")} <= set(words)
 
 
 def test_a_misspelt_kind_is_reported_with_the_right_one(capsys: pytest.CaptureFixture[str]) -> None:

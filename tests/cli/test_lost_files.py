@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.assets import loaders
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main
 
 DOCTYPE = '<!DOCTYPE UWSimScene SYSTEM "UWSimScene.dtd">'
@@ -51,7 +51,7 @@ def test_a_bundled_robot_replaces_a_lost_file_of_its_name_and_that_is_reported(
 def test_bench_says_once_that_a_bundled_robot_stands_for_a_lost_one(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    whole = bundled("scenes")["visibility-scene"].read_text()
+    whole = bundled_files("scenes")["visibility-scene"].read_text()
     file = tmp_path / "scene.xml"
     file.write_text(whole.replace("data/scenes/g500ARM5.urdf", LOST_BUT_OURS))
     words = ["bench", "visibility", "--scene", file, "--level", "fog=0"]

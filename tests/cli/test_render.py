@@ -11,11 +11,11 @@ import pytest
 from lxml import etree
 from PIL import Image
 
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main
 
 ORIGINALS = os.environ.get("UWSIM_ORIGINALS")
-SCENES = sorted(bundled("scenes").values())
+SCENES = sorted(bundled_files("scenes").values())
 SCENES += sorted(Path(ORIGINALS).glob("scenes/*.xml")) if ORIGINALS else []
 SCENE = ["render", "visibility-scene", "--camera", "bowtech1"]
 

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from tests.support.short_benchmark import write_benchmark
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main
 from uwsim.results.leaves import leaves
 from uwsim.results.provenance import save_provenance
@@ -58,7 +58,7 @@ def played(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with a benchmark, its scene, and the result of two trials."""
     folder = tmp_path_factory.mktemp("played")
     (folder / "b.xml").write_text(BENCHMARK)
-    scene = bundled("scenes")["visibility-scene"].read_text()
+    scene = bundled_files("scenes")["visibility-scene"].read_text()
     (folder / "tank.xml").write_text(scene.replace("<rate>30</rate>", "<rate>10</rate>"))
     plan = make_plan(
         PlanRequest(

@@ -19,7 +19,7 @@ READERS = ("assets/loaders", "currents", "dialect", "physics", "scene", "simulat
 """What reads the files that a scene or a benchmark names."""
 OTHERWISE = {
     "assets/loaders/by_trimesh.py: read_bytes",  # what osgconv made of a file that is recorded
-    "assets/loaders/looks.py: open",  # an image, of bytes that were read and recorded
+    "assets/loaders/materials.py: open",  # an image, of bytes that were read and recorded
     "assets/loaders/mesh_cache.py: read_bytes",  # sources of uwsim, for its cache's key
     "scene/hydrodynamics/vehicle_sets.py: open",  # only lists names for an error message
 }

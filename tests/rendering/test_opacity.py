@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.rendering.models import plate
-from uwsim.assets import painted
+from uwsim.assets import paint_model
 from uwsim.assets.mesh import Model, Texture
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.lamp import Lamp
@@ -51,7 +51,7 @@ def test_a_pane_lets_through_what_its_opacity_leaves(
     renderer: Renderer, opacity: float, store: str
 ) -> None:
     renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(3.0))
-    pane = painted(plate(4, 4), (*RED, opacity))
+    pane = paint_model(plate(4, 4), (*RED, opacity))
     renderer.place(renderer.add(pane, 2), at(2.0))
     front, back = of_one(plate(4, 4, RED)), of_one(plate(4, 4, GREEN))
     scale = 1.0 if store == "uint8" else 257.0
@@ -60,7 +60,7 @@ def test_a_pane_lets_through_what_its_opacity_leaves(
 
 
 def test_panes_are_seen_in_their_order_however_they_were_added(renderer: Renderer) -> None:
-    near, far = painted(plate(4, 4), (*RED, 0.5)), painted(plate(4, 4), (*GREEN, 0.5))
+    near, far = paint_model(plate(4, 4), (*RED, 0.5)), paint_model(plate(4, 4), (*GREEN, 0.5))
     renderer.place(renderer.add(near, 1), at(2.0))
     renderer.place(renderer.add(far, 2), at(3.0))
     red, green = of_one(plate(4, 4, RED)), of_one(plate(4, 4, GREEN))
@@ -69,7 +69,7 @@ def test_panes_are_seen_in_their_order_however_they_were_added(renderer: Rendere
 
 def test_what_is_behind_water_shows_through_a_pane_with_its_own_fog(renderer: Renderer) -> None:
     murky = replace(AIR, fog=0.5, fog_colour=(0.1, 0.2, 0.9))
-    renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.5)), 1), at(1.0))
+    renderer.place(renderer.add(paint_model(plate(4, 4), (*RED, 0.5)), 1), at(1.0))
     nothing = np.array(murky.fog_colour) * 255.0
     red = middle(look(renderer, water=murky)) * 2.0 - nothing
     t = np.exp(-(0.5**2))
@@ -78,7 +78,7 @@ def test_what_is_behind_water_shows_through_a_pane_with_its_own_fog(renderer: Re
 
 def test_a_pane_is_what_a_range_finder_meets_first(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(3.0))
-    renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.3)), 2), at(2.0))
+    renderer.place(renderer.add(paint_model(plate(4, 4), (*RED, 0.3)), 2), at(2.0))
     for targets in ({"range", "ids"}, {"colour", "range", "ids"}):
         image = look(renderer, targets=targets)
         assert image.ids is not None
@@ -90,7 +90,7 @@ def test_a_pane_is_what_a_range_finder_meets_first(renderer: Renderer) -> None:
 @pytest.mark.parametrize("target", ["colour", "range", "ids"])
 def test_an_image_of_one_kind_alone_may_show_a_pane(renderer: Renderer, target: str) -> None:
     renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(3.0))
-    renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.3)), 2), at(2.0))
+    renderer.place(renderer.add(paint_model(plate(4, 4), (*RED, 0.3)), 2), at(2.0))
     alone = getattr(look(renderer, targets={target}), target)
     together = getattr(look(renderer), target)
     assert np.array_equal(alone, together)
@@ -98,13 +98,13 @@ def test_an_image_of_one_kind_alone_may_show_a_pane(renderer: Renderer, target: 
 
 def test_a_pane_behind_a_wall_is_not_seen(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(2.0))
-    renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.5)), 2), at(3.0))
+    renderer.place(renderer.add(paint_model(plate(4, 4), (*RED, 0.5)), 2), at(3.0))
     assert middle(look(renderer)) == pytest.approx(of_one(plate(4, 4, GREEN)))
 
 
 def test_what_is_wholly_clear_is_not_there_for_the_eye(renderer: Renderer) -> None:
     renderer.place(renderer.add(plate(4, 4, GREEN), 1), at(3.0))
-    renderer.place(renderer.add(painted(plate(4, 4), (*RED, 0.0)), 2), at(2.0))
+    renderer.place(renderer.add(paint_model(plate(4, 4), (*RED, 0.0)), 2), at(2.0))
     assert middle(look(renderer)) == pytest.approx(of_one(plate(4, 4, GREEN)))
 
 
@@ -121,13 +121,13 @@ def test_glass_casts_no_shadow(renderer: Renderer) -> None:
         own.close()
         return colour
 
-    clear = lit(painted(plate(1, 1), (*RED, 0.5)))
-    assert clear == pytest.approx(lit(painted(plate(0.001, 0.001), (*RED, 1.0))), abs=1.0)
-    assert lit(painted(plate(1, 1), (*RED, 1.0))).sum() < 0.8 * clear.sum()
+    clear = lit(paint_model(plate(1, 1), (*RED, 0.5)))
+    assert clear == pytest.approx(lit(paint_model(plate(0.001, 0.001), (*RED, 1.0))), abs=1.0)
+    assert lit(paint_model(plate(1, 1), (*RED, 1.0))).sum() < 0.8 * clear.sum()
 
 
 def test_the_next_image_knows_nothing_of_the_glass_in_the_last(renderer: Renderer) -> None:
-    handle = renderer.add(painted(plate(4, 4), (*RED, 0.5)), 1)
+    handle = renderer.add(paint_model(plate(4, 4), (*RED, 0.5)), 1)
     renderer.place(handle, at(2.0))
     look(renderer)
     renderer.remove(handle)
@@ -140,16 +140,16 @@ def test_the_next_image_knows_nothing_of_the_glass_in_the_last(renderer: Rendere
 
 def test_paint_takes_the_place_of_a_meshs_colour_and_tints_its_texture() -> None:
     checks = Texture(name="half", pixels=np.full((4, 4, 3), 128, np.uint8))
-    model = painted(plate(1, 1, (0.2, 0.9, 0.2), texture=checks), (1.0, 0.5, 0.0, 1.0))
+    model = paint_model(plate(1, 1, (0.2, 0.9, 0.2), texture=checks), (1.0, 0.5, 0.0, 1.0))
     assert model.meshes[0].colour == (1.0, 0.5, 0.0)
     assert model.meshes[0].texture is checks
     whole, half = (
         of_one(plate(4, 4, (1.0, 0.5, 0.0))),
-        of_one(painted(plate(4, 4, texture=checks), (1.0, 0.5, 0.0, 1.0))),
+        of_one(paint_model(plate(4, 4, texture=checks), (1.0, 0.5, 0.0, 1.0))),
     )
     assert half == pytest.approx(whole * 128 / 255, abs=8.0)  # the glint is not tinted
 
 
 def test_the_same_paint_is_the_same_model() -> None:
     bare = plate(1, 1)
-    assert painted(bare, (1.0, 0.0, 0.0, 1.0)) is painted(bare, (1.0, 0.0, 0.0, 1.0))
+    assert paint_model(bare, (1.0, 0.0, 0.0, 1.0)) is paint_model(bare, (1.0, 0.0, 0.0, 1.0))

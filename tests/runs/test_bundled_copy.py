@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.assets.find import PACKAGE
 from uwsim.base.files.input_files import record_inputs
 from uwsim.cli import main
@@ -21,7 +21,7 @@ from uwsim.scene.reader import read_scene
 def files_read(path: Path) -> set[Path]:
     """Open a copied scene or benchmark; return the files of the scene that are read."""
     with record_inputs() as files:
-        if path.stem in bundled("scenes"):
+        if path.stem in bundled_files("scenes"):
             open_scene(read_scene(path)).close()
         else:
             hash_inputs(make_plan(PlanRequest(benchmark=str(path))))
@@ -72,4 +72,4 @@ def test_an_unknown_name_names_the_nearest(capsys: pytest.CaptureFixture[str]) -
 
 
 def test_every_bundled_scene_and_benchmark_can_be_copied() -> None:
-    assert set(copyable_names()) == {*bundled("scenes"), *bundled("benchmarks")}
+    assert set(copyable_names()) == {*bundled_files("scenes"), *bundled_files("benchmarks")}

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.benchmark.measures import MEASURES, Distance, DistanceSpec, Measure, MeasureSpec
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.results.measures_file import FILE, MeasureNote, load_measures, save_measures
@@ -50,7 +50,7 @@ def test_without_a_live_class_the_spec_is_asked() -> None:
 
 
 def test_notes_are_read_back_and_damaged_files_have_none(tmp_path: Path) -> None:
-    spec = read_benchmark(bundled("benchmarks")["currents"])
+    spec = read_benchmark(bundled_files("benchmarks")["currents"])
     notes = notes_of(spec.measures)
     assert notes["offset"].value == "mean"
     save_measures(notes, tmp_path)

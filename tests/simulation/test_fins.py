@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.checks import check_file
 from uwsim.errors import BadMessage
 from uwsim.messages import Float64MultiArray, MultiArrayLayout
@@ -20,7 +20,7 @@ from uwsim.simulation import Simulation
 
 
 def remus(path: Path | None = None) -> Simulation:
-    scene = replace(read_scene(path or bundled("scenes")["remus-scene"]), vary=())
+    scene = replace(read_scene(path or bundled_files("scenes")["remus-scene"]), vary=())
     vehicle = replace(scene.vehicles[0], parts=())
     commands = tuple(each for each in scene.ros_interfaces if not hasattr(each, "camera_name"))
     made = open_scene(replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=commands))
@@ -40,7 +40,7 @@ def changed(folder: Path, *changes: tuple[str, str]) -> Path:
         assert old in text
         text = text.replace(old, new, 1)
     (folder / "own.xml").write_text(text)
-    scene = bundled("scenes")["remus-scene"].read_text()
+    scene = bundled_files("scenes")["remus-scene"].read_text()
     (folder / "scene.xml").write_text(scene.replace(">remus100<", ">own<"))
     return folder / "scene.xml"
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim import Simulation
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.checks import check_file
 from uwsim.messages import TwistStamped
 from uwsim.scene.reader import read_scene
@@ -21,7 +21,7 @@ TWIST = ROSTwistToPATSpec(topic="/twist", vehicle_name="girona500")
 
 def driven(*shown: ShowTrajectorySpec) -> Simulation:
     """A vehicle that was driven along its x axis for a second at 0.5 m/s."""
-    scene = read_scene(bundled("scenes")["visibility-scene"])
+    scene = read_scene(bundled_files("scenes")["visibility-scene"])
     params = replace(scene.sim_params, show_trajectory=shown)
     simulation = open_scene(
         replace(scene, sim_params=params, ros_interfaces=(TWIST,)), is_blind=True
@@ -63,5 +63,5 @@ def test_points_older_than_the_time_window_go_and_unknown_targets_are_left_out()
 
 
 def test_check_does_not_call_them_unsimulated() -> None:
-    found = [each.message for each in check_file(bundled("scenes")["cirs"])]
+    found = [each.message for each in check_file(bundled_files("scenes")["cirs"])]
     assert not [message for message in found if "trajector" in message]

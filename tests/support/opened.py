@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.base.digest import digest_of
 from uwsim.model.scene_model import SceneModel
 from uwsim.physics.compile_scene import compile_scene
@@ -44,7 +44,7 @@ def open_scene(
         compatibility=compatibility,
         integrator=integrator,
     )
-    if Path(scene.path) in bundled("scenes").values():
+    if Path(scene.path) in bundled_files("scenes").values():
         _MODELS[key] = model
     for oldest in list(_MODELS)[:-N_MODELS]:
         del _MODELS[oldest]

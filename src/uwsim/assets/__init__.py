@@ -1,7 +1,7 @@
 """Assets: models by the names that scene files use, from files or generated.
 
-`load_model` looks for the file (`find.py`), then for a file of the same stem that it can read,
-then for our replacement of that relative name (`STAND_INS`).
+`load_model` searches for the file (`find.py`), then for a readable file of the same stem, then for
+the generated replacement of that relative name (`STAND_INS`).
 """
 
 from __future__ import annotations
@@ -12,27 +12,27 @@ from pathlib import Path, PurePosixPath
 from ..base.files.input_files import is_inside
 from ..errors import AssetError, AssetNotFound, did_you_mean
 from .find import (
-    UNDER,
-    above,
+    SUBFOLDERS,
     bundled_robot,
     bundled_robots,
     candidates,
     find,
-    folders_searched,
+    parent_folders,
     plain_name,
     roots,
+    searched_folders,
 )
-from .loaders import BY_OSGCONV, READABLE, can_read, read_model
+from .loaders import MESH_FORMATS, OSGCONV_FORMATS, can_read, read_model
 from .mesh import Mesh, Model, Texture
-from .model_cache import made
-from .packages import OURS, PREFIXES, environment_folders, package_folders, package_of
-from .paint import painted
-from .places import may_be_elsewhere, package_remark, place_remark, searched_for
+from .model_cache import generated_model
+from .packages import PREFIXES, UWSIM_PACKAGE, environment_folders, package_folders, package_of
+from .paint import paint_model
+from .places import describe_search, location_remark, package_remark, states_location
 from .primitives import primitive
 from .stand_ins import STAND_INS, StandIn
 
 __all__ = [
-    "READABLE",
+    "MESH_FORMATS",
     "STAND_INS",
     "Mesh",
     "Model",
@@ -40,29 +40,26 @@ __all__ = [
     "Texture",
     "bundled_robot",
     "bundled_robots",
+    "describe_search",
     "find",
-    "folders_searched",
     "has_model",
     "load_model",
-    "model_place_remark",
+    "location_remark",
+    "model_location_remark",
+    "model_read_error",
     "model_remarks",
     "package_remark",
-    "painted",
-    "place_remark",
+    "paint_model",
     "primitive",
-    "searched_for",
+    "searched_folders",
     "unknown_model",
-    "why_unreadable",
 ]
 
 
 def load_model(
-    name: str,
-    *,
-    named_by: Path | None = None,
-    data_path: tuple[Path, ...] = (),
+    name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> Model:
-    """The model called ``name``, as a scene or robot file calls it.
+    """Return the model called ``name``, as a scene or robot file calls it.
 
     Args:
         name: Path, absolute or relative, of a mesh file.
@@ -70,63 +67,67 @@ def load_model(
         data_path: Further folders to search.
 
     Raises:
-        AssetNotFound: Neither a file nor a stand-in; names the folders searched.
+        AssetNotFound: There is neither a file nor a stand-in; it lists the folders searched.
         AssetError: The file was found and cannot be read.
     """
-    path = _path_of(name, named_by, data_path)
-    given, name = name, plain_name(name)
+    path = _model_path(name, named_by, data_path)
+    requested_name, name = name, plain_name(name)
     if path is not None:
-        if (in_package := package_of(given)) is not None and in_package[0] != OURS:
+        if (in_package := package_of(requested_name)) is not None and in_package[
+            0
+        ] != UWSIM_PACKAGE:
             name = "/".join(in_package)
         places = [*roots(named_by=named_by or path, data_path=data_path), *environment_folders()]
-        own = max(places, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
-        within = (own.absolute(), *data_path)
-        return read_model(path, name=name, within=within)
-    stand_in = _stand_in_of(given, named_by, data_path)
+        search_root = max(
+            places, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1
+        )
+        allowed_folders = (search_root.absolute(), *data_path)
+        return read_model(path, name=name, allowed_folders=allowed_folders)
+    stand_in = _stand_in_of(requested_name, named_by, data_path)
     if stand_in is not None:
-        return made(stand_in)
-    remark = package_remark(given, named_by=named_by, data_path=data_path)
+        return generated_model(stand_in)
+    remark = package_remark(requested_name, named_by=named_by, data_path=data_path)
     raise AssetNotFound(
-        f"There is no file {name!r}, nor a stand-in of that name."
+        f"There is no file {name!r}, and no stand-in of that name."
         f"{did_you_mean(_stem(name).removeprefix('data/'), STAND_INS)} "
         + (f"{remark[0].upper()}{remark[1:]}. " if remark else "")
         + "Searched, in order: "
         + ", ".join(str(root) for root in roots(named_by=named_by, data_path=data_path))
-        + f"; each also under {', '.join(UNDER[1:])}."
+        + f"; each also under {', '.join(SUBFOLDERS[1:])}."
     )
 
 
 def has_model(name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> bool:
-    """Whether `load_model` finds a file or a stand-in."""
-    is_there = _path_of(name, named_by, data_path) is not None
+    """Return whether `load_model` finds a file or a stand-in."""
+    is_there = _model_path(name, named_by, data_path) is not None
     return is_there or _stand_in_of(name, named_by, data_path) is not None
 
 
-def model_place_remark(
+def model_location_remark(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Say that the file of a model is another than its name states; empty if it is that one.
+    """Report that the file of a model is another than its name states; empty if it is that one.
 
     A file of OpenSceneGraph's formats is silently replaced by its conversion to another format.
     """
     suffix = PurePosixPath(plain_name(name)).suffix.lower()
-    if suffix not in READABLE and not may_be_elsewhere(name):
+    if suffix not in MESH_FORMATS and not states_location(name):
         return ""
     try:
-        path = _path_of(name, named_by, data_path)
+        path = _model_path(name, named_by, data_path)
     except AssetError:
         return ""
-    if remark := place_remark(name, path, named_by=named_by, data_path=data_path):
+    if remark := location_remark(name, path, named_by=named_by, data_path=data_path):
         return remark
-    if path is None or suffix not in READABLE or path.suffix.lower() == suffix:
+    if path is None or suffix not in MESH_FORMATS or path.suffix.lower() == suffix:
         return ""
     return f"{plain_name(name)[:200]!r} is not found; {path} is used"
 
 
-def why_unreadable(
+def model_read_error(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Why the file that `load_model` finds cannot be read; empty if it can, or is not there."""
+    """Return why the file that `load_model` finds is not readable; empty if it is, or is absent."""
     try:
         load_model(name, named_by=named_by, data_path=data_path)
     except AssetNotFound:
@@ -139,9 +140,9 @@ def why_unreadable(
 def model_remarks(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> tuple[str, ...]:
-    """What of the file that `load_model` finds cannot be read, though the rest of it can."""
+    """Return the defects of the file that `load_model` finds and reads in part."""
     try:
-        path = _path_of(name, named_by, data_path)
+        path = _model_path(name, named_by, data_path)
         if path is None or path.suffix.lower() in (".stl", ".ply"):  # these have no materials
             return ()
         return load_model(name, named_by=named_by, data_path=data_path).remarks
@@ -149,18 +150,18 @@ def model_remarks(
         return ()
 
 
-def _path_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> Path | None:
-    """The file of a model: of its name or its stem, one that can be read if there is any."""
-    in_package, plain = package_of(name), plain_name(name)
+def _model_path(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> Path | None:
+    """Return the file with the name or the stem of a model, a readable one if there is any."""
+    in_package, file_name = package_of(name), plain_name(name)
     prefix = "" if in_package is None else f"{PREFIXES[0]}{in_package[0]}/"
-    stems = (_stem(plain) + suffix for suffix in (*READABLE, *BY_OSGCONV))
-    names = [prefix + plain, *(prefix + stem for stem in stems)]
-    first = None
+    stems = (_stem(file_name) + suffix for suffix in (*MESH_FORMATS, *OSGCONV_FORMATS))
+    names = [prefix + file_name, *(prefix + stem for stem in stems)]
+    first_path = None
     for path in candidates(names, named_by=named_by, data_path=data_path):
         if can_read(path):
             return path
-        first = first or path
-    return first
+        first_path = first_path or path
+    return first_path
 
 
 def _stem(name: str) -> str:
@@ -168,7 +169,7 @@ def _stem(name: str) -> str:
 
 
 def unknown_model(name: str) -> Model:
-    """A labelled box of 0.3 m in place of a model that is not found."""
+    """Return a labelled box of 0.3 m in place of a model that is not found."""
     from .procedural.placeholder import labelled_box
 
     label = PurePosixPath(plain_name(name).replace("\\", "/")).stem[:16] or "?"
@@ -181,17 +182,17 @@ def unknown_model(name: str) -> Model:
 
 
 def _stand_in_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> str | None:
-    """The stand-in for a name; a package that is there has its own files alone."""
+    """Return the stand-in for a name; a package that is found has its own files only."""
     in_package = package_of(name)
-    if in_package is not None and in_package[0] != OURS:
-        folders = package_folders(in_package[0], above(named_by), data_path)
+    if in_package is not None and in_package[0] != UWSIM_PACKAGE:
+        folders = package_folders(in_package[0], parent_folders(named_by), data_path)
         if next(folders, None) is not None:
             return None
     return _stand_in_name(_stem(plain_name(name)))
 
 
 def _stand_in_name(stem: str) -> str | None:
-    """The name in `STAND_INS` that ends ``stem`` (which may start with ``data/`` or a path)."""
+    """Return the name in `STAND_INS` that ends ``stem``, which may begin with folders."""
     parts = PurePosixPath(stem.replace("\\", "/")).parts
     for k in range(len(parts)):
         tail = "/".join(parts[k:])

@@ -8,7 +8,7 @@ from pathlib import Path
 from ..errors import AssetNotFound, did_you_mean
 
 
-def bundled(kind: str, suffix: str = ".xml") -> dict[str, Path]:
+def bundled_files(kind: str, suffix: str = ".xml") -> dict[str, Path]:
     """Return the bundled files of a kind, ``scenes`` or ``benchmarks``: bare name -> path."""
     folder = Path(str(resources.files("uwsim"))) / "data" / kind
     return {
@@ -16,11 +16,11 @@ def bundled(kind: str, suffix: str = ".xml") -> dict[str, Path]:
     }
 
 
-def bundled_or(file: Path) -> Path:
+def resolve_bundled(file: Path) -> Path:
     """Return the bundled scene or benchmark of that bare name, where there is no such file."""
     if file.exists():
         return file
-    return {**bundled("scenes"), **bundled("benchmarks")}.get(str(file), file)
+    return {**bundled_files("scenes"), **bundled_files("benchmarks")}.get(str(file), file)
 
 
 def scene_file(
@@ -28,31 +28,33 @@ def scene_file(
 ) -> Path:
     """Find a scene: a file as given, in the search folders, or a bundled one by its bare name.
 
-    One that a file names (``named_by``) lies in a folder that is searched.
+    A scene that a file names (``named_by``) is in a folder that is searched.
 
     Raises:
-        AssetNotFound: there is none; names the folders searched and the nearest bundled name.
+        AssetNotFound: there is none; it lists the folders searched and the nearest bundled name.
     """
-    return _file(name, "scenes", data_path, named_by)
+    return _resolve_file(name, "scenes", data_path, named_by)
 
 
 def benchmark_file(name: str, data_path: tuple[Path, ...] = ()) -> Path:
     """Find a benchmark, as `scene_file` finds a scene."""
-    return _file(name, "benchmarks", data_path)
+    return _resolve_file(name, "benchmarks", data_path)
 
 
-def _file(name: str, kind: str, data_path: tuple[Path, ...], named_by: Path | None = None) -> Path:
-    from .find import find, folders_searched
+def _resolve_file(
+    name: str, kind: str, data_path: tuple[Path, ...], named_by: Path | None = None
+) -> Path:
+    from .find import find, searched_folders
 
-    known = bundled(kind)
-    if name in known and not Path(name).is_file():
-        return known[name]
-    found = find(name, named_by=named_by, data_path=data_path)
-    if found is not None:
-        return found
-    folders = folders_searched(named_by=named_by, data_path=data_path)
+    files = bundled_files(kind)
+    if name in files and not Path(name).is_file():
+        return files[name]
+    path = find(name, named_by=named_by, data_path=data_path)
+    if path is not None:
+        return path
+    folders = searched_folders(named_by=named_by, data_path=data_path)
     raise AssetNotFound(
-        f"{name!r} is neither a file nor one of the bundled {kind} ({', '.join(known)})."
-        f"{did_you_mean(name, known)} "
+        f"{name!r} is neither a file nor one of the bundled {kind} ({', '.join(files)})."
+        f"{did_you_mean(name, files)} "
         f"Folders searched: {', '.join(str(folder) for folder in folders if folder.is_dir())}."
     )

@@ -4,12 +4,11 @@ Programs differ in what they apply of ``<asset> <unit meter=""/> <up_axis/> </as
 
 - RViz (``mesh_loader.cpp``, ``getMeshUnitRescale``) and Gazebo (``ColladaLoader.cc``) apply the
   unit, and leave the axes as they are.
-- OpenSceneGraph, with which UWSim reads files, turns the vertical axis to z (``daeReader.cpp``,
-  ``turnZUp``; Y where the file states none), and leaves the unit to the program, which does
-  nothing with it.
+- OpenSceneGraph, with which UWSim reads files, rotates the vertical axis to z (``daeReader.cpp``,
+  ``turnZUp``; Y where the file states none), and leaves the unit to the program, which ignores it.
 
-So the meshes of robot files are read as by RViz, and those of scene files as by UWSim. Assets of
-single libraries or geometries count nowhere.
+So the meshes of robot files are read as by RViz, and those of scene files as by UWSim. Neither
+applies the assets of single libraries or geometries.
 """
 
 from __future__ import annotations
@@ -23,24 +22,24 @@ import numpy as np
 
 from ..base.geometry import Array
 
-LARGEST_UNIT = 1e6
-"""Units beyond this, or below one over it, are taken for mistakes [m]."""
+MAX_UNIT = 1e6
+"""The greatest unit [m]; greater ones, and those below 1 / `MAX_UNIT`, are mistakes."""
 
 
 @dataclass(frozen=True)
 class ColladaAsset:
-    """What a file states, with the defaults of Collada."""
+    """The unit and the axis that a file states, with the defaults of Collada."""
 
     unit: float = 1.0
-    """Length of its unit [m]."""
+    """The length of the file's unit [m]."""
     up_axis: str = "Y"
-    """``X``, ``Y`` or ``Z``."""
-    wrong_unit: str = ""
-    """Its unit as written, where that is no length; it is read in metres then."""
+    """The vertical axis: ``X``, ``Y`` or ``Z``."""
+    invalid_unit: str = ""
+    """The unit as written, where it is not a length; the file is read in metres then."""
 
     @property
     def z_up_from_file(self) -> Array:
-        """The turn that takes its vertical axis to z as OpenSceneGraph does, (3, 3)."""
+        """The rotation of the vertical axis to z, as in OpenSceneGraph, (3, 3)."""
         if self.up_axis == "Z":
             return np.eye(3)
         if self.up_axis == "X":  # by 90 degrees about y
@@ -59,7 +58,7 @@ def read_collada_asset(data: bytes) -> ColladaAsset:
         for event, element in iterparse(BytesIO(data), events=("start", "end")):
             depth += 1 if event == "start" else -1
             if event == "end" and depth == 1 and _tag(element) == "asset":
-                return _asset(element)
+                return _parse_asset(element)
             if event == "end" and depth == 1:
                 element.clear()
     except (ParseError, LookupError, ValueError):
@@ -67,20 +66,20 @@ def read_collada_asset(data: bytes) -> ColladaAsset:
     return ColladaAsset()
 
 
-def _asset(element: Element) -> ColladaAsset:
+def _parse_asset(element: Element) -> ColladaAsset:
     children = {_tag(child): child for child in reversed(element)}
-    unit, wrong = 1.0, ""
-    if "unit" in children and (written := children["unit"].get("meter")) is not None:
-        unit = _number(written)
-        if not 1.0 / LARGEST_UNIT <= unit <= LARGEST_UNIT:
-            unit, wrong = 1.0, written.strip()[:40] or "''"
+    unit, invalid_unit = 1.0, ""
+    if "unit" in children and (unit_text := children["unit"].get("meter")) is not None:
+        unit = _parse_number(unit_text)
+        if not 1.0 / MAX_UNIT <= unit <= MAX_UNIT:
+            unit, invalid_unit = 1.0, unit_text.strip()[:40] or "''"
     axis = (children["up_axis"].text or "").strip()[:1] if "up_axis" in children else "Y"
     return ColladaAsset(
-        unit=unit, up_axis=axis if axis in "XYZ" and axis else "Y", wrong_unit=wrong
+        unit=unit, up_axis=axis if axis in "XYZ" and axis else "Y", invalid_unit=invalid_unit
     )
 
 
-def _number(text: str) -> float:
+def _parse_number(text: str) -> float:
     try:
         return float(text)
     except ValueError:
@@ -88,5 +87,5 @@ def _number(text: str) -> float:
 
 
 def _tag(element: Element) -> str:
-    """The tag without its namespace."""
+    """Return the tag without its namespace."""
     return str(element.tag).rpartition("}")[2]

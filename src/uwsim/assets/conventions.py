@@ -1,7 +1,7 @@
-"""How robot files and scene files take what a Collada file states of its unit and axes.
+"""Unit and axes of Collada files, as robot files and scene files apply them.
 
-Robot files as RViz and Gazebo, which apply the unit; scene files as UWSim, whose OpenSceneGraph
-turns the vertical axis to z (`collada_asset`). Other formats state neither.
+Robot files apply the unit, as RViz and Gazebo do. Scene files rotate the vertical axis to z, as
+UWSim's OpenSceneGraph does (`collada_asset`). Other formats state neither.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ Scale = tuple[float, float, float]
 
 
 def robot_scale(model: Model, scale: Scale) -> Scale:
-    """Return the scale of a robot's mesh, that of its unit included [m].
+    """Return the scale of a robot's mesh, including that of its unit [m].
 
     Args:
         model: the mesh, in its own unit.
-        scale: of the mesh in the robot file [1].
+        scale: the scale of the mesh in the robot file [1].
     """
     if model.asset is None or model.asset.unit == 1.0:
         return scale
@@ -35,13 +35,15 @@ def with_z_up(model: Model) -> Model:
     """Return the model of a scene file with its vertical axis along z, as UWSim shows it."""
     if model.asset is None or model.asset.up_axis == "Z":
         return model
-    turn = model.asset.z_up_from_file
+    rotation = model.asset.z_up_from_file
     meshes = tuple(
-        replace(mesh, vertices=_turned(mesh.vertices, turn), normals=_turned(mesh.normals, turn))
+        replace(
+            mesh, vertices=_rotate(mesh.vertices, rotation), normals=_rotate(mesh.normals, rotation)
+        )
         for mesh in model.meshes
     )
     return replace(model, meshes=meshes, asset=replace(model.asset, up_axis="Z"))
 
 
-def _turned(vectors: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    return np.ascontiguousarray(product(vectors.astype(np.float64), turn.T).astype(np.float32))
+def _rotate(vectors: np.ndarray, rotation: np.ndarray) -> np.ndarray:
+    return np.ascontiguousarray(product(vectors.astype(np.float64), rotation.T).astype(np.float32))

@@ -17,11 +17,11 @@ class Texture:
     """A texture image."""
 
     name: str
-    """Names the image; equal names mean equal pixels."""
+    """The name of the image; equal names mean equal pixels."""
     pixels: npt.NDArray[np.uint8]
-    """(h, w, 3), row 0 at the top, stored values (no gamma applied)."""
+    """The stored values (no gamma applied), (h, w, 3), row 0 at the top."""
     repeats: bool = True
-    """Whether coordinates outside 0..1 repeat it; else they clamp."""
+    """The wrap mode: True repeats the image outside 0..1, False clamps it."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -29,21 +29,22 @@ class Mesh:
     """Triangles of one material."""
 
     vertices: npt.NDArray[np.float32]
-    """(n, 3) [m]."""
+    """The positions of the vertices, (n, 3) [m]."""
     normals: npt.NDArray[np.float32]
-    """Unit normals at the vertices, (n, 3)."""
+    """The unit normals at the vertices, (n, 3)."""
     uvs: npt.NDArray[np.float32]
-    """Texture coordinates, (n, 2); v = 0 is the bottom row of the image, as in OBJ and OpenGL."""
+    """The texture coordinates, (n, 2); v = 0 is the bottom row of the image, as in OBJ and
+    OpenGL."""
     triangles: npt.NDArray[np.uint32]
-    """Vertex numbers, (m, 3), counter-clockwise seen from outside."""
+    """The vertex indices, (m, 3), counter-clockwise as seen from outside."""
     colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    """Multiplied with the texture, 0..1."""
+    """The factor of the texture's colour, 0..1."""
     texture: Texture | None = None
-    """None: the colour alone."""
+    """The texture; without one, the colour alone is drawn."""
     opacity: float = 1.0
-    """1 hides what is behind it, 0 is not seen."""
+    """The opacity, from 0 (invisible) to 1 (opaque)."""
     two_sided: bool = False
-    """Whether back faces are drawn too."""
+    """The drawing of back faces: True draws them, too."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -51,20 +52,20 @@ class Model:
     """A model: meshes in one frame."""
 
     name: str
-    """The name that selected it."""
+    """The name under which the model was loaded."""
     meshes: tuple[Mesh, ...]
     source: str
-    """``"file"``, ``"stand-in"`` (ours, modelled) or ``"labelled box"`` (ours, a placeholder)."""
+    """The origin: ``"file"``, ``"stand-in"`` (modelled) or ``"labelled box"`` (a placeholder)."""
     sha256: str = ""
-    """Hash of the file's bytes, or of the arrays when we made it."""
+    """The hash of the file's bytes, or of the arrays of a generated model."""
     files: tuple[InputFile, ...] = ()
-    """The file and all that were read with it: materials, buffers, images."""
+    """The file and all files that were read with it: materials, buffers, images."""
     asset: ColladaAsset | None = None
-    """What a Collada file states of its unit and axes; its vertices are as in the file."""
+    """The unit and axes that a Collada file states; its vertices are as in the file."""
     remarks: tuple[str, ...] = ()
-    """What of the file cannot be read, and was left out or replaced."""
+    """The parts of the file that are unreadable, and were left out or replaced."""
     box: Box = field(init=False)
-    """Bounding box of all vertices."""
+    """The bounding box of all vertices."""
 
     def __post_init__(self) -> None:
         points = np.concatenate([mesh.vertices for mesh in self.meshes])
@@ -73,5 +74,5 @@ class Model:
 
     @property
     def n_triangles(self) -> int:
-        """Number of triangles."""
+        """The number of triangles."""
         return sum(len(mesh.triangles) for mesh in self.meshes)

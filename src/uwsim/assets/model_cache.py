@@ -1,8 +1,7 @@
 """Disk cache of generated models: generating the tank takes half a second.
 
-A kept model is found by the hash of everything that makes it: this package's sources and the
-versions of numpy and OpenCV. Nothing that could have been made otherwise is ever read back, nor
-anything that is not as it was written: `disk_cache` sees to that.
+The key of a model is the hash of all that it depends on: this package's sources and the versions
+of numpy and OpenCV. `disk_cache` rejects files that changed after they were written.
 """
 
 from __future__ import annotations
@@ -27,19 +26,19 @@ Arrays = dict[str, npt.NDArray[Any]]
 _ARRAYS = ("vertices", "normals", "uvs", "triangles")
 
 
-class NotKept(Exception):
-    """There is no such file in the cache, or it was damaged."""
+class CacheMiss(Exception):
+    """The error of a file that the cache lacks, or that is damaged."""
 
 
 @cache
-def made(name: str) -> Model:
-    """The generated model of that name in `STAND_INS`, from the cache if possible."""
+def generated_model(name: str) -> Model:
+    """Return the generated model of that name in `STAND_INS`, from the cache if possible."""
     file = disk_cache.folder("models") / _key() / (name.replace("/", "-") + ".npz")
     try:
         return _read(name, file)
-    except NotKept:
+    except CacheMiss:
         model = _make(name)
-        _keep(model, file)
+        _store(model, file)
         return model
 
 
@@ -58,7 +57,7 @@ def _make(name: str) -> Model:
 
 @cache
 def _key() -> str:
-    """Hash of everything that generated models depend on."""
+    """Return the hash of everything that generated models depend on."""
     digest = hashlib.sha256()
     package = Path(__file__).parent
     for source in sorted([*package.glob("*.py"), *package.glob("procedural/*.py")]):
@@ -69,7 +68,7 @@ def _key() -> str:
     return digest.hexdigest()[:32]
 
 
-def _keep(model: Model, file: Path) -> None:
+def _store(model: Model, file: Path) -> None:
     """Write a model and its textures."""
     arrays: dict[str, Any] = {"sha256": np.array(model.sha256)}
     for i, mesh in enumerate(model.meshes):
@@ -80,57 +79,57 @@ def _keep(model: Model, file: Path) -> None:
         texture = mesh.texture
         if texture is not None:
             arrays[f"{i}/texture"] = np.array(texture.name)
-            image = _image(file, texture.name)
+            image = _texture_path(file, texture.name)
             if not image.exists():
                 _write(image, pixels=texture.pixels, repeats=np.array(texture.repeats))
     _write(file, **arrays)
 
 
 def _write(file: Path, **arrays: Any) -> None:
-    packed = io.BytesIO()
-    np.savez(packed, **arrays)
-    disk_cache.write(file, packed.getvalue())
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    disk_cache.write(file, buffer.getvalue())
 
 
-def _image(file: Path, texture: str) -> Path:
-    """Path of a texture, next to the models, several of which may share it."""
+def _texture_path(file: Path, texture: str) -> Path:
+    """Return the path of a texture, next to the models, several of which may share it."""
     return file.parent / ("texture-" + texture.replace("/", "-") + ".npz")
 
 
 def _read(name: str, file: Path) -> Model:
-    kept = _arrays(file)
-    n = sum(key.endswith("/vertices") for key in kept)
-    meshes = tuple(_mesh(kept, i, file) for i in range(n))
+    arrays = _read_arrays(file)
+    n = sum(key.endswith("/vertices") for key in arrays)
+    meshes = tuple(_mesh(arrays, i, file) for i in range(n))
     source = STAND_INS[name].source
-    return Model(name=name, meshes=meshes, source=source, sha256=str(kept["sha256"]))
+    return Model(name=name, meshes=meshes, source=source, sha256=str(arrays["sha256"]))
 
 
-def _mesh(kept: Arrays, i: int, file: Path) -> Mesh:
-    red, green, blue = kept[f"{i}/colour"].tolist()
+def _mesh(stored_arrays: Arrays, i: int, file: Path) -> Mesh:
+    red, green, blue = stored_arrays[f"{i}/colour"].tolist()
     texture = None
-    if f"{i}/texture" in kept:
-        called = str(kept[f"{i}/texture"])
-        texture = _texture(called, _image(file, called))
-    arrays: Any = {array: kept[f"{i}/{array}"] for array in _ARRAYS}
+    if f"{i}/texture" in stored_arrays:
+        texture_name = str(stored_arrays[f"{i}/texture"])
+        texture = _texture(texture_name, _texture_path(file, texture_name))
+    arrays: Any = {array: stored_arrays[f"{i}/{array}"] for array in _ARRAYS}
     return Mesh(
         **arrays,
         colour=(red, green, blue),
         texture=texture,
-        two_sided=bool(kept[f"{i}/two_sided"]),
+        two_sided=bool(stored_arrays[f"{i}/two_sided"]),
     )
 
 
 @cache
 def _texture(name: str, file: Path) -> Texture:
     """Share one texture object between all meshes that use it, so that they are drawn together."""
-    kept = _arrays(file)
-    return Texture(name=name, pixels=kept["pixels"], repeats=bool(kept["repeats"]))
+    arrays = _read_arrays(file)
+    return Texture(name=name, pixels=arrays["pixels"], repeats=bool(arrays["repeats"]))
 
 
-def _arrays(file: Path) -> Arrays:
+def _read_arrays(file: Path) -> Arrays:
     """Read the arrays that `_write` wrote."""
     data = disk_cache.read(file)
     if data is None:
-        raise NotKept
-    with np.load(io.BytesIO(data), allow_pickle=False) as kept:
-        return dict(kept)
+        raise CacheMiss
+    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        return dict(archive)

@@ -1,18 +1,18 @@
-"""ROS packages: the folders that a package's name stands for, in ``package://NAME/...``.
+"""ROS packages: the folders of a package's name, in ``package://NAME/...``.
 
-A package is a folder called NAME, or one whose ``package.xml`` gives that name. It is looked for
+A package is a folder called NAME, or one whose ``package.xml`` states that name. The search reads
 
-1. above the file that names it, and beside each of these folders, also as a workspace has it:
+1. the folders above the file that names it, and in each of these the layouts of a workspace:
    ``src/NAME``, ``share/NAME``, ``install/NAME/share/NAME``;
-2. in and below every data path;
-3. below the folders of ``ROS_PACKAGE_PATH``, and as ``share/NAME`` in those of
+2. every data path and the folders below it;
+3. the folders below those of ``ROS_PACKAGE_PATH``, and ``share/NAME`` in those of
    ``AMENT_PREFIX_PATH``;
-4. where the file lies in a package or in a workspace, in all folders of the workspace.
+4. if the file is in a package or in a workspace, all folders of the workspace.
 
-Below a folder, those in another package count, too, after all others: Gazebo's models usually are
+Folders in another package come after all others: Gazebo's models usually are
 ``PACKAGE/models/NAME/model.config``.
 
-The package ``uwsim`` is the original's, whose files are also looked for without its name.
+The package ``uwsim`` is that of the original, whose files are also found without its name.
 """
 
 from __future__ import annotations
@@ -25,44 +25,46 @@ from itertools import islice
 from pathlib import Path
 
 PREFIXES = ("package://", "model://")
-"""Beginnings of the names that a package, or a model of Gazebo, is part of."""
-OURS = "uwsim"
-"""The package whose files are those of this program and of the original."""
+"""The beginnings of names in a ROS package or a model of Gazebo."""
+UWSIM_PACKAGE = "uwsim"
+"""The package whose files are those of this program and of the original UWSim."""
 LAYOUTS = (".", "src", "share", "install/share", "devel/share", "install/{0}/share", "{0}/share")
-"""Where a folder has a package: below these, as a folder of its name."""
-BUILT = ("build", "devel", "install", ".catkin_tools", ".catkin_workspace")
-"""What tells a workspace from another folder with a ``src``."""
-LEFT_OUT = frozenset({"build", "log", "logs", "node_modules", "__pycache__", "site-packages"})
-"""Folders without packages of their own."""
+"""The folders, below a root, that contain a package as a folder of its name."""
+BUILD_NAMES = ("build", "devel", "install", ".catkin_tools", ".catkin_workspace")
+"""The entries that distinguish a workspace from another folder with a ``src``."""
+IGNORED_FOLDERS = frozenset(
+    {"build", "log", "logs", "node_modules", "__pycache__", "site-packages"}
+)
+"""The folders without packages of their own."""
 WORKSPACE_DEPTH = 5
-"""Deepest folder that is looked at below a workspace or a data path: ``src/GROUP/REPOSITORY/X``."""
+"""The depth of search below a workspace or a data path: ``src/GROUP/REPOSITORY/X``."""
 REPOSITORY_DEPTH = 3
-"""Deepest folder that is looked at below the two folders above a package: ``GROUP/X`` beside it."""
+"""The depth of search below the two folders above a package: ``GROUP/X`` beside it."""
 MAX_FOLDERS = 4000
-"""Most folders that are looked at below one, and as many again in the packages there."""
+"""The greatest number of folders that are read below a root, and again in the packages there."""
 FILE_SCHEME = re.compile(rf"file:/*(?=(?:{'|'.join(PREFIXES)}))")
-"""What some robot files write before the name of a package, as ``file:///$(find NAME)/...``."""
+"""The scheme of some robot files before a package's name, as ``file:///$(find NAME)/...``."""
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.-]*")
-DECLARED = re.compile(rb"<name>\s*([A-Za-z0-9_.-]+)\s*</name>")
+NAME_ELEMENT = re.compile(rb"<name>\s*([A-Za-z0-9_.-]+)\s*</name>")
 MODEL_FILE = "model.config"
 """The file that makes a folder a model of Gazebo."""
-HEAD = 65536
-"""Bytes of a ``package.xml`` in which its name is looked for."""
+MAX_HEAD_BYTES = 65536
+"""The number of bytes of a ``package.xml`` that are searched for its name."""
 
 
-def without_file_scheme(name: str) -> str:
+def strip_file_scheme(name: str) -> str:
     """Return a name without blanks, and without ``file:`` and slashes before ``package://``."""
     name = name.strip()
-    found = FILE_SCHEME.match(name)
-    return name[found.end() :] if found else name
+    match = FILE_SCHEME.match(name)
+    return name[match.end() :] if match else name
 
 
 def package_of(name: str) -> tuple[str, str] | None:
     """Split a name into its package and the path in it; None where it has no package.
 
-    Slashes before the package (``package:///NAME``) are left out.
+    Slashes before the package (``package:///NAME``) are removed.
     """
-    name = without_file_scheme(name)
+    name = strip_file_scheme(name)
     for prefix in PREFIXES:
         if name.startswith(prefix):
             package, _, path = name.removeprefix(prefix).lstrip("/").partition("/")
@@ -71,49 +73,55 @@ def package_of(name: str) -> tuple[str, str] | None:
 
 
 def package_folders(
-    package: str, above: Iterable[Path], data_path: Iterable[Path] = ()
+    package: str, parents: Iterable[Path], data_path: Iterable[Path] = ()
 ) -> Iterator[Path]:
-    """Give every folder that a package's name may stand for, the likeliest first.
+    """Yield every folder that a package's name may denote, the likeliest first.
 
     Args:
         package: its name.
-        above: the folder of the file that names it, and those above it, from the inside.
-        data_path: folders that the user gave.
+        parents: the folder of the file that names it, and those above it, from the inside.
+        data_path: the user's folders.
     """
-    seen: set[Path] = set()
-    for folders in _places(package, list(above), data_path):
-        yield from _fresh(folders, seen)
+    known_folders: set[Path] = set()
+    for folders in _places(package, list(parents), data_path):
+        yield from _new_folders(folders, known_folders)
 
 
 def same_named_folders(
-    package: str, above: Iterable[Path], data_path: Iterable[Path] = ()
+    package: str, parents: Iterable[Path], data_path: Iterable[Path] = ()
 ) -> list[Path]:
-    """Return the folders of a package in the first place that has it; more than one are doubtful.
+    """Return the folders of a package in the first place that has it; several are ambiguous.
 
     Args:
         package: its name.
-        above: the folder of the file that names it, and those above it, from the inside.
-        data_path: folders that the user gave.
+        parents: the folder of the file that names it, and those above it, from the inside.
+        data_path: the user's folders.
     """
-    places = (list(_fresh(place, set())) for place in _places(package, list(above), data_path))
+    places = (
+        list(_new_folders(place, set())) for place in _places(package, list(parents), data_path)
+    )
     return next((folders for folders in places if folders), [])
 
 
-def _places(package: str, above: list[Path], data_path: Iterable[Path]) -> Iterator[Iterable[Path]]:
-    """Give the folders that may be the package, place by place, in the order of search."""
+def _places(
+    package: str, parents: list[Path], data_path: Iterable[Path]
+) -> Iterator[Iterable[Path]]:
+    """Yield the folders that may be the package, place by place, in the order of search."""
     if not NAME.fullmatch(package):
         return
-    for folder in above:
-        yield _in(package, folder, 0)
+    for folder in parents:
+        yield _package_folders_in(package, folder, 0)
     for folder in (*data_path, *_entries("ROS_PACKAGE_PATH")):
-        yield _in(package, folder.absolute(), WORKSPACE_DEPTH)
+        yield _package_folders_in(package, folder.absolute(), WORKSPACE_DEPTH)
     for prefix in _entries("AMENT_PREFIX_PATH"):
         yield [prefix / "share" / package]
-    enclosing = next((i for i, folder in enumerate(above) if _declared(folder)), len(above))
-    for i, folder in enumerate(above):
-        is_near = enclosing < i <= enclosing + 2
+    package_index = next(
+        (i for i, folder in enumerate(parents) if _declared_name(folder)), len(parents)
+    )
+    for i, folder in enumerate(parents):
+        is_near = package_index < i <= package_index + 2
         depth = WORKSPACE_DEPTH if _is_workspace(folder) else REPOSITORY_DEPTH * is_near
-        yield _in(package, folder, depth)
+        yield _package_folders_in(package, folder, depth)
 
 
 def environment_folders() -> list[Path]:
@@ -127,17 +135,17 @@ def _entries(variable: str) -> list[Path]:
     return [Path(word) for word in words if Path(word).is_absolute()]
 
 
-def _fresh(folders: Iterable[Path], seen: set[Path]) -> Iterator[Path]:
-    """Give those that are folders, each once."""
+def _new_folders(folders: Iterable[Path], known_folders: set[Path]) -> Iterator[Path]:
+    """Yield the folders that exist, each once."""
     for folder in folders:
-        if folder not in seen and _is_folder(folder):
-            seen.add(folder)
+        if folder not in known_folders and _is_folder(folder):
+            known_folders.add(folder)
             yield folder
 
 
-def _in(package: str, folder: Path, depth: int) -> Iterator[Path]:
-    """Give the folders of a package that are this folder, or in it, to a depth."""
-    if folder.name == package or _declared(folder) == package:
+def _package_folders_in(package: str, folder: Path, depth: int) -> Iterator[Path]:
+    """Yield the folders of a package that are this folder, or in it, to a depth."""
+    if folder.name == package or _declared_name(folder) == package:
         yield folder
     yield from (folder / layout.format(package) / package for layout in LAYOUTS)
     if depth > 0:
@@ -145,7 +153,7 @@ def _in(package: str, folder: Path, depth: int) -> Iterator[Path]:
 
 
 def _is_workspace(folder: Path) -> bool:
-    is_built = _is_folder(folder / "src") and any((folder / name).exists() for name in BUILT)
+    is_built = _is_folder(folder / "src") and any((folder / name).exists() for name in BUILD_NAMES)
     return folder.name == "src" or is_built
 
 
@@ -156,19 +164,19 @@ def _is_folder(path: Path) -> bool:
         return False
 
 
-def _declared(folder: Path) -> str:
+def _declared_name(folder: Path) -> str:
     """Return the name in the ``package.xml`` of a folder; empty without one."""
     try:
         with (folder / "package.xml").open("rb") as file:
-            found = DECLARED.search(file.read(HEAD))
+            match = NAME_ELEMENT.search(file.read(MAX_HEAD_BYTES))
     except (OSError, ValueError):
         return ""
-    return found[1].decode() if found else folder.name
+    return match[1].decode() if match else folder.name
 
 
 @dataclass(frozen=True)
 class _Index:
-    """The packages below a folder, and when what was looked at had last changed."""
+    """The packages below a folder, and the modification times of all that was read for it."""
 
     stamps: dict[Path, int]
     packages: dict[str, tuple[Path, ...]]
@@ -181,7 +189,7 @@ _indices: dict[tuple[Path, int], _Index] = {}
 
 
 def _packages_below(root: Path, depth: int) -> dict[str, tuple[Path, ...]]:
-    """Return name -> folders below a folder, those with a ``package.xml`` of that name first."""
+    """Return name -> folders below a root, those with a ``package.xml`` of that name first."""
     index = _indices.get((root, depth))
     if index is None or not index.is_current():
         index = _indices[root, depth] = _walk(root, depth)
@@ -189,75 +197,75 @@ def _packages_below(root: Path, depth: int) -> dict[str, tuple[Path, ...]]:
 
 
 def _walk(root: Path, depth: int) -> _Index:
-    """Look at the folders below one, level by level, in alphabetical order; packages at last."""
+    """Read the folders below a root, level by level, in alphabetical order; packages at last."""
     stamps: dict[Path, int] = {}
-    declared: dict[str, list[Path]] = {}
-    named: dict[str, list[Path]] = {}
-    inside: list[list[Path]] = []
+    declared_folders: dict[str, list[Path]] = {}
+    named_folders: dict[str, list[Path]] = {}
+    packages_by_level: list[list[Path]] = []
     level = [root]
     for _ in range(depth):
-        below, packages = [], []
+        subfolders, packages = [], []
         for child in _new_children(level, stamps, MAX_FOLDERS):
-            named.setdefault(child.name, []).append(child)
-            if name := _declared(child):
+            named_folders.setdefault(child.name, []).append(child)
+            if name := _declared_name(child):
                 stamps[child / "package.xml"] = _stamp(child / "package.xml")
-                declared.setdefault(name, []).append(child)
+                declared_folders.setdefault(name, []).append(child)
                 packages.append(child)
             else:
-                below.append(child)
-        inside.append(packages)
-        level = below
-    models, others = _walk_packages(inside, stamps)
+                subfolders.append(child)
+        packages_by_level.append(packages)
+        level = subfolders
+    models, rest = _walk_packages(packages_by_level, stamps)
     stamps[root] = _stamp(root)
-    groups = (declared, named, models)
+    groups = (declared_folders, named_folders, models)
     names = dict.fromkeys(name for group in groups for name in group)
-    found = {
+    folders = {
         name: tuple(path for group in groups for path in group.get(name, ())) for name in names
     }
-    return _Index(stamps, {**{name: tuple(paths) for name, paths in others.items()}, **found})
+    return _Index(stamps, {name: tuple(paths) for name, paths in rest.items()} | folders)
 
 
 def _walk_packages(
     packages: Iterable[list[Path]], stamps: dict[Path, int]
 ) -> tuple[dict[str, list[Path]], dict[str, list[Path]]]:
-    """Look at the folders in packages, down to the level of the deepest.
+    """Read the folders in packages, down to the level of the deepest.
 
     Args:
-        packages: by their level.
-        stamps: when each folder had last changed; those looked at are added.
+        packages: the folders of packages, by their level.
+        stamps: the modification time of each folder; those of visited folders are added.
 
     Returns:
         Models of Gazebo and other folders, by their names.
     """
     models: dict[str, list[Path]] = {}
-    others: dict[str, list[Path]] = {}
-    most = len(stamps) + MAX_FOLDERS
+    folders: dict[str, list[Path]] = {}
+    limit = len(stamps) + MAX_FOLDERS
     level: list[Path] = []
-    for beside in packages:
-        below = list(islice(_new_children(level, stamps, most), most - len(stamps)))
-        for child in below:
-            group = models if os.path.isfile(child / MODEL_FILE) else others
+    for packages_here in packages:
+        subfolders = list(islice(_new_children(level, stamps, limit), limit - len(stamps)))
+        for child in subfolders:
+            group = models if os.path.isfile(child / MODEL_FILE) else folders
             group.setdefault(child.name, []).append(child)
-        level = [*below, *beside]
-    return models, others
+        level = [*subfolders, *packages_here]
+    return models, folders
 
 
-def _new_children(level: Iterable[Path], stamps: dict[Path, int], most: int) -> Iterator[Path]:
-    """Give the folders in those of a level, and stamp them, until there are ``most`` stamps."""
+def _new_children(level: Iterable[Path], stamps: dict[Path, int], limit: int) -> Iterator[Path]:
+    """Yield the folders in those of a level, and stamp them, until there are ``limit``."""
     for folder in level:
-        for child in _children(folder) if len(stamps) < most else ():
+        for child in _children(folder) if len(stamps) < limit else ():
             if child not in stamps:
                 stamps[child] = _stamp(child)
                 yield child
 
 
 def _children(folder: Path) -> list[Path]:
-    """Return the folders in one that may have packages, in alphabetical order."""
+    """Return the sub-folders that may have packages, in alphabetical order."""
     try:
         names = sorted(entry.name for entry in os.scandir(folder) if entry.is_dir())
     except OSError:
         return []
-    return [folder / name for name in names if name not in LEFT_OUT and name[0] != "."]
+    return [folder / name for name in names if name not in IGNORED_FOLDERS and name[0] != "."]
 
 
 def _stamp(path: Path) -> int:

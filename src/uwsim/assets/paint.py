@@ -11,14 +11,14 @@ Colour = tuple[float, float, float, float]
 
 
 @lru_cache(maxsize=1024)
-def painted(model: Model, colour: Colour) -> Model:
-    """Return the model in another colour: the same object for the same paint.
+def paint_model(model: Model, colour: Colour) -> Model:
+    """Return the model in another colour: the same object for the same colour.
 
-    The colour takes the place of the mesh's own and is multiplied with its texture. (UWSim and
-    RViz let a mesh's own materials stand, so that the file's colour shows on meshes without any.)
+    The colour replaces that of the mesh and is multiplied with its texture. (UWSim and RViz prefer
+    the mesh's own materials, so that the file's colour shows on meshes without any.)
 
     Args:
-        model: what is painted.
+        model: the model to paint.
         colour: red, green, blue, opacity, 0..1.
     """
     red, green, blue, opacity = colour

@@ -1,4 +1,4 @@
-"""Images that are projected: red, green, blue and opacity."""
+"""Projected images: red, green, blue and opacity."""
 
 from __future__ import annotations
 
@@ -8,28 +8,28 @@ import numpy as np
 import numpy.typing as npt
 
 from ..errors import AssetError
-from .loaders.looks import check_size
+from .loaders.materials import check_image_size
 
 FORMATS = ("BMP", "GIF", "JPEG", "PNG", "PPM", "TGA", "TIFF")
-"""Images that are read."""
+"""The image formats that are read."""
 MAX_SIDE = 4096
-"""Longest side of a pattern [px]."""
+"""The greatest side of a pattern [px]."""
 
 
 def read_pattern(path: Path) -> npt.NDArray[np.uint8]:
     """Read an image, (h, w, 4), row 0 at the top; one without opacity is opaque.
 
     Raises:
-        AssetError: it is no image that is read, or too large.
+        AssetError: it is not an image of `FORMATS`, or too large.
     """
     from PIL import Image
 
-    check_size(path.read_bytes(), path.name)
+    check_image_size(path.read_bytes(), path.name)
     try:
         with Image.open(path, formats=FORMATS) as image:
             if max(image.size) > MAX_SIDE:
                 raise AssetError(
-                    f"{path}: {image.size} pixels; at most {MAX_SIDE} a side are read."
+                    f"{path} has {image.size} pixels; expected at most {MAX_SIDE} a side."
                 )
             return np.asarray(image.convert("RGBA"), dtype=np.uint8).copy()
     except (OSError, ValueError, SyntaxError) as error:

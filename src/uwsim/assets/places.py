@@ -1,29 +1,29 @@
-"""Sentences about places: of files found elsewhere than their name states, and of lost packages."""
+"""Remarks on places: of files found elsewhere than their name states, and of missing packages."""
 
 from __future__ import annotations
 
 import filecmp
 from pathlib import Path
 
-from .find import above, folders_searched, is_absolute, plain_name
-from .packages import OURS, package_folders, package_of, same_named_folders
+from .find import is_absolute, parent_folders, plain_name, searched_folders
+from .packages import UWSIM_PACKAGE, package_folders, package_of, same_named_folders
 
 
 def package_remark(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Say that the package of a name is not found, or where it is; empty without a package.
+    """Report that the package of a name is not found, or where it is; empty without a package.
 
     Args:
-        name: of a file that is not found, as a scene or robot file has it.
+        name: the name of a file that is not found, in a scene or robot file.
         named_by: the file that names it.
-        data_path: folders that the user gave.
+        data_path: the user's folders.
     """
     in_package = package_of(name)
-    if in_package is None or in_package[0] == OURS:
+    if in_package is None or in_package[0] == UWSIM_PACKAGE:
         return ""
     package = in_package[0]
-    folder = next(package_folders(package, above(named_by), data_path), None)
+    folder = next(package_folders(package, parent_folders(named_by), data_path), None)
     if folder is None:
         return (
             f"package {package[:200]!r} is not found; --data-path DIR adds its folder, or a "
@@ -32,55 +32,51 @@ def package_remark(
     return f"package {package!r} is {folder}, which has no {in_package[1][:200]!r}"
 
 
-def searched_for(
+def describe_search(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Say where a file that is not found was looked for: its package, or the folders there are."""
+    """Report where a missing file was searched: its package, or the folders that exist."""
     remark = package_remark(name, named_by=named_by, data_path=data_path)
-    folders = folders_searched(named_by=named_by, data_path=data_path)
+    folders = searched_folders(named_by=named_by, data_path=data_path)
     return remark or f"searched: {', '.join(str(path) for path in folders if path.is_dir())}"
 
 
-def may_be_elsewhere(name: str) -> bool:
-    """Whether a name states a place, so that its file may be found in another."""
+def states_location(name: str) -> bool:
+    """Return whether a name states a place, so that its file may be found in another."""
     return package_of(name) is not None or is_absolute(plain_name(name))
 
 
-def place_remark(
-    name: str,
-    path: Path | None,
-    *,
-    named_by: Path | None = None,
-    data_path: tuple[Path, ...] = (),
+def location_remark(
+    name: str, path: Path | None, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Say that a file was found elsewhere than its name states; empty where it is there.
+    """Report that a file was found elsewhere than its name states; empty where it is there.
 
     Args:
-        name: of the file, as a scene or robot file has it.
-        path: where it was found; None if it is nowhere.
+        name: the name of the file in a scene or robot file.
+        path: the path of the file; None if it is not found.
         named_by: the file that names it.
-        data_path: folders that the user gave.
+        data_path: the user's folders.
     """
     if path is None:
         return ""
     if (in_package := package_of(name)) is not None:
-        if in_package[0] == OURS:
+        if in_package[0] == UWSIM_PACKAGE:
             return ""
-        folders = same_named_folders(in_package[0], above(named_by), data_path)
+        folders = same_named_folders(in_package[0], parent_folders(named_by), data_path)
         for folder in folders:
-            if _differs(other := folder / in_package[1], path):
-                return f"package {in_package[0]!r} is there twice; {path} is used, not {other}"
+            if _is_different_file(other := folder / in_package[1], path):
+                return f"package {in_package[0]!r} exists twice; {path} is used, not {other}"
         if folders:
             return ""
         return f"{package_remark(name, named_by=named_by, data_path=data_path)}; {path} is used"
-    plain = plain_name(name)
-    if is_absolute(plain) and Path(plain).expanduser() != path:
-        return f"{plain[:200]!r} is a path of another computer; {path} is used"
+    file_name = plain_name(name)
+    if is_absolute(file_name) and Path(file_name).expanduser() != path:
+        return f"{file_name[:200]!r} is a path of another computer; {path} is used"
     return ""
 
 
-def _differs(other: Path, path: Path) -> bool:
-    """Whether there is another file, with other content."""
+def _is_different_file(other: Path, path: Path) -> bool:
+    """Return whether there is another file, with other content."""
     try:
         return other != path and other.is_file() and not filecmp.cmp(other, path, shallow=False)
     except (OSError, ValueError):

@@ -9,13 +9,13 @@ from .mesh import Model
 from .procedural.shapes import box, cylinder, mesh, sphere
 
 N_NUMBERS = {"box": 3, "cylinder": 2, "sphere": 1}
-"""How many sizes each kind has."""
+"""The number of sizes of each kind."""
 
 
 def primitive(
     kind: str, size: tuple[float, ...], colour: tuple[float, ...] = (0.7, 0.7, 0.7)
 ) -> Model:
-    """A box, cylinder (about z) or sphere, centred on the origin.
+    """Return a box, cylinder (about z) or sphere, centred on the origin.
 
     Args:
         kind: ``box``, ``cylinder`` or ``sphere``.
@@ -23,7 +23,7 @@ def primitive(
         colour: Red, green, blue, 0..1; a fourth number (opacity) is not used.
 
     Raises:
-        AssetError: Another kind, another number of sizes, or a size that is not positive.
+        AssetError: The kind is another, sizes are missing, or a size is not positive.
     """
     if kind not in N_NUMBERS:
         raise AssetError(f"{kind!r} is not a shape; expected one of {', '.join(N_NUMBERS)}.")
@@ -33,11 +33,13 @@ def primitive(
             f"A {kind} of size {size}: expected {N_NUMBERS[kind]} positive numbers [m]."
         )
     red, green, blue = (float(part) for part in colour[:3])
-    return _made(kind, numbers, (red, green, blue))
+    return _make_primitive(kind, numbers, (red, green, blue))
 
 
 @cache
-def _made(kind: str, size: tuple[float, ...], colour: tuple[float, float, float]) -> Model:
+def _make_primitive(
+    kind: str, size: tuple[float, ...], colour: tuple[float, float, float]
+) -> Model:
     if kind == "box":
         x, y, z = (edge / 2 for edge in size)
         shape = box((-x, -y, -z), (x, y, z))

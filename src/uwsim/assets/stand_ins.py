@@ -10,16 +10,17 @@ from .mesh import Mesh
 
 @dataclass(frozen=True)
 class StandIn:
-    """A generated model: its maker and its description."""
+    """A generated model: its factory and its description."""
 
     make: Callable[[], tuple[Mesh, ...]]
-    """Makes the meshes."""
+    """The function that makes the meshes."""
     source: str = "stand-in"
-    """``"stand-in"`` (modelled) or ``"labelled box"`` (a placeholder of the right size)."""
+    """The kind: ``"stand-in"`` (modelled) or ``"labelled box"`` (a placeholder of the right
+    size)."""
 
 
-def _modelled(module: str, maker: str) -> StandIn:
-    """A model by a function in ``procedural/``, imported at its first call."""
+def _model(module: str, maker: str) -> StandIn:
+    """Return a model by a function in ``procedural/``, imported at its first call."""
 
     def make() -> tuple[Mesh, ...]:
         from importlib import import_module
@@ -33,7 +34,7 @@ def _modelled(module: str, maker: str) -> StandIn:
 
 
 def _box(label: str, x: float, y: float, z: float) -> StandIn:
-    """A labelled box with these edges [m]."""
+    """Return a labelled box with these edges [m]."""
 
     def make() -> tuple[Mesh, ...]:
         from .procedural.placeholder import labelled_box
@@ -44,35 +45,35 @@ def _box(label: str, x: float, y: float, z: float) -> StandIn:
 
 
 STAND_INS: dict[str, StandIn] = {
-    "objects/amphora": _modelled("amphora", "amphora"),
-    "objects/blackbox": _modelled("blackbox", "blackbox"),
-    "objects/blackbox_standard": _modelled("blackbox", "blackbox_standard"),
-    "objects/blackbox_uib": _modelled("blackbox", "blackbox_uib"),
-    "objects/blackbox_uib_trimesh": _modelled("blackbox", "blackbox_uib"),
-    "objects/boat": _modelled("ships", "boat"),
-    "objects/box": _modelled("solids", "box"),
-    "objects/capsule": _modelled("solids", "rod"),
-    "objects/cone": _modelled("solids", "cone"),
-    "objects/cylinder": _modelled("solids", "upright_cylinder"),
-    "objects/full_amphora": _modelled("amphora", "amphora"),
-    "objects/gun": _modelled("cannon", "cannon"),
-    "objects/hook": _modelled("fittings", "hook"),
-    "objects/pipe_green": _modelled("pipe", "pipe"),
-    "objects/ring": _modelled("solids", "wide_ring"),
-    "objects/ship": _modelled("ships", "ship"),
-    "objects/sphere": _modelled("solids", "ball"),
-    "objects/torus": _modelled("fittings", "ring_object"),
-    "robot/ARM5E/ARM5E_part0": _modelled("arm5e", "part0"),
-    "robot/ARM5E/ARM5E_part1": _modelled("arm5e", "part1"),
-    "robot/ARM5E/ARM5E_part2": _modelled("arm5e", "part2"),
-    "robot/ARM5E/ARM5E_part3": _modelled("arm5e", "part3"),
-    "robot/ARM5E/ARM5E_part4": _modelled("arm5e", "part4"),
-    "robot/ARM5E/ARM5E_part4_base": _modelled("arm5e", "part4_base"),
-    "robot/ARM5E/ARM5E_part4_jaw1": _modelled("arm5e", "jaw1"),
-    "robot/ARM5E/ARM5E_part4_jaw1long": _modelled("arm5e", "jaw1_long"),
-    "robot/ARM5E/ARM5E_part4_jaw2": _modelled("arm5e", "jaw2"),
-    "robot/ARM5E/ARM5E_part4_jaw2long": _modelled("arm5e", "jaw2_long"),
-    "robot/GIRONA500/g500_March11": _modelled("girona500", "girona500"),
+    "objects/amphora": _model("amphora", "amphora"),
+    "objects/blackbox": _model("blackbox", "blackbox"),
+    "objects/blackbox_standard": _model("blackbox", "blackbox_standard"),
+    "objects/blackbox_uib": _model("blackbox", "blackbox_uib"),
+    "objects/blackbox_uib_trimesh": _model("blackbox", "blackbox_uib"),
+    "objects/boat": _model("ships", "boat"),
+    "objects/box": _model("solids", "box"),
+    "objects/capsule": _model("solids", "rod"),
+    "objects/cone": _model("solids", "cone"),
+    "objects/cylinder": _model("solids", "upright_cylinder"),
+    "objects/full_amphora": _model("amphora", "amphora"),
+    "objects/gun": _model("cannon", "cannon"),
+    "objects/hook": _model("fittings", "hook"),
+    "objects/pipe_green": _model("pipe", "pipe"),
+    "objects/ring": _model("solids", "wide_ring"),
+    "objects/ship": _model("ships", "ship"),
+    "objects/sphere": _model("solids", "ball"),
+    "objects/torus": _model("fittings", "ring_object"),
+    "robot/ARM5E/ARM5E_part0": _model("arm5e", "part0"),
+    "robot/ARM5E/ARM5E_part1": _model("arm5e", "part1"),
+    "robot/ARM5E/ARM5E_part2": _model("arm5e", "part2"),
+    "robot/ARM5E/ARM5E_part3": _model("arm5e", "part3"),
+    "robot/ARM5E/ARM5E_part4": _model("arm5e", "part4"),
+    "robot/ARM5E/ARM5E_part4_base": _model("arm5e", "part4_base"),
+    "robot/ARM5E/ARM5E_part4_jaw1": _model("arm5e", "jaw1"),
+    "robot/ARM5E/ARM5E_part4_jaw1long": _model("arm5e", "jaw1_long"),
+    "robot/ARM5E/ARM5E_part4_jaw2": _model("arm5e", "jaw2"),
+    "robot/ARM5E/ARM5E_part4_jaw2long": _model("arm5e", "jaw2_long"),
+    "robot/GIRONA500/g500_March11": _model("girona500", "girona500"),
     "robot/PA10/barrett": _box("BARRETT HAND", 0.13, 0.20, 0.16),
     "robot/PA10/pa10link0": _box("PA-10 LINK 0", 0.23, 0.26, 0.20),
     "robot/PA10/pa10link1": _box("PA-10 LINK 1", 0.20, 0.20, 0.20),
@@ -82,16 +83,16 @@ STAND_INS: dict[str, StandIn] = {
     "robot/PA10/pa10link5": _box("PA-10 LINK 5", 0.12, 0.12, 0.20),
     "robot/PA10/pa10link6": _box("PA-10 LINK 6", 0.10, 0.10, 0.08),
     "robot/PA10/pa10link7": _box("PA-10 LINK 7", 0.08, 0.08, 0.05),
-    "robot/UJIOne/ujione_base": _modelled("ujione", "base"),
-    "robot/UJIOne/ujione_jaw_inner": _modelled("ujione", "inner_jaw"),
-    "robot/UJIOne/ujione_jaw_outer": _modelled("ujione", "outer_jaw"),
-    "terrain/CIRS/cirs": _modelled("tank", "higher_tank"),
-    "terrain/CIRS/cirs_trident": _modelled("tank", "tank"),
-    "terrain/desert/desert2": _modelled("seafloor", "desert"),
-    "terrain/floor/floor": _modelled("solids", "floor"),
+    "robot/UJIOne/ujione_base": _model("ujione", "gripper_base"),
+    "robot/UJIOne/ujione_jaw_inner": _model("ujione", "inner_jaw"),
+    "robot/UJIOne/ujione_jaw_outer": _model("ujione", "outer_jaw"),
+    "terrain/CIRS/cirs": _model("tank", "higher_tank"),
+    "terrain/CIRS/cirs_trident": _model("tank", "tank"),
+    "terrain/desert/desert2": _model("seafloor", "desert"),
+    "terrain/floor/floor": _model("solids", "floor"),
     "terrain/islands/islands": _box("ISLANDS", 40.0, 40.0, 8.0),
-    "terrain/sand/sand": _modelled("seafloor", "flat_sand"),
-    "terrain/seafloor/terrain_noship": _modelled("seafloor", "seafloor"),
-    "terrain/shipwreck/terrain": _modelled("seafloor", "shipwreck"),
+    "terrain/sand/sand": _model("seafloor", "flat_sand"),
+    "terrain/seafloor/terrain_noship": _model("seafloor", "seafloor"),
+    "terrain/shipwreck/terrain": _model("seafloor", "shipwreck"),
 }
-"""In alphabetical order, one line each."""
+"""The stand-ins in alphabetical order, one line each."""

@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TypedDict
 
-from ..assets import bundled_robot, bundled_robots, find, place_remark, searched_for
+from ..assets import bundled_robot, bundled_robots, describe_search, find, location_remark
 from ..errors import AssetError, Diagnostic, SceneError
 from ..scene.spec import SceneSpec
 from ..scene.urdf.reader import read_urdf
@@ -50,7 +50,7 @@ class RobotSearch:
         name, remark = vehicle.file, ""
         try:
             if path := find(name, **self._where):
-                remark = place_remark(name, path, **self._where)
+                remark = location_remark(name, path, **self._where)
             elif path := bundled_robot(name):
                 self.stand_ins.add(name)
                 remark = f"robot file {name!r} is nowhere; the bundled {path.name} is used"
@@ -68,7 +68,7 @@ class RobotSearch:
         return None
 
     def _lost(self, name: str) -> str:
-        searched = searched_for(name, **self._where)
+        searched = describe_search(name, **self._where)
         near = self._diagnostics.suggest(name.strip().rpartition("/")[2], bundled_robots())
         return (
             f"robot file {name!r} is nowhere, and no bundled robot is called so.{near} "

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 from .. import assets
-from ..assets.doubtful_size import doubtful_size
+from ..assets.mesh_unit import mesh_unit_remark
 from ..errors import Diagnostic, SceneError, choices
 from ..scene.urdf.reader import read_robot
 from ..scene.urdf.robot import RobotSpec, VisualSpec
@@ -42,13 +42,13 @@ def mesh_files(robot: CheckedRobot) -> Iterator[Diagnostic]:
     """Report meshes that are not found, cannot be read, or are likely not in metres."""
     where = robot.where
     for name, shape in itertools.islice(_meshes(robot.spec).items(), MAX_FILES):
-        if why := assets.why_unreadable(name, **where):
+        if why := assets.model_read_error(name, **where):
             yield robot.error(shape, why)
         elif not assets.has_model(name, **where):
             remark = assets.package_remark(name, **where)
             message = f"there is no model {name!r}, nor a stand-in: a labelled box"
             yield robot.warning(shape, f"{message}; {remark}" if remark else message)
-        elif why := assets.model_place_remark(name, **where) or doubtful_size(
+        elif why := assets.model_location_remark(name, **where) or mesh_unit_remark(
             name, shape.scale, **where
         ):
             yield robot.warning(shape, why)

@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from ..assets.bundled import bundled_or
+from ..assets.bundled import resolve_bundled
 from ..base.terminal import clean_text
 from ..checks import check_file
 from ..checks.benchmark_tables import read_plugins
@@ -68,8 +68,8 @@ def check(
     folders = tuple(data_path or ())
     plugins = read_plugins(plugin)
     arguments = xacro_arguments(pairs_of(xacro_settings(xacro), ErrorCollector()))
-    named = [bundled_or(file) for file in files]
-    scene = None if scene is None else bundled_or(scene)
+    named = [resolve_bundled(file) for file in files]
+    scene = None if scene is None else resolve_bundled(scene)
     found = {
         str(file): check_file(
             file,

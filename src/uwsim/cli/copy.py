@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from ..assets.bundled import bundled
+from ..assets.bundled import bundled_files
 from .options.completion import copied_names
 from .options.help_texts import OUTPUT, in_group
 from .output.console import Console
@@ -45,7 +45,9 @@ def copy(
     for path in copies:
         console.print(f"written: {path}", soft_wrap=True, highlight=False, markup=False)
     file = copies[0]
-    command = f"bench {file}" if file.stem in bundled("benchmarks") else f"run {file} --for 5s --hz"
+    command = (
+        f"bench {file}" if file.stem in bundled_files("benchmarks") else f"run {file} --for 5s --hz"
+    )
     console.print(
         f"Edit {file}, then run: uwsim check {file}; uwsim {command}",
         soft_wrap=True,

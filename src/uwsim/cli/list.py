@@ -10,7 +10,7 @@ import typer
 from rich.table import Table
 from rich.text import Text
 
-from ..assets.bundled import bundled
+from ..assets.bundled import bundled_files
 from ..checks.benchmark_tables import read_plugins
 from ..errors import UnknownName
 from .options.completion import one_of
@@ -83,17 +83,17 @@ def limit_in(kind: str, name: str) -> str:
 
 def scenes(tables: Tables) -> dict[str, str]:
     """Bundled scenes, with the first sentence of the comment at their head."""
-    return {name: head_comment(path) for name, path in bundled("scenes").items()}
+    return {name: head_comment(path) for name, path in bundled_files("scenes").items()}
 
 
 def benchmarks(tables: Tables) -> dict[str, str]:
     """Bundled benchmarks, with the first sentence of the comment at their head."""
-    return {name: head_comment(path) for name, path in bundled("benchmarks").items()}
+    return {name: head_comment(path) for name, path in bundled_files("benchmarks").items()}
 
 
 def vehicles(tables: Tables) -> dict[str, str]:
     """Bundled robots, as ``<file>`` names them, with the first sentence of their head comment."""
-    robots = bundled("scenes", ".urdf") | bundled("vehicles", ".urdf")
+    robots = bundled_files("scenes", ".urdf") | bundled_files("vehicles", ".urdf")
     return {path.name: head_comment(path) for path in robots.values()}
 
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from ..assets import load_model, painted, primitive, unknown_model
+from ..assets import load_model, paint_model, primitive, unknown_model
 from ..assets.conventions import robot_scale, with_z_up
 from ..assets.mesh import Model
-from ..assets.weathering import weathered
+from ..assets.weathering import weather_model
 from ..base.geometry import Pose
 from ..base.numerics.linear import product
 from ..devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
@@ -149,7 +149,7 @@ def _worn(model: Model, thing: ObjectSpec) -> Model:
     weathering = thing.weathering
     if weathering is None:
         return model
-    return weathered(model, weathering.pattern, weathering.strength)
+    return weather_model(model, weathering.pattern, weathering.strength)
 
 
 def placed_visual(
@@ -179,7 +179,7 @@ def visual_model(
         wide, deep, tall = (max(edge, THINNEST) for edge in visual.size)
         sizes = {"cylinder": (0.5 * wide, tall), "sphere": (0.5 * wide,)}
         model = primitive(visual.kind, sizes.get(visual.kind, (wide, deep, tall)))
-    return (model if visual.colour is None else painted(model, visual.colour)), scale
+    return (model if visual.colour is None else paint_model(model, visual.colour)), scale
 
 
 def object_models(scene: SceneSpec, data_path: tuple[Path, ...]) -> Callable[[str], Model]:

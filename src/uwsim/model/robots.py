@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from ..assets import bundled_robot, find, folders_searched, package_remark
+from ..assets import bundled_robot, find, package_remark, searched_folders
 from ..errors import AssetNotFound
 from ..scene.spec import SceneSpec
 from ..scene.urdf.reader import read_urdf
@@ -17,7 +17,7 @@ def find_file(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
     path = find(name, named_by=folder, data_path=data_path)
     if path is None:
         remark = package_remark(name, named_by=folder, data_path=data_path)
-        searched = folders_searched(named_by=folder, data_path=data_path)
+        searched = searched_folders(named_by=folder, data_path=data_path)
         folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
         why = f"not found; {remark}" if remark else f"in none of the folders searched: {folders}"
         raise AssetNotFound(f"{name!r} is {why}.", name=name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path, PurePosixPath
 
-from ..assets.bundled import bundled
+from ..assets.bundled import bundled_files
 from ..assets.find import PACKAGE
 from ..base.files.input_files import InputFile, record_inputs
 from ..errors import BadSetting, UnknownName
@@ -23,7 +23,7 @@ BESIDE = ("scenes", "benchmarks", "vehicles")
 
 def copyable_names() -> list[str]:
     """Return the names of all bundled scenes and benchmarks."""
-    return [name for kind in KINDS for name in bundled(kind)]
+    return [name for kind in KINDS for name in bundled_files(kind)]
 
 
 def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Path]:
@@ -60,7 +60,7 @@ def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Pa
 
 def _files_of(name: str) -> list[InputFile]:
     """Return the bundled files that are read when a scene or benchmark is opened."""
-    scenes, benchmarks = (bundled(kind) for kind in KINDS)
+    scenes, benchmarks = (bundled_files(kind) for kind in KINDS)
     with record_inputs() as files:
         if name in scenes:
             Simulation(compile_scene(read_scene(scenes[name]))).close()

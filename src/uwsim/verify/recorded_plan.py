@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..assets.bundled import bundled
+from ..assets.bundled import bundled_files
 from ..errors import AssetNotFound, ResultError
 from ..results.inputs import Inputs, input_differences
 from ..runs.named_plugins import plugin_names
@@ -131,16 +131,20 @@ def find_input(
         ResultError: there are files of that name, but with other hashes.
         AssetNotFound: there is none.
     """
-    from ..assets.find import candidates, folders_searched
+    from ..assets.find import candidates, searched_folders
 
     name, wanted = recorded
     if chosen is not None:
-        files = [bundled(f"{kind}s").get(str(chosen), chosen)] if not chosen.is_file() else [chosen]
+        files = (
+            [bundled_files(f"{kind}s").get(str(chosen), chosen)]
+            if not chosen.is_file()
+            else [chosen]
+        )
     else:
         names = [*(word for word in typed if Path(word).name == name), name]
         above = (directory.absolute(), *directory.absolute().parents)
         files = list(candidates(names, data_path=(*above, *overrides.data_path)))
-        files += [path for path in bundled(f"{kind}s").values() if path.name == name]
+        files += [path for path in bundled_files(f"{kind}s").values() if path.name == name]
     others = []
     for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):
         found = _sha256(file)
@@ -152,7 +156,7 @@ def find_input(
             f"The {kind} is not the one that was run, {name} ({_shortened(wanted)}): "
             f"{', '.join(others)}. Give the right one with --{kind}."
         )
-    searched = folders_searched(named_by=directory.absolute(), data_path=overrides.data_path)
+    searched = searched_folders(named_by=directory.absolute(), data_path=overrides.data_path)
     folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
     raise AssetNotFound(
         f"The {kind} {name!r} ({_shortened(wanted)}) was not found; give it with --{kind}. "

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.updaters import n_levels
 from uwsim.cli import main
@@ -53,7 +53,7 @@ def play(
     file, out = tmp_path / f"{name}.xml", tmp_path / "out"
     file.write_text(text)
     if scene == "drivable":
-        plain = bundled("scenes")["visibility-scene"].read_text()
+        plain = bundled_files("scenes")["visibility-scene"].read_text()
         path = tmp_path / "scene.xml"
         path.write_text(plain.replace("</rosInterfaces>", f"{TWIST}</rosInterfaces>"))
         scene = str(path)
@@ -120,7 +120,9 @@ def test_unending_ends_in_timeout_and_keeps_what_the_world_measured(
     assert result.numbers("taskTime") == (3.0,)
     assert result.numbers("hits") == (1.0,)
     assert result.numbers("distance") == (0.0,)
-    [box] = [thing for thing in read_scene(bundled("scenes")["cirs"]).objects if thing.physics][1:]
+    [box] = [
+        thing for thing in read_scene(bundled_files("scenes")["cirs"]).objects if thing.physics
+    ][1:]
     away = math.dist(box.position, (0.0, 0.0, 3.65))
     assert result.numbers("place") == pytest.approx([away], abs=1e-4)  # it lies on the floor
     assert result.numbers("guess") == pytest.approx([0.0], abs=1e-3)  # it waited for nothing

@@ -21,7 +21,7 @@ import pytest
 
 import uwsim
 from tests.support.opened import open_scene
-from uwsim.assets.bundled import bundled
+from uwsim.assets.bundled import bundled_files
 from uwsim.base.record import GeneratorState
 from uwsim.messages import (
     JointState,
@@ -184,13 +184,13 @@ def disturb(simulation: uwsim.Simulation) -> None:
             simulation.publish(topic, message)
 
 
-SCENES = [*sorted(bundled("scenes")), "everything"]
+SCENES = [*sorted(bundled_files("scenes")), "everything"]
 N_CYCLES = int(os.environ.get("UWSIM_CYCLES", "12"))
 """How often a run is saved and restored."""
 
 
 def opened(scene: str) -> uwsim.Simulation:
-    path = EVERYTHING if scene == "everything" else bundled("scenes")[scene]
+    path = EVERYTHING if scene == "everything" else bundled_files("scenes")[scene]
     simulation = open_scene(read_scene(path), seed=3)
     for topic in sorted(simulation.topics):
         simulation.latest(topic)

@@ -7,80 +7,84 @@ from pathlib import Path
 from ...base.files.input_files import read_bytes, record, record_inputs
 from ...errors import AssetError
 from ..mesh import Model
-from .by_trimesh import READABLE, read_meshes
-from .openscenegraph import BY_OSGCONV, converted, has_osgconv, without_osgconv
+from .by_trimesh import MESH_FORMATS, read_meshes
+from .openscenegraph import OSGCONV_FORMATS, convert_to_obj, has_osgconv, osgconv_error
 
-__all__ = ["BY_OSGCONV", "READABLE", "can_read", "read_model", "why_not_read"]
+__all__ = ["MESH_FORMATS", "OSGCONV_FORMATS", "can_read", "format_error", "read_model"]
 
-KEPT = 256
-"""Number of models kept in memory."""
+CACHE_SIZE = 256
+"""The number of models in memory."""
 
 _Stamp = tuple[int, int]
 _Key = tuple[Path, str, tuple[Path, ...]]
-_kept: dict[_Key, tuple[tuple[_Stamp, ...], Model]] = {}
+_cache: dict[_Key, tuple[tuple[_Stamp, ...], Model]] = {}
 
 
 def can_read(path: Path) -> bool:
-    """Whether files of that type can be read here and now."""
+    """Return whether files of that type can be read with the installed programs."""
     suffix = path.suffix.lower()
-    return suffix in READABLE or (suffix in BY_OSGCONV and has_osgconv())
+    return suffix in MESH_FORMATS or (suffix in OSGCONV_FORMATS and has_osgconv())
 
 
-def why_not_read(path: Path) -> str:
-    """Why files of that type cannot be read here and now; empty if they can."""
+def format_error(path: Path) -> str:
+    """Return why files of that type cannot be read here and now; empty if they can."""
     suffix = path.suffix.lower()
     if can_read(path):
         return ""
-    if suffix in BY_OSGCONV:
-        return without_osgconv(path)
-    known = ", ".join((*READABLE, *BY_OSGCONV))
-    return f"{path}: files of type {suffix or 'none'} are not read; expected one of {known}"
+    if suffix in OSGCONV_FORMATS:
+        return osgconv_error(path)
+    formats = ", ".join((*MESH_FORMATS, *OSGCONV_FORMATS))
+    return f"{path}: files of type {suffix or 'none'} are not read; expected one of {formats}"
 
 
-def read_model(path: Path, *, name: str, within: tuple[Path, ...] = ()) -> Model:
-    """The model in a file, cached until one of its files changes.
+def read_model(path: Path, *, name: str, allowed_folders: tuple[Path, ...] = ()) -> Model:
+    """Return the model in a file, cached until one of its files changes.
 
     Args:
         path: The file.
         name: The name by which it was looked up.
-        within: Folders that its materials and images may lie in; its own by default.
+        allowed_folders: The folders of its materials and images; its own by default.
 
     Raises:
         AssetError: It cannot be read.
     """
-    within = within or (path.absolute().parent,)
-    key = (path, name, within)
-    kept = _kept.get(key)
-    if kept is not None and kept[0] == _stamps(kept[1]):
-        record(kept[1].files)
-        return kept[1]
+    allowed_folders = allowed_folders or (path.absolute().parent,)
+    key = (path, name, allowed_folders)
+    entry = _cache.get(key)
+    if entry is not None and entry[0] == _stamps(entry[1]):
+        record(entry[1].files)
+        return entry[1]
     try:
-        model = _read(path, name, within)
+        model = _read(path, name, allowed_folders)
     except OSError as error:
         raise AssetError(f"{path}: cannot be read ({error.strerror}).") from error
-    while len(_kept) >= KEPT:
-        del _kept[next(iter(_kept))]
-    _kept[key] = _stamps(model), model
+    while len(_cache) >= CACHE_SIZE:
+        del _cache[next(iter(_cache))]
+    _cache[key] = _stamps(model), model
     return model
 
 
 def _stamps(model: Model) -> tuple[_Stamp, ...]:
-    """Time and size of the files that a model is made of, as they are now."""
-    facts = [file.path.stat() if file.path.exists() else None for file in model.files]
-    return tuple((0, 0) if each is None else (each.st_mtime_ns, each.st_size) for each in facts)
+    """Return the present time and size of the files that a model is made of."""
+    statuses = [file.path.stat() if file.path.exists() else None for file in model.files]
+    return tuple(
+        (0, 0) if status is None else (status.st_mtime_ns, status.st_size) for status in statuses
+    )
 
 
-def _read(path: Path, name: str, within: tuple[Path, ...]) -> Model:
+def _read(path: Path, name: str, allowed_folders: tuple[Path, ...]) -> Model:
     suffix = path.suffix.lower()
     with record_inputs() as files:
-        if suffix in READABLE:
-            meshes, asset, remarks = read_meshes(path, name=name, within=within)
-        elif suffix in BY_OSGCONV:
+        if suffix in MESH_FORMATS:
+            meshes, asset, remarks = read_meshes(path, name=name, allowed_folders=allowed_folders)
+        elif suffix in OSGCONV_FORMATS:
             read_bytes(path, name=name)
-            with converted(path) as obj:
-                meshes, asset, remarks = read_meshes(obj, name=name, within=within, original=path)
+            with convert_to_obj(path) as obj:
+                meshes, asset, remarks = read_meshes(
+                    obj, name=name, allowed_folders=allowed_folders, original=path
+                )
         else:
-            raise AssetError(why_not_read(path))
+            raise AssetError(format_error(path))
     digest = files[0].sha256.removeprefix("sha256:")
     return Model(
         name=name,

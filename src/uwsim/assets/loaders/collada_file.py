@@ -1,7 +1,7 @@
-"""Collada files, read by pycollada: what it cannot read is reported, not silently left out.
+"""Collada files, read by pycollada; each part that it cannot read gets a remark.
 
 pycollada leaves out a geometry whose material is broken. Here such a material is replaced by its
-diffuse colour, or by grey; what is lost for another reason gets a remark.
+diffuse colour, or by grey; a part that is left out for another reason gets a remark.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ from collada.scene import GeometryNode, Node
 
 from ...base.numerics.linear import product
 from ...errors import AssetError
-from .polygons import cut
+from .polygons import triangulate
 from .references import References
 
 GREY = (0.7, 0.7, 0.7, 1.0)
 """The colour of a material that cannot be read."""
 MAX_REMARKS = 20
-"""Most remarks about one file."""
-MAX_SHOWN = 80
-"""Most letters of a name of the file in a remark."""
+"""The greatest number of remarks about one file."""
+MAX_NAME_LENGTH = 80
+"""The number of letters of a name of the file in a remark."""
 
 Matrix = npt.NDArray[np.float64]
-_TAIL = re.compile(r" in (effect|node|material) .*", re.DOTALL)
-_UNUSED = re.compile(r"Camera |Light |Invalid url in (camera|light) |Unknown input semantic")
+_MESSAGE_TAIL = re.compile(r" in (effect|node|material) .*", re.DOTALL)
+_IGNORED_ERROR = re.compile(r"Camera |Light |Invalid url in (camera|light) |Unknown input semantic")
 _NOT_FOUND = re.compile(r"(?:Geometry|Node) #(.*) not found in library", re.DOTALL)
 
 
@@ -50,24 +50,24 @@ def read_parts(
         references: reads its images.
 
     Raises:
-        AssetError: it has no scene, or broken parts alone.
+        AssetError: it has no scene, or only broken parts.
     """
     document = _Document(io.BytesIO(data), ignore=[DaeError])
     remarks = document.remarks()
     if document.scene is None:
         causes = [error.msg for error in document.errors]
-        raise AssetError(f"has no scene that can be read{_because(causes)}")
-    materials = {each.id: _look(each.effect, references) for each in document.materials}
+        raise AssetError(f"has no scene that can be read{_cause_suffix(causes)}")
+    materials = {item.id: _material_of(item.effect, references) for item in document.materials}
     parts = [
         part for node in document.scene.nodes for part in _parts_of(node, np.eye(4), materials)
     ]
     if remarks and not any(len(mesh.faces) for _, mesh in parts):
-        raise AssetError(f"holds no triangles that can be read{_because(remarks)}")
+        raise AssetError(f"has no triangles that can be read{_cause_suffix(remarks)}")
     return parts, remarks[:MAX_REMARKS]
 
 
 class _Document(collada.Collada):  # type: ignore[misc]  # pycollada has no types
-    """A file whose materials are all there, broken ones as plain colours."""
+    """A file with all of its materials, broken ones as plain colours."""
 
     def __init__(self, file: io.BytesIO, ignore: list[type]) -> None:
         self._broken_effects: dict[str, str] = {}
@@ -78,38 +78,38 @@ class _Document(collada.Collada):  # type: ignore[misc]  # pycollada has no type
         super().__init__(file, ignore=ignore)
 
     def remarks(self) -> tuple[str, ...]:
-        """Return what of the scene is broken, with the reason."""
-        used = (node.get("target")[1:] for node in self._all("instance_material"))
-        said = [
-            f"material {_shown(name)} cannot be read ({self._broken_materials[name]})"
-            for name in used
+        """Return the broken parts of the scene, with the reasons."""
+        material_names = (node.get("target")[1:] for node in self._elements("instance_material"))
+        remarks = [
+            f"material {_quote_name(name)} cannot be read ({self._broken_materials[name]})"
+            for name in material_names
             if name in self._broken_materials
         ]
-        said += self._remarks
+        remarks += self._remarks
         for error in self.errors[self._n_errors :]:
-            if not _UNUSED.match(error.msg):
-                said.append(f"{self._what_is_lost(error.msg)}: it is left out")
-        return tuple(dict.fromkeys(said))
+            if not _IGNORED_ERROR.match(error.msg):
+                remarks.append(f"{self._describe_loss(error.msg)}: it is left out")
+        return tuple(dict.fromkeys(remarks))
 
-    def _what_is_lost(self, message: str) -> str:
-        found = _NOT_FOUND.fullmatch(message)
-        if found and found[1] in self._broken_geometries:
-            why = self._broken_geometries[found[1]]
-            return f"geometry {_shown(found[1])} cannot be read ({why})"
+    def _describe_loss(self, message: str) -> str:
+        match = _NOT_FOUND.fullmatch(message)
+        if match and match[1] in self._broken_geometries:
+            reason = self._broken_geometries[match[1]]
+            return f"geometry {_quote_name(match[1])} cannot be read ({reason})"
         return f"a part of its scene cannot be read ({message[:200]})"
 
-    def _all(self, kind: str) -> Iterator[Any]:
+    def _elements(self, kind: str) -> Iterator[Any]:
         yield from self.xmlnode.getroot().iter(self.tag(kind))
 
     def _loadEffects(self) -> None:  # noqa: N802  # pycollada calls it
-        """Load all effects; of a broken one its diffuse colour, else grey."""
+        """Load all effects; replace a broken one by its diffuse colour, or by grey."""
         for library in self.xmlnode.findall(self.tag("library_effects")):
             for node in library.findall(self.tag("effect")):
                 try:
                     effect = self._effect(node)
                 except Exception as error:  # pycollada raises many kinds on broken effects
-                    effect, kept = self._replaced(node)
-                    self._broken_effects[effect.id] = f"{_reason(error)}; {kept}"
+                    effect, substitute = self._substitute_effect(node)
+                    self._broken_effects[effect.id] = f"{_reason(error)}; {substitute}"
                 self.effects.append(effect)
 
     def _effect(self, node: Any) -> Effect:
@@ -119,31 +119,31 @@ class _Document(collada.Collada):  # type: ignore[misc]  # pycollada has no type
             raise DaeBrokenRefError(f"Missing image {texture.get('texture')!r}")
         return effect
 
-    def _replaced(self, node: Any) -> tuple[Effect, str]:
-        for without in ((), ("newparam",)):
-            plain = copy.deepcopy(node)
-            unused = {self.tag(each) for each in Effect.supported if each != "diffuse"}
-            unused |= {self.tag(each) for each in ("extra", *without)}
-            for each in [each for each in plain.iter() if each.tag in unused]:
-                each.getparent().remove(each)
+    def _substitute_effect(self, node: Any) -> tuple[Effect, str]:
+        for removed_tags in ((), ("newparam",)):
+            plain_node = copy.deepcopy(node)
+            unused_tags = {self.tag(name) for name in Effect.supported if name != "diffuse"}
+            unused_tags |= {self.tag(name) for name in ("extra", *removed_tags)}
+            for child in [child for child in plain_node.iter() if child.tag in unused_tags]:
+                child.getparent().remove(child)
             try:
-                effect = self._effect(plain)
+                effect = self._effect(plain_node)
             except Exception:  # as above
                 continue
             if effect.diffuse is not None:
-                return effect, "of its looks the diffuse one is used"
+                return effect, "only its diffuse colour is used"
         return _grey(node.get("id")), "grey is used"
 
     def _loadMaterials(self) -> None:  # noqa: N802  # pycollada calls it
-        """Load all materials, and add a grey one for each that is broken or not there."""
+        """Load all materials, and add a grey one for each that is broken or absent."""
         for library in self.xmlnode.findall(self.tag("library_materials")):
             for node in library.findall(self.tag("material")):
                 self.materials.append(self._material(node))
-        for node in self._all("instance_material"):
+        for node in self._elements("instance_material"):
             name = (node.get("target") or "").removeprefix("#")
             node.set("target", f"#{name}")
             if name not in self.materials:
-                self._broken_materials[name] = "there is none of that id; grey is used"
+                self._broken_materials[name] = "no material has that id; grey is used"
                 self.materials.append(Material(name, name, _grey(name)))
 
     def _material(self, node: Any) -> Material:
@@ -153,12 +153,12 @@ class _Document(collada.Collada):  # type: ignore[misc]  # pycollada has no type
         except Exception as error:  # as above
             self._broken_materials[name] = f"{_reason(error)}; grey is used"
             return Material(name, name, _grey(name), xmlnode=node)
-        if why := self._broken_effects.get(material.effect.id):
-            self._broken_materials[name] = why
+        if reason := self._broken_effects.get(material.effect.id):
+            self._broken_materials[name] = reason
         return material
 
     def _loadGeometry(self) -> None:  # noqa: N802  # pycollada calls it
-        """Load all geometries; those of a skin are used without it."""
+        """Load all geometries; a skin is not applied to its geometry."""
         for library in self.xmlnode.findall(self.tag("library_geometries")):
             for node in library.findall(self.tag("geometry")):
                 if (mesh := node.find(self.tag("mesh"))) is not None:
@@ -178,25 +178,26 @@ class _Document(collada.Collada):  # type: ignore[misc]  # pycollada has no type
                 self._broken_geometries[name] = _reason(error)
 
     def _leave_out_skins(self) -> None:
-        """Make an instance of its geometry of every instance of a controller."""
+        """Replace every instance of a controller by an instance of its geometry."""
         sources = {
-            node.get("id"): (each.get("source") or "").removeprefix("#")
-            for node in self._all("controller")
-            for each in node
-            if each.tag in (self.tag("skin"), self.tag("morph"))
+            node.get("id"): (child.get("source") or "").removeprefix("#")
+            for node in self._elements("controller")
+            for child in node
+            if child.tag in (self.tag("skin"), self.tag("morph"))
         }
-        for node in self._all("instance_controller"):
+        for node in self._elements("instance_controller"):
             name = (node.get("url") or "").removeprefix("#")
             geometry = sources.get(sources.get(name, ""), sources.get(name))
             if geometry is not None:
                 node.tag = self.tag("instance_geometry")
                 node.set("url", f"#{geometry}")
                 self._remarks.append(
-                    f"controller {_shown(name)} is not applied: its geometry is used as modelled"
+                    f"controller {_quote_name(name)} is not applied: "
+                    "its geometry is used as modelled"
                 )
 
     def _loadControllers(self) -> None:  # noqa: N802  # pycollada calls it
-        """Load none: they are not applied."""
+        """Load none: controllers are not applied."""
 
 
 def _grey(name: str | None) -> Effect:
@@ -206,26 +207,26 @@ def _grey(name: str | None) -> Effect:
 def _reason(error: Exception) -> str:
     """Return why something cannot be read; pycollada's own errors name it, others do not."""
     if isinstance(error, DaeError):
-        return _TAIL.sub("", str(error.msg))[:200]
+        return _MESSAGE_TAIL.sub("", str(error.msg))[:200]
     if isinstance(error, DaeMissingSampler2D):
-        return _TAIL.sub("", str(error))[:200]
+        return _MESSAGE_TAIL.sub("", str(error))[:200]
     return "malformed"
 
 
-def _shown(name: str) -> str:
-    return repr(name[:MAX_SHOWN])
+def _quote_name(name: str) -> str:
+    return repr(name[:MAX_NAME_LENGTH])
 
 
-def _because(causes: list[str] | tuple[str, ...]) -> str:
+def _cause_suffix(causes: list[str] | tuple[str, ...]) -> str:
     return f": {causes[0]}" if causes else ""
 
 
 def _parts_of(
     node: Any, world_from_parent: Matrix, materials: dict[str, Any]
 ) -> Iterator[tuple[Matrix, trimesh.Trimesh]]:
-    """Give the triangles of a node and of those in it, each with its pose."""
+    """Yield the triangles of a node and of its children, each with its pose."""
     if isinstance(node, GeometryNode):
-        symbols = {each.symbol: materials[each.target.id] for each in node.materials}
+        symbols = {binding.symbol: materials[binding.target.id] for binding in node.materials}
         for primitive in node.geometry.primitives:
             if (mesh := _mesh_of(primitive, symbols)) is not None:
                 yield world_from_parent, mesh
@@ -236,7 +237,7 @@ def _parts_of(
 
 
 def _mesh_of(primitive: Any, symbols: dict[str, Any]) -> trimesh.Trimesh | None:
-    """Return the triangles of a primitive; None of lines and of what has no vertices."""
+    """Return the triangles of a primitive; None for lines and for a primitive without vertices."""
     if isinstance(primitive, collada.polylist.Polylist):
         primitive = _triangles_of(primitive)
     if not isinstance(primitive, collada.triangleset.TriangleSet) or primitive.vertex is None:
@@ -246,8 +247,9 @@ def _mesh_of(primitive: Any, symbols: dict[str, Any]) -> trimesh.Trimesh | None:
     visual, colours = None, None
     if primitive.material in symbols:
         visual = visuals.TextureVisuals(uv=_uvs_of(primitive), material=symbols[primitive.material])
-    elif (given := primitive.sources.get("COLOR")) and len(primitive.index):
-        colours = given[0][4].data[primitive.index[:, :, given[0][0]]].reshape(len(corners), -1)
+    elif (sources := primitive.sources.get("COLOR")) and len(primitive.index):
+        indices = primitive.index[:, :, sources[0][0]]
+        colours = sources[0][4].data[indices].reshape(len(corners), -1)
     return trimesh.Trimesh(
         vertices=corners,
         faces=np.arange(len(corners)).reshape(-1, 3),
@@ -258,10 +260,10 @@ def _mesh_of(primitive: Any, symbols: dict[str, Any]) -> trimesh.Trimesh | None:
 
 
 def _triangles_of(primitive: Any) -> Any:
-    """Return the polygons of a primitive as triangles; pycollada's fans cover what is notched."""
+    """Cut the polygons of a primitive into triangles, without the notches of concave ones."""
     if primitive.vertex is None or not len(primitive.index):
         return primitive.triangleset()
-    triangles = cut(primitive.vertex[primitive.vertex_index], primitive.vcounts)
+    triangles = triangulate(primitive.vertex[primitive.vertex_index], primitive.vcounts)
     corners = primitive.index[triangles.ravel()].ravel()
     return collada.triangleset.TriangleSet(
         primitive.sources, primitive.material, corners, primitive.xmlnode
@@ -283,8 +285,8 @@ def _uvs_of(primitive: Any) -> npt.NDArray[np.float64] | None:
     return uvs.reshape(-1, 2)
 
 
-def _look(effect: Effect, references: References) -> Any:
-    """Return the diffuse colour or image of an effect as trimesh has it."""
+def _material_of(effect: Effect, references: References) -> Any:
+    """Convert the diffuse colour or image of an effect to a material of trimesh."""
     colour, image = np.ones(4), None
     if isinstance(effect.diffuse, Map):
         try:

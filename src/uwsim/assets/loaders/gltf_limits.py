@@ -1,6 +1,6 @@
 """Limits of glTF files, checked before anything is loaded.
 
-A header of a few bytes can stand for any amount of work: an accessor without data is that many
+A header of a few bytes can cause any amount of work: an accessor without data is an array of
 zeros, and every node is an instance of a mesh.
 """
 
@@ -10,87 +10,89 @@ import json
 from typing import Any
 
 MAX_ENTRIES = 20_000
-"""Most nodes, primitives, accessors, images, ... of one kind."""
+"""The greatest number of nodes, primitives, accessors, images, ... of one kind."""
 MAX_DEPTH = 100
-"""Longest chain of nodes."""
+"""The greatest length of a chain of nodes."""
 MAX_ELEMENTS = 24_000_000
-"""Most elements of an accessor: twice those of 4 million triangles that share no corner."""
-MAX_EMPTY = 12_000_000
-"""Most elements of all accessors without data, which are made of nothing."""
+"""The greatest number of elements of an accessor: twice that of 4 million separate triangles."""
+MAX_EMPTY_ELEMENTS = 12_000_000
+"""The greatest number of elements of all accessors without data, which are zeros."""
 MAX_HEADER_BYTES = 32 * 2**20
-"""Largest header of a .glb [bytes]."""
-HEAD = 20
-"""Length of what stands before that [bytes]."""
+"""The greatest header of a .glb [bytes]."""
+GLB_JSON_START = 20
+"""The offset of that header in the file [bytes]."""
 
 
-def too_much(data: bytes, suffix: str) -> str:
+def limit_error(data: bytes, suffix: str) -> str:
     """Report which limit a ``.gltf`` or ``.glb`` file exceeds; empty if none.
 
-    What is no such file at all, trimesh says.
+    If it is not such a file, trimesh reports that.
     """
     if suffix == ".glb":
         length = int.from_bytes(data[12:16], "little")
         if length > MAX_HEADER_BYTES:
             return f"its header has {length} bytes; at most {MAX_HEADER_BYTES} are read"
-        data = data[HEAD : HEAD + length]
+        data = data[GLB_JSON_START : GLB_JSON_START + length]
     try:
         tree = json.loads(data)
     except (ValueError, RecursionError):
         return ""
-    return _too_many(tree) or _too_large(tree) if isinstance(tree, dict) else ""
+    return _count_error(tree) or _size_error(tree) if isinstance(tree, dict) else ""
 
 
-def _too_many(tree: dict[str, Any]) -> str:
-    kinds = {kind: found for kind, found in tree.items() if isinstance(found, list)}
+def _count_error(tree: dict[str, Any]) -> str:
+    kinds = {kind: entries for kind, entries in tree.items() if isinstance(entries, list)}
     kinds["primitives"] = [
         primitive
         for mesh in _entries(tree, "meshes")
         if isinstance(mesh.get("primitives"), list)
         for primitive in mesh["primitives"]
     ]
-    for kind, found in kinds.items():
-        if len(found) > MAX_ENTRIES:
-            return f"has {len(found)} {kind}; at most {MAX_ENTRIES} are read"
-    return _too_deep(_entries(tree, "nodes"))
+    for kind, entries in kinds.items():
+        if len(entries) > MAX_ENTRIES:
+            return f"has {len(entries)} {kind}; at most {MAX_ENTRIES} are read"
+    return _depth_error(_entries(tree, "nodes"))
 
 
-def _too_deep(nodes: list[dict[str, Any]]) -> str:
-    """Walk from the nodes without parents downwards, each once; what is left over is a loop."""
+def _depth_error(nodes: list[dict[str, Any]]) -> str:
+    """Visit the nodes from those without parents downwards, each once; the rest form loops."""
     children = [
-        [i for i in found if isinstance(i, int) and 0 <= i < len(nodes)]
-        if isinstance(found := node.get("children"), list)
+        [i for i in child_indices if isinstance(i, int) and 0 <= i < len(nodes)]
+        if isinstance(child_indices := node.get("children"), list)
         else []
         for node in nodes
     ]
     if sum(map(len, children)) > MAX_ENTRIES:
         return f"its nodes have more than {MAX_ENTRIES} children"
     n_parents, depth = [0] * len(nodes), [0] * len(nodes)
-    for child in (child for found in children for child in found):
+    for child in (child for child_indices in children for child in child_indices):
         n_parents[child] += 1
-    ready = [i for i, n in enumerate(n_parents) if n == 0]
-    for i in ready:  # grows while it is walked
+    visited_nodes = [i for i, n in enumerate(n_parents) if n == 0]
+    for i in visited_nodes:  # grows while it is walked
         for child in children[i]:
             depth[child] = max(depth[child], depth[i] + 1)
             n_parents[child] -= 1
             if n_parents[child] == 0:
-                ready.append(child)
-    if len(ready) < len(nodes) or max(depth, default=0) >= MAX_DEPTH:
+                visited_nodes.append(child)
+    if len(visited_nodes) < len(nodes) or max(depth, default=0) >= MAX_DEPTH:
         return f"its nodes form a loop, or a chain of more than {MAX_DEPTH}"
     return ""
 
 
-def _too_large(tree: dict[str, Any]) -> str:
-    empty = 0
+def _size_error(tree: dict[str, Any]) -> str:
+    n_empty = 0
     for accessor in _entries(tree, "accessors"):
         count = accessor.get("count")
         n = count if isinstance(count, int) else 0
-        empty += 0 if "bufferView" in accessor else n
-        for found, limit in ((n, MAX_ELEMENTS), (empty, MAX_EMPTY)):
-            if found > limit:
-                return f"has accessors of {found} elements; at most {limit} are read"
+        n_empty += 0 if "bufferView" in accessor else n
+        for n_elements, limit in ((n, MAX_ELEMENTS), (n_empty, MAX_EMPTY_ELEMENTS)):
+            if n_elements > limit:
+                return f"has accessors of {n_elements} elements; at most {limit} are read"
     return ""
 
 
 def _entries(tree: dict[str, Any], kind: str) -> list[dict[str, Any]]:
-    found = tree.get(kind)
-    return [each for each in found if isinstance(each, dict)] if isinstance(found, list) else []
+    entries = tree.get(kind)
+    return (
+        [entry for entry in entries if isinstance(entry, dict)] if isinstance(entries, list) else []
+    )

@@ -1,7 +1,7 @@
 """Disk cache of meshes that were read from files: to import trimesh takes a third of a second.
 
-Kept are the meshes of a file that names no other and has no image. They are found by the hash of
-all that they follow from: the bytes of the file, the sources and the versions of what reads them.
+The cache has the meshes of files that name no other file and have no image. The key is the hash of
+all that they depend on: the bytes of the file, the sources and the versions of its readers.
 """
 
 from __future__ import annotations
@@ -23,45 +23,47 @@ from ..mesh import Mesh
 from ..procedural import shapes
 
 MAX_TRIANGLES = 500_000
-"""Meshes with more in all are not kept: some 50 MB."""
+"""The greatest number of triangles of the meshes in the cache: some 50 MB."""
 READERS = ("numpy", "trimesh", "scipy", "pycollada")
 _ARRAYS = ("vertices", "normals", "uvs", "triangles", "colour", "two_sided")
 
 
-def file_of(data: bytes, suffix: str) -> Path:
-    """Where the meshes are kept of a file that holds ``data``."""
+def cache_file(data: bytes, suffix: str) -> Path:
+    """Return the path in the cache of the meshes of a file with these bytes."""
     digest = hashlib.sha256(f"{_key()} {suffix} ".encode() + data).hexdigest()
     return disk_cache.folder("meshes") / f"{digest[:32]}.npz"
 
 
 def read(file: Path) -> tuple[Mesh, ...] | None:
-    """The meshes that are kept there; None if there are none."""
+    """Return the stored meshes; None if there are none."""
     data = disk_cache.read(file)
     if data is None:
         return None
-    with np.load(io.BytesIO(data), allow_pickle=False) as kept:
-        arrays = dict(kept)
+    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        arrays = dict(archive)
     n = len(arrays) // len(_ARRAYS)
     return tuple(_mesh(*(arrays[f"{i}/{name}"] for name in _ARRAYS)) for i in range(n))
 
 
-def keep(file: Path, meshes: Sequence[Mesh]) -> None:
+def store(file: Path, meshes: Sequence[Mesh]) -> None:
     """Write meshes, if they have no textures and are not too many."""
     if any(mesh.texture is not None for mesh in meshes):
         return
     if sum(len(mesh.triangles) for mesh in meshes) > MAX_TRIANGLES:
         return
-    packed = io.BytesIO()
+    buffer = io.BytesIO()
     arrays = {
         f"{i}/{name}": np.asarray(getattr(mesh, name))
         for i, mesh in enumerate(meshes)
         for name in _ARRAYS
     }
-    np.savez(packed, **arrays)  # type: ignore[arg-type]  # none is called allow_pickle
-    disk_cache.write(file, packed.getvalue())
+    np.savez(buffer, **arrays)  # type: ignore[arg-type]  # none is called allow_pickle
+    disk_cache.write(file, buffer.getvalue())
 
 
-def _mesh(vertices: Any, normals: Any, uvs: Any, triangles: Any, colour: Any, sides: Any) -> Mesh:
+def _mesh(
+    vertices: Any, normals: Any, uvs: Any, triangles: Any, colour: Any, two_sided: Any
+) -> Mesh:
     red, green, blue = colour.tolist()
     return Mesh(
         vertices=vertices,
@@ -69,13 +71,13 @@ def _mesh(vertices: Any, normals: Any, uvs: Any, triangles: Any, colour: Any, si
         uvs=uvs,
         triangles=triangles,
         colour=(red, green, blue),
-        two_sided=bool(sides),
+        two_sided=bool(two_sided),
     )
 
 
 @cache
 def _key() -> str:
-    """Hash of everything that meshes depend on besides the file."""
+    """Return the hash of everything that meshes depend on besides the file."""
     digest = hashlib.sha256()
     sources = [*Path(__file__).parent.glob("*.py"), shapes.__file__, mesh_module.__file__]
     for source in sorted(map(str, sources)):

@@ -1,4 +1,4 @@
-"""OpenSceneGraph, VRML and 3DS files, by way of the program `osgconv`."""
+"""OpenSceneGraph, VRML and 3DS files, converted by the program `osgconv`."""
 
 from __future__ import annotations
 
@@ -12,28 +12,28 @@ from pathlib import Path
 from ...base.files.scratch import scratch_folder
 from ...errors import AssetError
 
-BY_OSGCONV = (".osg", ".osgt", ".osgb", ".ive", ".wrl", ".3ds")
-"""Formats that need `osgconv`."""
+OSGCONV_FORMATS = (".osg", ".osgt", ".osgb", ".ive", ".wrl", ".3ds")
+"""The formats that need `osgconv`."""
 
-PATIENCE = 120.0
-"""Longest time one conversion may take [s]."""
+TIMEOUT = 120.0
+"""The greatest time of one conversion [s]."""
 
 
 def has_osgconv() -> bool:
-    """Whether the program is installed."""
+    """Return whether the program is installed."""
     return shutil.which("osgconv") is not None
 
 
-def without_osgconv(path: Path) -> str:
-    """Return an error message that names what to install."""
+def osgconv_error(path: Path) -> str:
+    """Return the message that states what to install."""
     return (
-        f"{path}: {path.suffix} files are read through osgconv, which is not installed. "
+        f"{path}: {path.suffix} files need the program osgconv, which is not installed. "
         "Install it with: sudo apt-get install openscenegraph"
     )
 
 
 @contextmanager
-def converted(path: Path) -> Iterator[Path]:
+def convert_to_obj(path: Path) -> Iterator[Path]:
     """Convert a file to OBJ in a temporary folder.
 
     Images inside the file are written out first; images next to it are found by their name.
@@ -43,30 +43,29 @@ def converted(path: Path) -> Iterator[Path]:
     """
     program = shutil.which("osgconv")
     if program is None:
-        raise AssetError(without_osgconv(path))
+        raise AssetError(osgconv_error(path))
     with scratch_folder("uwsim-osg-") as folder:
-        unpacked, obj = folder / "model.osgt", folder / "model.obj"
-        _run(
-            [program, "-O", "OutputTextureFiles", str(path.absolute()), str(unpacked)], path, folder
-        )
-        _run([program, str(unpacked), str(obj)], path, folder)
-        if not obj.is_file():
-            raise AssetError(f"{path}: osgconv made nothing of it.")
-        yield obj
+        osgt, obj_file = folder / "model.osgt", folder / "model.obj"
+        options = ["-O", "OutputTextureFiles"]
+        _run([program, *options, str(path.absolute()), str(osgt)], path, folder)
+        _run([program, str(osgt), str(obj_file)], path, folder)
+        if not obj_file.is_file():
+            raise AssetError(f"{path}: osgconv wrote no file.")
+        yield obj_file
 
 
 def _run(command: list[str], path: Path, folder: Path) -> None:
     environment = dict(os.environ, OSG_FILE_PATH=str(path.absolute().parent))
     try:
-        done = subprocess.run(
-            command, cwd=folder, env=environment, timeout=PATIENCE, capture_output=True, check=False
+        process = subprocess.run(
+            command, cwd=folder, env=environment, timeout=TIMEOUT, capture_output=True, check=False
         )
     except subprocess.TimeoutExpired as error:
-        raise AssetError(f"{path}: osgconv took longer than {PATIENCE:g} s.") from error
+        raise AssetError(f"{path}: osgconv took longer than {TIMEOUT:g} s.") from error
     except OSError as error:
         raise AssetError(f"{path}: osgconv could not be run ({error.strerror}).") from error
-    if done.returncode != 0:
-        messages = done.stderr.decode(errors="replace").strip().splitlines()
+    if process.returncode != 0:
+        messages = process.stderr.decode(errors="replace").strip().splitlines()
         raise AssetError(
             f"{path}: osgconv cannot read it{': ' + messages[-1] if messages else '.'}"
         )

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 import trimesh
 
-from .polygons import cut
+from .polygons import triangulate
 from .references import References
 
 Array = npt.NDArray[Any]
@@ -26,9 +26,9 @@ TYPES = {
     "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
     "int64": "i8", "uint64": "u8", "float32": "f4", "float64": "f8",
 }  # fmt: skip
-"""The words for numbers, of 1994 and of today."""
+"""The names of number types, of 1994 and of today."""
 MAX_RECORDS = 24_000_000
-"""Most records of a kind, and most numbers in all of its lists."""
+"""The greatest number of records of a kind, and of numbers in all of its lists."""
 FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 CORNERS = ("vertex_indices", "vertex_index")
 COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
@@ -76,7 +76,7 @@ def read_parts(
         references: reads its images.
 
     Raises:
-        ValueError: it is no such file, ends too early, or names a vertex that is not there.
+        ValueError: it is not a PLY file, ends too early, or names a vertex that does not exist.
     """
     elements, body, images = _header(data)
     columns: dict[str, Columns] = {"vertex": {}, "face": {}} | body.read(elements)
@@ -87,8 +87,8 @@ def read_parts(
     points = np.stack([_numbers(vertices[axis]) for axis in "xyz"], axis=-1).astype(np.float64)
     corners, counts = polygons.values.astype(np.int64), polygons.counts
     if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
-        raise ValueError("a face names a vertex that is not there")
-    triangles = cut(points[corners], counts)
+        raise ValueError("a face has the index of a vertex that does not exist")
+    triangles = triangulate(points[corners], counts)
     face = np.repeat(np.arange(len(counts)), np.maximum(counts - 2, 0))
     uvs = _uvs(vertices, faces, corners, counts)
     image = np.zeros(len(face), dtype=np.int64)
@@ -97,18 +97,18 @@ def read_parts(
     visuals: Any = trimesh.visual
     parts = []
     for number in np.unique(image):
-        chosen = triangles[image == number].ravel()
+        image_corners = triangles[image == number].ravel()
         mesh = trimesh.Trimesh(
-            vertices=points[corners[chosen]],
-            faces=np.arange(len(chosen)).reshape(-1, 3),
+            vertices=points[corners[image_corners]],
+            faces=np.arange(len(image_corners)).reshape(-1, 3),
             process=False,
         )
         name = images[number] if 0 <= number < len(images) else None
         picture = None if name is None or uvs is None else references.image(name)
         if picture is not None and uvs is not None:
             material = visuals.material.PBRMaterial(baseColorTexture=picture)
-            mesh.visual = visuals.TextureVisuals(uv=uvs[chosen], material=material)
-        elif (colours := _colours(vertices, corners[chosen])) is not None:
+            mesh.visual = visuals.TextureVisuals(uv=uvs[image_corners], material=material)
+        elif (colours := _colours(vertices, corners[image_corners])) is not None:
             mesh.visual = visuals.ColorVisuals(mesh, vertex_colors=colours)
         elif (colours := _colours(faces, face[image == number])) is not None:
             mesh.visual = visuals.ColorVisuals(mesh, face_colors=colours)
@@ -117,10 +117,10 @@ def read_parts(
 
 
 def _polygons(faces: Columns) -> Lists | None:
-    """Return the vertices of each face; a list of another name is that if it is the only one."""
+    """Return the vertices of each face; the only list is used, whatever its name."""
     lists = {name: column for name, column in faces.items() if isinstance(column, Lists)}
-    named = next((lists[name] for name in CORNERS if name in lists), None)
-    return next(iter(lists.values())) if named is None and len(lists) == 1 else named
+    corner_list = next((lists[name] for name in CORNERS if name in lists), None)
+    return next(iter(lists.values())) if corner_list is None and len(lists) == 1 else corner_list
 
 
 def _numbers(column: Array | Lists) -> Array:
@@ -130,13 +130,13 @@ def _numbers(column: Array | Lists) -> Array:
 
 
 def _uvs(vertices: Columns, faces: Columns, corners: Array, counts: Array) -> Array | None:
-    """Return the texture coordinates of the corners, (n, 2); 0 for faces without; None of none."""
-    of_faces = faces.get("texcoord")
-    if isinstance(of_faces, Lists):
-        has_them = of_faces.counts == 2 * counts
+    """Return the texture coordinates of the corners, (n, 2), or 0; None if no face has any."""
+    face_lists = faces.get("texcoord")
+    if isinstance(face_lists, Lists):
+        has_uvs = face_lists.counts == 2 * counts
         uvs = np.zeros((len(corners), 2))
-        given = of_faces.values[np.repeat(has_them, of_faces.counts)]
-        uvs[np.repeat(has_them, counts)] = given.reshape(-1, 2)
+        face_uvs = face_lists.values[np.repeat(has_uvs, face_lists.counts)]
+        uvs[np.repeat(has_uvs, counts)] = face_uvs.reshape(-1, 2)
         return uvs
     for names in COORDINATES:
         if set(names) <= vertices.keys():
@@ -148,17 +148,17 @@ def _colours(columns: Columns, rows: Array) -> npt.NDArray[np.uint8] | None:
     """Return the colours of records, (n, 3); None where they have none."""
     if not set(COLOURS) <= columns.keys():
         return None
-    given = np.stack([_numbers(columns[name])[rows] for name in COLOURS], axis=-1)
-    if given.dtype.kind == "f":
-        given = given * 255.0
-    elif given.dtype == np.uint16:
-        given = given / 257.0
-    colours: npt.NDArray[np.uint8] = np.clip(np.nan_to_num(given), 0, 255).astype(np.uint8)
+    values = np.stack([_numbers(columns[name])[rows] for name in COLOURS], axis=-1)
+    if values.dtype.kind == "f":
+        values = values * 255.0
+    elif values.dtype == np.uint16:
+        values = values / 257.0
+    colours: npt.NDArray[np.uint8] = np.clip(np.nan_to_num(values), 0, 255).astype(np.uint8)
     return colours
 
 
 def _header(data: bytes) -> tuple[list[Element], _Body, list[str]]:
-    """Return the kinds of records, what stands behind the header, and the names of images."""
+    """Return the kinds of records, the part behind the header, and the names of images."""
     elements: list[Element] = []
     images: list[str] = []
     order = None
@@ -184,109 +184,109 @@ def _header(data: bytes) -> tuple[list[Element], _Body, list[str]]:
 
 
 def _lines(data: bytes) -> Iterator[tuple[str, int]]:
-    """Give the lines of the header behind the first, each with the place behind it."""
+    """Yield the lines of the header behind the first, each with its end."""
     if data[:3] != b"ply" or not data[3:4].isspace():
         raise ValueError("it does not begin with the word ply")
     newline = b"\r" if data[3:4] == b"\r" and data[4:5] != b"\n" else b"\n"
-    at = data.find(newline) + 1
-    while at and (end := data.find(newline, at)) >= 0:
-        yield data[at:end].decode("utf-8").strip(), end + 1
-        at = end + 1
+    start = data.find(newline) + 1
+    while start and (end := data.find(newline, start)) >= 0:
+        yield data[start:end].decode("utf-8").strip(), end + 1
+        start = end + 1
 
 
 class _Body(abc.ABC):
-    """What stands behind the header; its places count bytes, or the numbers of a text."""
+    """The part behind the header; its places count bytes, or the numbers of a text."""
 
     start: int
     end: int
 
     @abc.abstractmethod
     def size(self, kind: str) -> int:
-        """Return how many places a number takes."""
+        """Return the number of places that a number takes."""
 
     @abc.abstractmethod
-    def at(self, places: Array, kind: str) -> Array:
+    def read_numbers(self, places: Array, kind: str) -> Array:
         """Return the numbers at places."""
 
-    def length_at(self, place: int, kind: str) -> int:
-        """Return the length of the list that stands at a place; ValueError if it is none."""
-        return int(self.lengths_at(np.array([place]), kind)[0])
+    def read_length(self, place: int, kind: str) -> int:
+        """Return the length of the list at a place; ValueError if there is none."""
+        return int(self.read_lengths(np.array([place]), kind)[0])
 
-    def lengths_at(self, places: Array, kind: str) -> Array:
-        """Return the lengths of lists that stand at places; ValueError if one is none."""
-        found = self.at(places, kind).astype(np.int64)
-        if len(found) and found.min() < 0:
-            raise ValueError(f"a list of {found.min()} numbers")
-        return found
+    def read_lengths(self, places: Array, kind: str) -> Array:
+        """Return the lengths of the lists at places; ValueError if one is invalid."""
+        lengths = self.read_numbers(places, kind).astype(np.int64)
+        if len(lengths) and lengths.min() < 0:
+            raise ValueError(f"a list of {lengths.min()} numbers")
+        return lengths
 
     def read(self, elements: list[Element]) -> dict[str, Columns]:
         """Return the records of each kind.
 
         Raises:
-            ValueError: there are fewer than the header says, or too many.
+            ValueError: there are fewer than the header states, or too many.
         """
-        found: dict[str, Columns] = {}
+        columns: dict[str, Columns] = {}
         place = self.start
         for element in elements:
-            least = sum(self.size(each.count or each.kind) for each in element.properties)
-            if place + least * element.length > self.end:
+            min_size = sum(self.size(prop.count or prop.kind) for prop in element.properties)
+            if place + min_size * element.length > self.end:
                 raise ValueError(f"it ends before its {element.length} records {element.name!r}")
             if element.length > MAX_RECORDS:
                 raise ValueError(f"{element.length} records; at most {MAX_RECORDS} are read")
-            if element.length and least:
-                found[element.name], place = self._columns(element, place)
-        return found
+            if element.length and min_size:
+                columns[element.name], place = self._columns(element, place)
+        return columns
 
     def _columns(self, element: Element, place: int) -> tuple[Columns, int]:
-        """Return records and the place behind them; walks from one to the next if it has to."""
-        n, length = element.length, self._after(element, place) - place
+        """Return records and the place behind them; step from one to the next if lists differ."""
+        n, length = element.length, self._record_end(element, place) - place
         if place + n * length <= self.end:
-            columns = self._at_places(element, place + length * np.arange(n), is_equal=True)
+            columns = self._read_records(element, place + length * np.arange(n), is_equal=True)
             if columns is not None:
                 return columns, place + n * length
         places = np.empty(n, dtype=np.int64)
         for i in range(n):
             places[i] = place
-            place = self._after(element, place)
-        return self._at_places(element, places) or {}, place
+            place = self._record_end(element, place)
+        return self._read_records(element, places) or {}, place
 
-    def _after(self, element: Element, place: int) -> int:
+    def _record_end(self, element: Element, place: int) -> int:
         """Return the place behind the record that begins at a place."""
-        for each in element.properties:
-            if each.count is not None and place + self.size(each.count) <= self.end:
-                length = self.length_at(place, each.count)
-                place += self.size(each.count) + length * self.size(each.kind)
+        for prop in element.properties:
+            if prop.count is not None and place + self.size(prop.count) <= self.end:
+                length = self.read_length(place, prop.count)
+                place += self.size(prop.count) + length * self.size(prop.kind)
             else:
-                place += self.size(each.count or each.kind)
+                place += self.size(prop.count or prop.kind)
         if place > self.end:
             raise ValueError(f"it ends before the last of its records {element.name!r}")
         return place
 
-    def _at_places(
+    def _read_records(
         self, element: Element, places: Array, *, is_equal: bool = False
     ) -> Columns | None:
         """Return the records that begin at places; None if their lists have to be equally long."""
         columns: Columns = {}
-        for each in element.properties:
-            if each.count is None:
-                columns[each.name] = self.at(places, each.kind)
-                places = places + self.size(each.kind)
+        for prop in element.properties:
+            if prop.count is None:
+                columns[prop.name] = self.read_numbers(places, prop.kind)
+                places = places + self.size(prop.kind)
                 continue
-            counts = self.lengths_at(places, each.count)
+            counts = self.read_lengths(places, prop.count)
             if is_equal and (counts != counts[0]).any():
                 return None
             if (total := int(counts.sum())) > MAX_RECORDS:
                 raise ValueError(f"lists of {total} numbers; at most {MAX_RECORDS} are read")
-            places = places + self.size(each.count)
-            within = np.arange(total) - np.repeat(np.cumsum(counts) - counts, counts)
-            of_values = np.repeat(places, counts) + within * self.size(each.kind)
-            columns[each.name] = Lists(counts, self.at(of_values, each.kind))
-            places = places + counts * self.size(each.kind)
+            places = places + self.size(prop.count)
+            offsets = np.arange(total) - np.repeat(np.cumsum(counts) - counts, counts)
+            value_places = np.repeat(places, counts) + offsets * self.size(prop.kind)
+            columns[prop.name] = Lists(counts, self.read_numbers(value_places, prop.kind))
+            places = places + counts * self.size(prop.kind)
         return columns
 
 
 class _Text(_Body):
-    """Numbers; a line for each record may have more of them than the header says."""
+    """The numbers of a text; a line for each record may have more than the header states."""
 
     def __init__(self, text: bytes) -> None:
         self._values: Array = np.fromstring(text, sep=" ")
@@ -295,30 +295,30 @@ class _Text(_Body):
         self._lines: Array = np.concatenate([[0], np.cumsum(per_line)]).astype(np.int64)
 
     def read(self, elements: list[Element]) -> dict[str, Columns]:
-        first = 0
+        first_line = 0
         lengths = [element.length for element in elements]
         if sum(lengths) != len(self._lines) - 1 or self._lines[-1] != self.end:
             return super().read(elements)
-        found: dict[str, Columns] = {}
+        columns: dict[str, Columns] = {}
         for element in elements:
-            places = self._lines[first : first + element.length]
-            found[element.name] = self._at_places(element, places) or {}
-            first += element.length
-        return found
+            places = self._lines[first_line : first_line + element.length]
+            columns[element.name] = self._read_records(element, places) or {}
+            first_line += element.length
+        return columns
 
     def size(self, kind: str) -> int:
         return 1
 
-    def at(self, places: Array, kind: str) -> Array:
+    def read_numbers(self, places: Array, kind: str) -> Array:
         if len(places) and places.max() >= self.end:
             raise ValueError("it ends before the last of its records")
         return self._values[places].astype(kind)
 
-    def lengths_at(self, places: Array, kind: str) -> Array:
-        given = self.at(places, "f8")
-        if not ((given >= 0) & (given <= self.end) & (given == np.floor(given))).all():
-            raise ValueError("the length of a list that is none")
-        return given.astype(np.int64)
+    def read_lengths(self, places: Array, kind: str) -> Array:
+        lengths = self.read_numbers(places, "f8")
+        if not ((lengths >= 0) & (lengths <= self.end) & (lengths == np.floor(lengths))).all():
+            raise ValueError("the length of a list is invalid")
+        return lengths.astype(np.int64)
 
 
 class _Binary(_Body):
@@ -331,15 +331,15 @@ class _Binary(_Body):
     def size(self, kind: str) -> int:
         return int(kind[1:])
 
-    def at(self, places: Array, kind: str) -> Array:
-        raw = np.empty((len(places), self.size(kind)), dtype=np.uint8)
-        for i in range(raw.shape[1]):
-            raw[:, i] = self._bytes[places + i]
-        return raw.view(self._order + kind)[:, 0].astype(kind)
+    def read_numbers(self, places: Array, kind: str) -> Array:
+        buffer = np.empty((len(places), self.size(kind)), dtype=np.uint8)
+        for i in range(buffer.shape[1]):
+            buffer[:, i] = self._bytes[places + i]
+        return buffer.view(self._order + kind)[:, 0].astype(kind)
 
-    def length_at(self, place: int, kind: str) -> int:
-        raw = self._data[place : place + self.size(kind)]
-        found = int.from_bytes(raw, self._endian, signed=kind[0] == "i")
-        if found < 0:
-            raise ValueError(f"a list of {found} numbers")
-        return found
+    def read_length(self, place: int, kind: str) -> int:
+        buffer = self._data[place : place + self.size(kind)]
+        length = int.from_bytes(buffer, self._endian, signed=kind[0] == "i")
+        if length < 0:
+            raise ValueError(f"a list of {length} numbers")
+        return length

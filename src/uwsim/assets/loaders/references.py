@@ -1,8 +1,7 @@
 """Files that a mesh file names: materials, images, buffers; only those in its folder are read.
 
-A name is looked for next to the mesh, as given and by its last part alone: exporters write paths of
-their author's machine. A path to a file out of the folders given is an error; where there is no
-file, the mesh goes without it.
+The search is next to the mesh, for the name and for its last part: exporters write paths of their
+author's machine. A path to a file outside the allowed folders is an error; a missing file is not.
 """
 
 from __future__ import annotations
@@ -16,62 +15,63 @@ from urllib.parse import unquote
 
 from ...base.files.input_files import is_inside
 from ...errors import AssetError
-from .looks import is_broken, opened
+from .materials import is_broken, open_image
 
-NO_IMAGES = (".mtl", ".bin", ".glb", ".gltf", ".obj")
-"""Files that a mesh file names and that are no images."""
+NON_IMAGE_FORMATS = (".mtl", ".bin", ".glb", ".gltf", ".obj")
+"""The suffixes of files that a mesh file names and that are no images."""
 OPTIONS = re.compile(
     r"\A\s*(?:-(?:(?:blendu|blendv|boost|texres|clamp|cc|bm|imfchan|type)\s+\S+|mm\s+\S+\s+\S+"
     r"|[ost](?:\s+[-+.\d][-+.\de]*){0,3})\s+)+",
     re.IGNORECASE,
 )
-"""Options before the name of an image in an .mtl file, with their values; they are not applied."""
+"""The options before the name of an image in an .mtl file, with values; they are not applied."""
 
 
 class References:
     """The resolver with which trimesh opens the files that a mesh file names.
 
-    Its readers of formats swallow errors: what was refused is kept, and raised by `check`.
+    The readers of trimesh suppress errors: they are stored here, and raised by `check`.
 
     Args:
-        folders: The folders that a name is looked for in.
-        within: The folders that it may lie in.
-        read: Reads a file that was found, by its path and its name.
+        folders: The folders to search.
+        allowed_folders: The folders that may contain the file.
+        read: The reader of a file, by its path and its name.
     """
 
     def __init__(
         self,
         folders: Iterable[Path],
-        within: Iterable[Path],
+        allowed_folders: Iterable[Path],
         read: Callable[[Path, PurePosixPath], bytes],
     ) -> None:
-        self._folders, self._within, self._read = tuple(folders), tuple(within), read
-        self._refused: list[AssetError] = []
+        self._folders, self._read = tuple(folders), read
+        self._allowed_folders = tuple(allowed_folders)
+        self._errors: list[AssetError] = []
         self._images: dict[str, Path] = {}
-        self.were_needed = False
-        """Whether any file was asked for."""
+        self.were_requested = False
+        """The use of the resolver: True after the first request for a file."""
 
     def get(self, name: str) -> bytes:
         """Return the bytes of a file."""
-        self.were_needed = True
+        self.were_requested = True
         try:
-            return self._found(name)
+            return self._read_named(name)
         except AssetError as error:
-            self._refused.append(error)
+            self._errors.append(error)
             raise
 
     __getitem__ = get
 
     def image(self, name: str) -> Any:
-        """Return an image that is not decoded yet; None without it, which `check` may report."""
+        """Return an image before its decoding; None without it, which `check` may report."""
         try:
-            return opened(self.get(name))
+            return open_image(self.get(name))
         except Exception:  # Pillow raises whatever its readers raise
             return None
 
     def check(self) -> None:
-        """Raise the first error, if any file was refused."""
-        for error in self._refused:
+        """Raise the first error, if any file was rejected."""
+        for error in self._errors:
             raise error
 
     def broken_images(self, *, is_decoded: bool) -> list[str]:
@@ -80,23 +80,25 @@ class References:
             name for name, path in self._images.items() if is_broken(path, is_decoded=is_decoded)
         ]
 
-    def _found(self, name: str) -> bytes:
+    def _read_named(self, name: str) -> bytes:
         texts = dict.fromkeys((name, OPTIONS.sub("", name, count=1), unquote(name)))
-        asked = [PurePosixPath(text.strip().replace("\\", "/")) for text in texts]
-        for place in (each for full in asked for each in (full, PurePosixPath(full.name))):
+        paths = [PurePosixPath(text.strip().replace("\\", "/")) for text in texts]
+        for place in (p for name in paths for p in (name, PurePosixPath(name.name))):
             for folder in self._folders:
                 path = folder / place
-                if not place.is_absolute() and path.exists() and is_inside(path, self._within):
-                    if place.suffix.lower() not in NO_IMAGES:
+                if place.is_absolute() or not path.exists():
+                    continue
+                if is_inside(path, self._allowed_folders):
+                    if place.suffix.lower() not in NON_IMAGE_FORMATS:
                         self._images[name] = path
                     return self._read(path, place)
-        if any(_exists(folder / full) for folder in self._folders for full in asked):
+        if any(_path_exists(folder / path) for folder in self._folders for path in paths):
             raise AssetError(
-                f"names the file {name[:200]!r}, which is outside its folder; --data-path adds one"
+                f"names the file {name[:200]!r} outside its folder; --data-path adds a folder"
             )
         raise FileNotFoundError(name)
 
 
-def _exists(path: Path) -> bool:
-    """Whether there is such a file, also by way of a folder that there is not: ``x/../file``."""
+def _path_exists(path: Path) -> bool:
+    """Return whether a file exists, also through a folder that does not: ``x/../file``."""
     return path.exists() or Path(os.path.normpath(path)).exists()

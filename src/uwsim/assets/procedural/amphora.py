@@ -10,29 +10,29 @@ import numpy as np
 from ...base.numerics.elementwise import power
 from ..mesh import Mesh, Texture
 from .shapes import Shape, lathe, mesh, tube
-from .textures import finished, mixed, noise, plain, step
+from .textures import fill, mix, noise, smoothstep, to_texture
 
 RADIUS, FOOT, TOP = 0.115, 0.003, 0.753
-"""Widest radius, lowest and highest point [m]."""
+"""The widest radius, the lowest and the highest point [m]."""
 
-OUTSIDE = (
+OUTER_PROFILE = (
     (0.0, FOOT), (0.020, FOOT), (0.024, 0.030), (0.050, 0.10), (0.088, 0.22), (0.110, 0.34),
     (RADIUS, 0.42), (0.108, 0.50), (0.080, 0.57), (0.045, 0.61), (0.036, 0.65), (0.038, 0.71),
     (0.052, 0.735), (0.052, TOP),
 )  # fmt: skip
-"""Profile from foot to lip: radius, z [m]."""
-INSIDE = ((0.040, TOP), (0.030, 0.72), (0.028, 0.66), (0.036, 0.615))
+"""The outer profile from foot to lip: radius, z [m]."""
+INNER_PROFILE = ((0.040, TOP), (0.030, 0.72), (0.028, 0.66), (0.036, 0.615))
 
 
 @cache
 def _clay() -> Texture:
-    """Fired clay with turning marks and growth."""
+    """Return fired clay with turning marks and growth."""
     size = 256
     clouds = noise("amphora/clay", size, size, cells=3, octaves=6)
     rings = np.sin(np.arange(size, dtype=np.float32) * 0.9)[:, None] * np.float32(0.03)
-    image = plain(size, size, (0.68, 0.42, 0.28)) * (1.0 + rings + 0.07 * clouds)[..., None]
-    image = mixed(image, (0.55, 0.56, 0.48), 0.8 * step(0.7, 1.9, clouds))
-    return finished("amphora/clay", image)
+    image = fill(size, size, (0.68, 0.42, 0.28)) * (1.0 + rings + 0.07 * clouds)[..., None]
+    image = mix(image, (0.55, 0.56, 0.48), 0.8 * smoothstep(0.7, 1.9, clouds))
+    return to_texture("amphora/clay", image)
 
 
 def _handle(side: float) -> Shape:
@@ -43,6 +43,6 @@ def _handle(side: float) -> Shape:
 
 
 def amphora() -> tuple[Mesh, ...]:
-    """Body with an open neck, and two handles."""
-    body = lathe([*OUTSIDE, *INSIDE, (0.0, 0.610)], n=32)
+    """Return a body with an open neck, and two handles."""
+    body = lathe([*OUTER_PROFILE, *INNER_PROFILE, (0.0, 0.610)], n=32)
     return (mesh(body, _handle(1.0), _handle(-1.0), texture=_clay()),)

@@ -1,9 +1,9 @@
 """The CSIP ARM5E, link by link: ``robot/ARM5E/ARM5E_part*``.
 
-Each link stands in its own mesh frame, as in UWSim's robot file: the joint it hangs on is at the
+Each link is in its own mesh frame, as in UWSim's robot file, with the joint of its parent at the
 origin (part0 and part1: the slew axis is z; part2: the shoulder, part3: the elbow, both along y;
-part4_base: 28 mm behind the wrist, along x; jaws: their hinges along y). Where the next link
-begins, there is a lug, a fork or a flange, so that the arm has no gaps in any posture.
+part4_base: 28 mm behind the wrist, along x; jaws: their hinges along y). At the next link there is
+a lug, a fork or a flange, so that the arm has no gaps in any posture.
 """
 
 from __future__ import annotations
@@ -16,17 +16,8 @@ import numpy as np
 from ...base.geometry import Triple
 from ...base.numerics.linear import length
 from ..mesh import Mesh
-from .shapes import (
-    Shape,
-    box,
-    cylinder,
-    join,
-    loft,
-    mesh,
-    ring,
-    rounded_box,
-)
-from .textures import worn
+from .shapes import Shape, box, cylinder, join, loft, mesh, ring, rounded_box
+from .textures import worn_paint
 
 BLACK, SILVER, BRASS = (0.15, 0.155, 0.165), (0.66, 0.68, 0.70), (0.85, 0.45, 0.10)
 
@@ -38,35 +29,35 @@ HINGE_IN_PART4 = (0.073, 0.0, 0.04)
 """A jaw's hinge in part4_base's mesh frame (the other has z reversed) [m]."""
 
 
-def fitted(parts: list[Shape], lower: Triple, upper: Triple) -> list[Shape]:
-    """The parts, stretched a little so that their common box is exactly this one."""
+def fit_parts(parts: list[Shape], lower: Triple, upper: Triple) -> list[Shape]:
+    """Stretch the parts so that their common box is exactly this one."""
     points = join(*parts).corners.reshape(-1, 3)
     low, high = points.min(axis=0), points.max(axis=0)
     scale = (np.array(upper) - np.array(lower)) / (high - low)
     shift = np.array(lower) - low * scale
-    return [part.scaled(*scale.tolist()).moved(*shift.tolist()) for part in parts]
+    return [part.scale(*scale.tolist()).shift(*shift.tolist()) for part in parts]
 
 
-def _metal(bright: list[Shape], dark: list[Shape], accent: list[Shape]) -> tuple[Mesh, ...]:
-    metal = worn("arm5e/metal", (0.92, 0.92, 0.92), size=128)
+def _metal(silver: list[Shape], black: list[Shape], brass: list[Shape]) -> tuple[Mesh, ...]:
+    metal = worn_paint("arm5e/metal", (0.92, 0.92, 0.92), size=128)
     return tuple(
-        mesh(*(part.projected(0.25) for part in parts), colour=colour, texture=metal)
-        for parts, colour in ((bright, SILVER), (dark, BLACK), (accent, BRASS))
+        mesh(*(part.project_uv(0.25) for part in parts), colour=colour, texture=metal)
+        for parts, colour in ((silver, SILVER), (black, BLACK), (brass, BRASS))
         if parts
     )
 
 
 def _link(
-    bright: list[Shape], dark: list[Shape], accent: list[Shape], lower: Triple, upper: Triple
+    silver: list[Shape], black: list[Shape], brass: list[Shape], lower: Triple, upper: Triple
 ) -> tuple[Mesh, ...]:
-    """Parts in three materials, fitted together into the link's box."""
-    whole = fitted([*bright, *dark, *accent], lower, upper)
-    b, d = len(bright), len(bright) + len(dark)
-    return _metal(whole[:b], whole[b:d], whole[d:])
+    """Fit parts in three materials together into the link's box."""
+    parts = fit_parts([*silver, *black, *brass], lower, upper)
+    b, d = len(silver), len(silver) + len(black)
+    return _metal(parts[:b], parts[b:d], parts[d:])
 
 
 def _ram(start: Triple, end: Triple, radius: float, rod: float) -> tuple[Shape, Shape]:
-    """An electric linear actuator: its body, and the rod that leaves it for ``rod`` metres."""
+    """Return the body of an electric linear actuator, and its rod of ``rod`` metres."""
     a, b = np.array(start), np.array(end)
     split = b - rod * (b - a) / length(b - a)
     x, y, z = split.tolist()
@@ -75,25 +66,24 @@ def _ram(start: Triple, end: Triple, radius: float, rod: float) -> tuple[Shape, 
 
 
 def _block(lower: Triple, upper: Triple, radius: float) -> Shape:
-    """A block with chamfered edges."""
     return rounded_box(lower, upper, radius=radius, n=1)
 
 
 def _pin(x: float, z: float, half: float, radius: float, *, n: int = 8) -> Shape:
-    """A rod along y through (x, z), from ``-half`` to ``half``."""
+    """Return a rod along y through (x, z), from ``-half`` to ``half``."""
     return cylinder((x, -half, z), (x, half, z), radius, n=n)
 
 
 def _plate(a: tuple[float, float], b: tuple[float, float], r: float, y0: float, y1: float) -> Shape:
-    """A flat bar with round ends in the x-z plane from ``a`` to ``b``, between two y."""
+    """Return a flat bar with round ends in the x-z plane from ``a`` to ``b``, between two y."""
     start, end = np.array(a), np.array(b)
-    along = math.atan2(end[1] - start[1], end[0] - start[0])
+    angle = math.atan2(end[1] - start[1], end[0] - start[0])
     half = np.linspace(0.0, math.pi, 5)
-    first, second = along + math.pi / 2 + half, along - math.pi / 2 + half
+    end_arc, start_arc = angle + math.pi / 2 + half, angle - math.pi / 2 + half
     outline = np.concatenate(
         [
-            start + r * np.stack([np.cos(first), np.sin(first)], axis=1),
-            end + r * np.stack([np.cos(second), np.sin(second)], axis=1),
+            start + r * np.stack([np.cos(end_arc), np.sin(end_arc)], axis=1),
+            end + r * np.stack([np.cos(start_arc), np.sin(start_arc)], axis=1),
         ]
     )
     x, z = outline[:, 0], outline[:, 1]
@@ -203,15 +193,15 @@ def jaw2() -> tuple[Mesh, ...]:
 
 def _jaw(side: float) -> tuple[Mesh, ...]:
     x = np.array([0.014, 0.025, 0.045, 0.065, 0.080, 0.094, 0.106])
-    outer = np.array([0.006, 0.007, 0.007, 0.003, -0.005, -0.017, -0.031])
-    inner = np.array([-0.006, -0.007, -0.005, -0.008, -0.017, -0.027, -0.035])
-    wide = np.array([0.034, 0.037, 0.041, 0.046, 0.046, 0.044, 0.040])
+    outer_z = np.array([0.006, 0.007, 0.007, 0.003, -0.005, -0.017, -0.031])
+    inner_z = np.array([-0.006, -0.007, -0.005, -0.008, -0.017, -0.027, -0.035])
+    half_width = np.array([0.034, 0.037, 0.041, 0.046, 0.046, 0.044, 0.040])
     rings = np.stack(
         [
-            np.stack([x, -wide, inner], axis=1),
-            np.stack([x, wide, inner], axis=1),
-            np.stack([x, wide, outer], axis=1),
-            np.stack([x, -wide, outer], axis=1),
+            np.stack([x, -half_width, inner_z], axis=1),
+            np.stack([x, half_width, inner_z], axis=1),
+            np.stack([x, half_width, outer_z], axis=1),
+            np.stack([x, -half_width, outer_z], axis=1),
         ],
         axis=1,
     )
@@ -220,43 +210,42 @@ def _jaw(side: float) -> tuple[Mesh, ...]:
         for y in (-0.030, -0.010, 0.010, 0.030)
     ]
     ribs = [box((0.016, y, -0.020), (0.066, y + 0.006, -0.002)) for y in (-0.030, 0.024)]
-    whole = fitted([loft(rings), *teeth, *ribs], (0.014, -0.046, -0.035), (0.106, 0.046, 0.007))
-    whole = [part.scaled(1.0, 1.0, side) for part in whole]
-    return _metal(whole[:1], whole[1:], [])
+    parts = fit_parts([loft(rings), *teeth, *ribs], (0.014, -0.046, -0.035), (0.106, 0.046, 0.007))
+    parts = [part.scale(1.0, 1.0, side) for part in parts]
+    return _metal(parts[:1], parts[1:], [])
 
 
 def part4() -> tuple[Mesh, ...]:
-    """Wrist and closed jaws in one piece, as an older robot file has it."""
+    """Return the wrist and the closed jaws in one piece, as in an older robot file."""
     hinge_x, _, hinge_z = HINGE_IN_PART4
     jaws = [
-        _moved(piece, hinge_x, side * hinge_z)
+        _shift_mesh(piece, hinge_x, side * hinge_z)
         for side, pieces in ((1.0, jaw1()), (-1.0, jaw2()))
         for piece in pieces
     ]
     return (*part4_base(), *jaws)
 
 
-def _moved(piece: Mesh, x: float, z: float) -> Mesh:
-    """A mesh shifted in x and z."""
+def _shift_mesh(piece: Mesh, x: float, z: float) -> Mesh:
     return replace(piece, vertices=piece.vertices + np.array([x, 0.0, z], dtype=np.float32))
 
 
 def jaw1_long() -> tuple[Mesh, ...]:
     """The long jaw on the +z side."""
-    return _lengthened(jaw1())
+    return _lengthen_jaws(jaw1())
 
 
 def jaw2_long() -> tuple[Mesh, ...]:
     """The long jaw on the -z side."""
-    return _lengthened(jaw2())
+    return _lengthen_jaws(jaw2())
 
 
-def _lengthened(pieces: tuple[Mesh, ...]) -> tuple[Mesh, ...]:
-    """Jaws half as long again; normals turn with the stretch."""
-    stretched = []
+def _lengthen_jaws(pieces: tuple[Mesh, ...]) -> tuple[Mesh, ...]:
+    """Lengthen jaws by half, with their normals."""
+    long_pieces = []
     for piece in pieces:
         normals = piece.normals * np.array([1.0 / 1.5, 1.0, 1.0], dtype=np.float32)
         normals /= np.linalg.norm(normals, axis=1, keepdims=True)
         vertices = piece.vertices * np.array([1.5, 1.0, 1.0], dtype=np.float32)
-        stretched.append(replace(piece, vertices=vertices, normals=normals))
-    return tuple(stretched)
+        long_pieces.append(replace(piece, vertices=vertices, normals=normals))
+    return tuple(long_pieces)

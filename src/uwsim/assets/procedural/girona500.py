@@ -1,11 +1,11 @@
 """The Girona 500 AUV: ``robot/GIRONA500/g500_March11``.
 
-Drawn in the vehicle's own frame (x forward, y starboard, z down, origin at base_link of the UWSim
-robot) and then brought into the mesh frame (y up), so that the robot file's visual origin
-``rpy (-pi/2, 0, pi), xyz (-0.2, 0, 0.75)`` puts it back.
+Modelled in the vehicle's frame (x forward, y starboard, z down, origin at base_link of the UWSim
+robot) and then transformed to the mesh frame (y up), of which the inverse is the robot file's
+visual origin ``rpy (-pi/2, 0, pi), xyz (-0.2, 0, 0.75)``.
 Layout after Ribas et al., IEEE/ASME T-Mech 17(1), 2012: three hulls of 1.507 x 0.306 m on a frame,
-two surge, two heave and one sway thruster. Nothing hangs lower than z = 0.91 m, so that the
-cameras beside the arm (z = 0.95 m) look past the vehicle.
+two surge, two heave and one sway thruster. No part is below z = 0.91 m, so that the cameras beside
+the arm (z = 0.95 m) have a free view.
 """
 
 from __future__ import annotations
@@ -17,44 +17,46 @@ import numpy as np
 from ...base.geometry import rotation_z
 from ...base.numerics.linear import product
 from ..mesh import Mesh, Texture
-from .shapes import Shape, cylinder, facing, join, lathe, mesh, quad, rounded_box, tube
-from .textures import finished, mixed, noise, plain, step, worn, write
+from .shapes import Shape, cylinder, join, lathe, mesh, quad, rotation_to, rounded_box, tube
+from .textures import fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
 
 HULL_LENGTH, HULL_RADIUS = 1.507, 0.153
-"""One torpedo hull [m]."""
+"""The length and the radius of one hull [m]."""
 LOWER_HULL = (-0.049, 0.0, 0.745)
-"""Centre of the battery hull in base_link [m]."""
+"""The centre of the battery hull in base_link [m]."""
 UPPER_HULL = (-0.049, 0.35, 0.045)
-"""Centre of the starboard flotation hull in base_link; port is its mirror image [m]."""
+"""The centre of the starboard flotation hull in base_link; port is its mirror image [m]."""
 HULLS = (UPPER_HULL, (UPPER_HULL[0], -UPPER_HULL[1], UPPER_HULL[2]), LOWER_HULL)
 RIBS = (-0.42, -0.05, 0.38)
-"""Where along x the frame's ribs stand in base_link [m]."""
-YELLOW, DARK, ALUMINIUM = (0.97, 0.70, 0.06), (0.16, 0.17, 0.19), (0.78, 0.80, 0.82)
+"""The positions of the frame's ribs along x in base_link [m]."""
+YELLOW, BLACK, ALUMINIUM = (0.97, 0.70, 0.06), (0.16, 0.17, 0.19), (0.78, 0.80, 0.82)
 
 ORIGIN = (-0.2, 0.0, 0.75)
-"""Where the mesh's origin is in base_link [m], turned by rpy (-pi/2, 0, pi)."""
+"""The mesh's origin in base_link [m]; its axes have the rpy (-pi/2, 0, pi)."""
 
 
-def into_mesh_frame(shape: Shape) -> Shape:
-    """From base_link (x forward, y starboard, z down) into the mesh frame (y up)."""
+def to_mesh_frame(shape: Shape) -> Shape:
+    """Transform base_link (x forward, y starboard, z down) to the mesh frame (y up)."""
     x, y, z = ORIGIN
     base_from_mesh = np.array([[-1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, -1.0, 0.0]])
-    return shape.moved(-x, -y, -z).turned(base_from_mesh.T)
+    return shape.shift(-x, -y, -z).rotate(base_from_mesh.T)
 
 
 def _hull_texture() -> Texture:
-    """Round the hull (u, from starboard downwards) and from tail (bottom) to nose (top)."""
+    """Return the image round the hull (u, from starboard down) and from tail (bottom) to nose."""
     name, height, width = "girona500/hull", 640, 384
     clouds = noise(name, height, width, cells=3, octaves=6)
-    image = plain(height, width, YELLOW)
+    image = fill(height, width, YELLOW)
     image[round(0.24 * height) : round(0.75 * height)] = (0.22, 0.23, 0.25)
     for edge in (0.228, 0.75):
         image[round(edge * height) : round((edge + 0.012) * height)] = (0.92, 0.92, 0.90)
     white = (0.94, 0.94, 0.92)
     starboard, port = image.copy(), image
-    write(starboard, "GIRONA 500", (0.5, 0.50), height=0.36, width=0.14, colour=white,
+    paint_text(starboard, "GIRONA 500", (0.5, 0.50), height=0.36, width=0.14, colour=white,
           quarter_turns=1)  # fmt: skip
-    write(port, "GIRONA 500", (0.5, 0.50), height=0.36, width=0.14, colour=white, quarter_turns=3)
+    paint_text(
+        port, "GIRONA 500", (0.5, 0.50), height=0.36, width=0.14, colour=white, quarter_turns=3
+    )
     half, quarter = width // 2, width // 4
     image = np.concatenate([starboard[:, half:], starboard[:, :half]], axis=1)
     image[:, quarter : 3 * quarter] = port[:, quarter : 3 * quarter]
@@ -64,23 +66,23 @@ def _hull_texture() -> Texture:
         for k in range(16):
             column = round((k + 0.5) * width / 16)
             image[row + 6 : row + 9, column - 1 : column + 2] *= 0.5
-    image = mixed(image, (0.55, 0.52, 0.44), 0.30 * step(1.2, 2.6, clouds))
-    return finished(name, image * (1.0 + 0.035 * clouds)[..., None])
+    image = mix(image, (0.55, 0.52, 0.44), 0.30 * smoothstep(1.2, 2.6, clouds))
+    return to_texture(name, image * (1.0 + 0.035 * clouds)[..., None])
 
 
 def _hull() -> Shape:
-    """A torpedo along x, centred: elliptic nose, long cylinder, tapered tail."""
+    """Return a hull along x, centred: elliptic nose, long cylinder, tapered tail."""
     radius, half = HULL_RADIUS, HULL_LENGTH / 2
     tail = [(0.0, -half), (0.045, -half), (0.098, -half + 0.09), (0.138, -half + 0.21),
             (radius, -half + 0.36)]  # fmt: skip
     nose = [(radius * math.cos(t), half - 0.19 + 0.19 * math.sin(t))
             for t in (0.0, 0.45, 0.85, 1.2)]  # fmt: skip
     shape = lathe([*tail, *nose, (0.0, half)], n=18)
-    return shape.turned(facing(np.array([1.0, 0.0, 0.0])))
+    return shape.rotate(rotation_to(np.array([1.0, 0.0, 0.0])))
 
 
-def _thruster(at: tuple[float, float, float], way: tuple[float, float, float]) -> list[Shape]:
-    """A ducted propeller that looks along ``way``: duct and motor, then blades and struts."""
+def _thruster(centre: tuple[float, float, float], axis: tuple[float, float, float]) -> list[Shape]:
+    """Return duct and motor, then blades and struts, of a ducted propeller along ``axis``."""
     duct = lathe([(0.081, -0.045), (0.101, -0.045), (0.096, 0.05), (0.083, 0.05),
                   (0.081, -0.045)], n=14)  # fmt: skip
     pod = lathe([(0.0, -0.16), (0.032, -0.15), (0.036, 0.02), (0.0, 0.056)], n=8)
@@ -88,26 +90,25 @@ def _thruster(at: tuple[float, float, float], way: tuple[float, float, float]) -
                       [0.02, 0.012, 0.022]])  # fmt: skip
     parts = []
     for k in range(3):
-        turn = rotation_z(k * 2.0 * math.pi / 3.0)
-        a, b, c, d = (tuple(corner) for corner in product(blade, turn.T).tolist())
-        parts += [quad(a, b, c, d), quad(a, b, c, d).flipped()]
+        blade_rotation = rotation_z(k * 2.0 * math.pi / 3.0)
+        a, b, c, d = (tuple(corner) for corner in product(blade, blade_rotation.T).tolist())
+        parts += [quad(a, b, c, d), quad(a, b, c, d).flip()]
         strut = quad((0.03, 0, -0.045), (0.09, 0, -0.045), (0.09, 0, -0.03), (0.03, 0, -0.03))
-        strut = strut.turned(rotation_z(0.5 + k * 2.0 * math.pi / 3.0))
-        parts += [strut, strut.flipped()]
-    place = facing(np.array(way))
-    return [join(duct, pod).turned(place).moved(*at), join(*parts).turned(place).moved(*at)]
+        strut = strut.rotate(rotation_z(0.5 + k * 2.0 * math.pi / 3.0))
+        parts += [strut, strut.flip()]
+    tilt = rotation_to(np.array(axis))
+    return [join(duct, pod).rotate(tilt).shift(*centre), join(*parts).rotate(tilt).shift(*centre)]
 
 
 def _bar(*path: tuple[float, float, float], radius: float = 0.015) -> Shape:
-    """A bar of the frame; its ends are hidden in what it joins."""
-    return tube(path, radius, n=6, closed=False)
+    return tube(path, radius, n=6, has_lids=False)
 
 
 def _frame() -> list[Shape]:
-    """The aluminium frame: three ribs that carry the hulls, rails between them."""
+    """Return the aluminium frame: three ribs that carry the hulls, rails between them."""
     parts = []
     strap = lathe([(HULL_RADIUS, -0.024), (HULL_RADIUS + 0.011, 0.0), (HULL_RADIUS, 0.024)], n=16)
-    strap = strap.turned(facing(np.array([1.0, 0.0, 0.0])))
+    strap = strap.rotate(rotation_to(np.array([1.0, 0.0, 0.0])))
     for x in RIBS:
         parts.append(_bar((x, -0.22, 0.06), (x, 0.22, 0.06)))
         parts.append(_bar((x, -0.30, 0.32), (x, 0.30, 0.32)))
@@ -116,7 +117,7 @@ def _frame() -> list[Shape]:
                 _bar((x, side * 0.33, 0.15), (x, side * 0.29, 0.34), (x, side * 0.12, 0.64))
             )
         if x != RIBS[1]:  # the middle rib leaves the lettering free
-            parts += [strap.moved(x, y, z) for _, y, z in HULLS]
+            parts += [strap.shift(x, y, z) for _, y, z in HULLS]
             parts.append(_bar((x, 0.0, 0.05), (x, 0.0, 0.61)))
     for side in (-1.0, 1.0):
         parts.append(_bar((RIBS[0], side * 0.29, 0.33), (RIBS[2], side * 0.29, 0.33)))
@@ -135,14 +136,14 @@ def girona500() -> tuple[Mesh, ...]:
         _thruster((-0.32, 0.0, 0.10), (0.0, 0.0, -1.0)),  # heave, stern
         _thruster((0.02, 0.0, 0.46), (0.0, 1.0, 0.0)),  # sway
     ]
-    dark = [
+    pods = [
         *(motor for motor, _ in thrusters),
         cylinder((-0.66, 0.0, 0.46), (-0.44, 0.0, 0.46), 0.075, n=14, bevel=0.012),  # DVL
         cylinder((0.22, 0.10, 0.48), (0.50, 0.10, 0.48), 0.055, n=12, bevel=0.01),  # sonar
         cylinder((0.44, -0.10, 0.47), (0.56, -0.10, 0.47), 0.045, n=12, bevel=0.008),  # camera
         rounded_box((-0.46, -0.14, 0.42), (-0.12, 0.14, 0.55), radius=0.02, n=1),  # computer
     ]
-    bright = [
+    frame = [
         *_frame(),
         *(propeller for _, propeller in thrusters),
         rounded_box((-0.16, -0.06, 0.86), (0.36, 0.06, 0.905), radius=0.012, n=1),  # arm's saddle
@@ -150,13 +151,13 @@ def girona500() -> tuple[Mesh, ...]:
         _bar((-0.60, 0.0, 0.06), (RIBS[0], 0.0, 0.06)),
         cylinder((-0.60, 0.0, -0.20), (-0.60, 0.0, -0.25), 0.03, n=10, bevel=0.008),
     ]
-    metal = worn("girona500/metal", (0.90, 0.90, 0.90))
-    hulls = [into_mesh_frame(_hull().moved(*centre)) for centre in HULLS]
+    metal = worn_paint("girona500/metal", (0.90, 0.90, 0.90))
+    hulls = [to_mesh_frame(_hull().shift(*centre)) for centre in HULLS]
     return (
         mesh(*hulls, texture=_hull_texture()),
-        mesh(*(into_mesh_frame(part).projected(0.4) for part in dark), colour=DARK, texture=metal),
+        mesh(*(to_mesh_frame(part).project_uv(0.4) for part in pods), colour=BLACK, texture=metal),
         mesh(
-            *(into_mesh_frame(part).projected(0.4) for part in bright),
+            *(to_mesh_frame(part).project_uv(0.4) for part in frame),
             colour=ALUMINIUM,
             texture=metal,
         ),

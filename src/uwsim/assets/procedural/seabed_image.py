@@ -1,7 +1,7 @@
 """The image on the tank's bottom: a photo mosaic of a sea floor, 3.48 x 7 m.
 
-Sand with ripples, cobbles, larger rocks, shells and weed, as one would get from a survey at
-a few metres' height. Nothing in it repeats, so that a tracker or a mosaic finds one place only.
+Sand with ripples, cobbles, larger rocks, shells and weed, as in a survey from a few metres' height.
+Nothing in it repeats, so that a tracker or a mosaic finds only one place.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ import numpy.typing as npt
 
 from ...base import rng
 from ..mesh import Texture
-from .textures import Grey, lit, noise, step
+from .textures import Grey, noise, shading, smoothstep
 
 SIZE = (1632, 816)
-"""Rows and columns: 4.3 mm a pixel."""
+"""The numbers of rows and columns: 4.3 mm a pixel."""
 
 PALETTE = np.array(
     [
@@ -32,19 +32,19 @@ PALETTE = np.array(
     ],
     dtype=np.float32,
 )
-"""Colours that every pixel is mixed of, in the order of the layers in `mosaic`."""
+"""The colours of which every pixel is mixed, in the order of the layers in `_paint_rows`."""
 
-BAND = 24
-"""Rows that are painted at once."""
+BAND_ROWS = 24
+"""The number of rows that are painted at once."""
 
 Pixels = npt.NDArray[np.uint8]
 
 
 class Fields(NamedTuple):
-    """What the image is painted from, one value for each pixel."""
+    """The fields that determine the image, one value for each pixel."""
 
     grain: Grey
-    broad: Grey
+    dunes: Grey
     cobble: Grey
     cobble_shade: Grey
     rock: Grey
@@ -60,21 +60,21 @@ class Fields(NamedTuple):
 def stones(
     name: str, height: int, width: int, *, count: int, gap: float, bend: float = 0.05
 ) -> tuple[Grey, Grey]:
-    """Rounded stones laid side by side: their height 0..1 and a shade 0..1 for each.
+    """Return the height, 0..1, and the shade, 0..1, of rounded stones laid side by side.
 
     Voronoi cells of random points, their borders bent by noise.
 
     Args:
-        name: Names the chance.
-        height: Rows.
-        width: Columns.
-        count: How many stones.
+        name: The name of the random stream.
+        height: The number of rows.
+        width: The number of columns.
+        count: The number of stones.
         gap: Half the width of the joints [pixels].
-        bend: How far borders are bent, in typical sizes of a stone.
+        bend: The shift of the borders, in typical sizes of a stone.
     """
-    draw = rng.stream(0, f"assets/{name}/stones")
+    stream = rng.stream(0, f"assets/{name}/stones")
     seeds = np.ones((height, width), dtype=np.uint8)
-    seeds[draw.integers(0, height, count), draw.integers(0, width, count)] = 0
+    seeds[stream.integers(0, height, count), stream.integers(0, width, count)] = 0
     _, labels = cv2.distanceTransformWithLabels(
         seeds, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
     )
@@ -87,13 +87,15 @@ def stones(
     map_y = shift * noise(f"{name}/bend-y", height, width, cells=cells, octaves=2, tiles=False)
     map_x += columns
     map_y += rows
-    shades = draw.random(count + 1, dtype=np.float32)
-    bent = cv2.remap(shades[labels], map_x, map_y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REFLECT)
-    shade = np.asarray(bent, dtype=np.float32)
-    inside = np.ones((height, width), dtype=np.uint8)
-    inside[:, 1:] = shade[:, 1:] == shade[:, :-1]
-    inside[1:] &= shade[1:] == shade[:-1]
-    rise: Grey = np.asarray(cv2.distanceTransform(inside, cv2.DIST_L2, 3), dtype=np.float32)
+    shades = stream.random(count + 1, dtype=np.float32)
+    image = cv2.remap(
+        shades[labels], map_x, map_y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_REFLECT
+    )
+    shade = np.asarray(image, dtype=np.float32)
+    is_inside = np.ones((height, width), dtype=np.uint8)
+    is_inside[:, 1:] = shade[:, 1:] == shade[:, :-1]
+    is_inside[1:] &= shade[1:] == shade[:-1]
+    rise: Grey = np.asarray(cv2.distanceTransform(is_inside, cv2.DIST_L2, 3), dtype=np.float32)
     rise -= np.float32(gap)
     rise *= np.float32(1.0 / (0.30 * size))
     np.clip(rise, 0.0, 1.0, out=rise)
@@ -103,57 +105,57 @@ def stones(
 
 
 def mosaic() -> Texture:
-    """The whole image."""
+    """Return the whole image."""
     h, w = SIZE
     name = "tank/mosaic"
 
-    def field(what: str, cells: int, octaves: int, gain: float = 0.55) -> Grey:
-        return noise(f"{name}/{what}", h, w, cells=cells, octaves=octaves, gain=gain, tiles=False)
+    def field(layer: str, cells: int, octaves: int, gain: float = 0.55) -> Grey:
+        return noise(f"{name}/{layer}", h, w, cells=cells, octaves=octaves, gain=gain, tiles=False)
 
     cobble, cobble_shade = stones(f"{name}/cobble", h, w, count=3000, gap=0.6, bend=0.07)
     rock, rock_shade = stones(f"{name}/rock", h, w, count=150, gap=5.0, bend=0.07)
-    chosen = ((rock_shade * 97.0) % 1.0 < 0.30) & (rock > 0.02)
-    on_rock = cv2.blur(chosen.astype(np.float32), (3, 3))
-    small = cv2.resize(on_rock, (w // 4, h // 4), interpolation=cv2.INTER_AREA)
-    shadow = cv2.resize(cv2.GaussianBlur(np.roll(small, (3, 3), (0, 1)), (0, 0), 2.0), (w, h))
-    fields = Fields(*(np.asarray(whole, dtype=np.float32) for whole in (
+    is_rock = ((rock_shade * 97.0) % 1.0 < 0.30) & (rock > 0.02)
+    on_rock = cv2.blur(is_rock.astype(np.float32), (3, 3))
+    small_rock = cv2.resize(on_rock, (w // 4, h // 4), interpolation=cv2.INTER_AREA)
+    shadow = cv2.resize(cv2.GaussianBlur(np.roll(small_rock, (3, 3), (0, 1)), (0, 0), 2.0), (w, h))
+    fields = Fields(*(np.asarray(values, dtype=np.float32) for values in (
         field("grain", 57, 5, 0.9), field("broad", 3, 6), cobble, cobble_shade,
         rock, rock_shade, on_rock, shadow, field("crust", 24, 6, 0.7),
         field("weed", 40, 5, 0.85), field("beds", 5, 4), _exposures(h, w),
     )))  # fmt: skip
     pixels = np.empty((h, w, 3), dtype=np.uint8)
-    for top in range(0, h, BAND):
+    for top in range(0, h, BAND_ROWS):
         # Band by band, so that the layers stay in the processor's cache; a row more each side.
-        first, last = max(top - 1, 0), min(top + BAND + 1, h)
-        band = _painted(first, Fields(*(whole[first:last] for whole in fields)))
-        pixels[top : top + BAND] = band[top - first : top - first + BAND]
+        first_row, end_row = max(top - 1, 0), min(top + BAND_ROWS + 1, h)
+        band = _paint_rows(first_row, Fields(*(values[first_row:end_row] for values in fields)))
+        pixels[top : top + BAND_ROWS] = band[top - first_row : top - first_row + BAND_ROWS]
     _scatter_shells(pixels)
     return Texture(name=name, pixels=pixels, repeats=False)
 
 
-def _painted(first: int, fields: Fields) -> Pixels:
-    """Some rows of the image, of which the first has number ``first``, from their fields."""
-    grain, broad, cobble, cobble_shade, rock, rock_shade = fields[:6]
+def _paint_rows(first_row: int, fields: Fields) -> Pixels:
+    """Paint rows of the image from their fields, beginning with number ``first_row``."""
+    grain, dunes, cobble, cobble_shade, rock, rock_shade = fields[:6]
     on_rock, shadow, crust, fronds, beds, exposure = fields[6:]
     h, w = grain.shape
-    down = np.arange(first, first + h, dtype=np.float32)[:, None] * np.float32(0.123)
-    right = np.arange(w, dtype=np.float32)[None, :] * np.float32(0.039)
-    ripples = np.sin(down + right + 1.6 * broad)
-    fine = 1.0 + 0.09 * grain
+    phase_rows = np.arange(first_row, first_row + h, dtype=np.float32)[:, None] * np.float32(0.123)
+    phase_columns = np.arange(w, dtype=np.float32)[None, :] * np.float32(0.039)
+    ripples = np.sin(phase_rows + phase_columns + 1.6 * dunes)
+    grain_shade = 1.0 + 0.09 * grain
 
-    on_cobble = step(-0.2, 0.2, broad + 0.30 * grain + 0.25 * (cobble - 0.6))
-    on_weed = step(1.0, 1.7, beds) * step(-0.9, 0.1, fronds)
-    bare = exposure * (1.0 - on_weed)
-    beneath = (1.0 - 0.55 * shadow) * (1.0 - on_rock) * bare
+    on_cobble = smoothstep(-0.2, 0.2, dunes + 0.30 * grain + 0.25 * (cobble - 0.6))
+    on_weed = smoothstep(1.0, 1.7, beds) * smoothstep(-0.9, 0.1, fronds)
+    weedless = exposure * (1.0 - on_weed)
+    ground = (1.0 - 0.55 * shadow) * (1.0 - on_rock) * weedless
 
-    sand = (fine + 0.05 * broad) * lit(ripples + 0.25 * grain, 0.32)
-    sand *= (1.0 - on_cobble) * beneath
-    pebbles = fine * lit(cobble, 1.0) * (0.42 + 0.58 * step(0.0, 0.6, cobble))
-    pebbles *= on_cobble * beneath
-    boulders = (0.95 + 0.10 * grain) * lit(rock + 0.05 * crust, 2.6) * on_rock * bare
-    crusted = step(0.3, 1.6, crust)
-    weed = lit(fronds, 0.30) * on_weed
-    lightness = step(-1.2, 1.8, fronds)
+    sand = (grain_shade + 0.05 * dunes) * shading(ripples + 0.25 * grain, 0.32)
+    sand *= (1.0 - on_cobble) * ground
+    pebbles = grain_shade * shading(cobble, 1.0) * (0.42 + 0.58 * smoothstep(0.0, 0.6, cobble))
+    pebbles *= on_cobble * ground
+    boulders = (0.95 + 0.10 * grain) * shading(rock + 0.05 * crust, 2.6) * on_rock * weedless
+    crust_cover = smoothstep(0.3, 1.6, crust)
+    weed = shading(fronds, 0.30) * on_weed
+    lightness = smoothstep(-1.2, 1.8, fronds)
 
     layers = np.empty((len(PALETTE), h * w), dtype=np.float32)
     for row, layer in enumerate(
@@ -161,48 +163,48 @@ def _painted(first: int, fields: Fields) -> Pixels:
             sand,
             pebbles * (1.0 - cobble_shade),
             pebbles * cobble_shade,
-            boulders * (1.0 - crusted) * (1.0 - rock_shade),
-            boulders * (1.0 - crusted) * rock_shade,
-            boulders * crusted,
+            boulders * (1.0 - crust_cover) * (1.0 - rock_shade),
+            boulders * (1.0 - crust_cover) * rock_shade,
+            boulders * crust_cover,
             weed * (1.0 - lightness),
             weed * lightness,
         )
     ):
         layers[row] = layer.ravel()
     planes = np.einsum("ij,ik->jk", PALETTE * np.float32(255.0), layers)  # (3, h*w)
-    merged: Pixels = cv2.merge([cv2.convertScaleAbs(plane.reshape(h, w)) for plane in planes])
-    return merged
+    image: Pixels = cv2.merge([cv2.convertScaleAbs(plane.reshape(h, w)) for plane in planes])
+    return image
 
 
 def _scatter_shells(image: Pixels) -> None:
-    """Shells and pebbles: small bright or dark ellipses with a shadow."""
+    """Paint shells and pebbles: small bright or dark ellipses with a shadow."""
     h, w = image.shape[:2]
-    draw = rng.stream(0, "assets/tank/mosaic/shells")
+    stream = rng.stream(0, "assets/tank/mosaic/shells")
     for _ in range(380):
-        centre = (int(draw.integers(0, w)), int(draw.integers(0, h)))
-        axes = (int(draw.integers(2, 8)), int(draw.integers(2, 5)))
-        angle = float(draw.uniform(0, 180))
-        light = 255.0 * float(draw.choice([0.86, 0.76, 0.22, 0.48]))
+        centre = (int(stream.integers(0, w)), int(stream.integers(0, h)))
+        axes = (int(stream.integers(2, 8)), int(stream.integers(2, 5)))
+        angle = float(stream.uniform(0, 180))
+        light = 255.0 * float(stream.choice([0.86, 0.76, 0.22, 0.48]))
         tone = (light * 0.97, light * 0.96, light * 0.86)
         cv2.ellipse(image, (centre[0] + 2, centre[1] + 2), axes, angle, 0, 360, (30, 32, 32), -1)
         cv2.ellipse(image, centre, axes, angle, 0, 360, tone, -1, cv2.LINE_AA)
         ridge = (max(1, axes[0] // 2), max(1, axes[1] // 2))
-        dim = (0.72 * tone[0], 0.72 * tone[1], 0.72 * tone[2])
-        cv2.ellipse(image, centre, ridge, angle, 180, 360, dim, 1, cv2.LINE_AA)
+        ridge_tone = (0.72 * tone[0], 0.72 * tone[1], 0.72 * tone[2])
+        cv2.ellipse(image, centre, ridge, angle, 180, 360, ridge_tone, 1, cv2.LINE_AA)
 
 
 def _exposures(h: int, w: int) -> Grey:
-    """Each image of the mosaic was a little brighter or darker, and dimmer at its rim."""
-    draw = rng.stream(0, "assets/tank/mosaic/seams")
+    """Return the brightness of the mosaic's images, which differ and are dimmer at the rim."""
+    stream = rng.stream(0, "assets/tank/mosaic/seams")
     rows, columns = 6, 3
     gain = np.ones((h // 2, w // 2), dtype=np.float32)
     for r in range(rows):
         for c in range(columns):
-            top, left = (int(v) for v in draw.integers(-20, 20, 2))
+            top, left = (int(v) for v in stream.integers(-20, 20, 2))
             y0, x0 = max(0, r * h // 2 // rows + top), max(0, c * w // 2 // columns + left)
             y1, x1 = (r + 1) * h // 2 // rows + 24, (c + 1) * w // 2 // columns + 24
             part = gain[y0:y1, x0:x1]
             v = np.linspace(-1, 1, part.shape[0], dtype=np.float32)[:, None]
             u = np.linspace(-1, 1, part.shape[1], dtype=np.float32)[None, :]
-            part[:] = draw.uniform(0.95, 1.06) * (1.04 - 0.08 * (u * u + v * v))
+            part[:] = stream.uniform(0.95, 1.06) * (1.04 - 0.08 * (u * u + v * v))
     return np.asarray(cv2.resize(gain, (w, h)), dtype=np.float32)

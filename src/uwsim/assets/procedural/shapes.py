@@ -1,8 +1,8 @@
 """Shapes: triangles with texture coordinates, made from a few numbers.
 
-A shape is a heap of triangles; `mesh` turns it into vertices with normals. Angles below
-`CREASE` are smoothed over, sharper ones stay edges. Everything is right-handed, in metres,
-and wound counter-clockwise seen from outside.
+A shape is a set of triangles; `mesh` converts it to vertices with normals. Angles below `CREASE`
+are smoothed, sharper ones stay edges. Frames are right-handed, lengths in metres, and triangles
+counter-clockwise as seen from outside.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ...base.numerics.linear import dot, length, product
 from ..mesh import Mesh, Texture
 
 CREASE = 0.85
-"""Faces that meet at less than this angle [rad] look like one curved surface."""
+"""The angle between faces [rad] below which they are shaded as one curved surface."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -28,35 +28,35 @@ class Shape:
     """Triangles without shared vertices: simple to make, move and join."""
 
     corners: Array
-    """(m, 3, 3) [m]: triangle, corner, coordinate."""
+    """The triangles, (m, 3, 3) [m]: triangle, corner, coordinate."""
     uvs: Array
-    """(m, 3, 2): texture coordinates of the corners."""
+    """The texture coordinates of the corners, (m, 3, 2)."""
 
-    def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Shape:
-        """The shape, shifted [m]."""
+    def shift(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Shape:
+        """Return the shape, shifted [m]."""
         return Shape(self.corners + np.array([x, y, z]), self.uvs)
 
-    def turned(self, rotation: Array) -> Shape:
-        """The shape under a rotation (3, 3) about the origin."""
+    def rotate(self, rotation: Array) -> Shape:
+        """Return the shape under a rotation (3, 3) about the origin."""
         return Shape(product(self.corners, rotation.T), self.uvs)
 
-    def scaled(self, x: float, y: float, z: float) -> Shape:
-        """The shape with its axes stretched; a mirrored shape is wound anew."""
+    def scale(self, x: float, y: float, z: float) -> Shape:
+        """Return the shape with its axes stretched; its triangles face outward, mirrored or not."""
         corners = self.corners * np.array([x, y, z])
         if x * y * z < 0.0:
             return Shape(corners[:, ::-1], self.uvs[:, ::-1])
         return Shape(corners, self.uvs)
 
-    def flipped(self) -> Shape:
-        """The shape seen from inside."""
+    def flip(self) -> Shape:
+        """Return the shape with its triangles facing inward."""
         return Shape(self.corners[:, ::-1], self.uvs[:, ::-1])
 
-    def with_uvs(self, scale_u: float, scale_v: float) -> Shape:
-        """The shape with its texture repeated this often."""
+    def scale_uv(self, scale_u: float, scale_v: float) -> Shape:
+        """Return the shape with its texture repeated this often."""
         return Shape(self.corners, self.uvs * np.array([scale_u, scale_v]))
 
-    def projected(self, metres: float) -> Shape:
-        """Texture laid on by each triangle's main direction, one image every ``metres``."""
+    def project_uv(self, metres: float) -> Shape:
+        """Project the texture along each triangle's main direction, one image every ``metres``."""
         normal = np.abs(_face_normals(self.corners))
         axis = np.argmax(normal, axis=1)  # (m,)
         keep = np.array([[1, 2], [0, 2], [0, 1]])[axis]  # (m, 2) coordinates that remain
@@ -65,24 +65,24 @@ class Shape:
 
     @property
     def area(self) -> float:
-        """Area of all triangles [m^2]."""
+        """The area of all triangles [m^2]."""
         return float(np.linalg.norm(_face_normals(self.corners), axis=1).sum() / 2.0)
 
     @property
     def volume(self) -> float:
-        """Signed volume [m^3]; positive for a closed shape wound outward."""
+        """The signed volume [m^3]; positive for a closed shape that faces outward."""
         a, b, c = self.corners[:, 0], self.corners[:, 1], self.corners[:, 2]
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6.0)
 
 
 def _face_normals(corners: Array) -> Array:
-    """Normals of triangles, (m, 3), as long as twice the area."""
+    """Return the normals of triangles, (m, 3), as long as twice the area."""
     normals: Array = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return normals
 
 
 def join(*shapes: Shape) -> Shape:
-    """Several shapes as one."""
+    """Join shapes to one."""
     return Shape(
         np.concatenate([shape.corners for shape in shapes]),
         np.concatenate([shape.uvs for shape in shapes]),
@@ -96,55 +96,58 @@ _MIX = np.array(
     ],
     dtype=np.uint64,
 )  # fmt: skip
-"""Odd numbers without pattern: the weights of a hash."""
+"""The weights of a hash: odd numbers without pattern."""
 
 
 def _groups(cells: Array) -> npt.NDArray[np.int64]:
-    """A number for every row, equal where the rounded rows are equal."""
-    whole = np.round(cells).astype(np.int64).view(np.uint64)
-    keys = (whole * _MIX[: whole.shape[1]]).sum(axis=1, dtype=np.uint64)
+    """Return a number for every row, equal where the rounded rows are equal."""
+    integers = np.round(cells).astype(np.int64).view(np.uint64)
+    keys = (integers * _MIX[: integers.shape[1]]).sum(axis=1, dtype=np.uint64)
     numbers: npt.NDArray[np.int64] = np.unique(keys, return_inverse=True)[1].ravel()
     return numbers
 
 
 def _normals(corners: Array, crease: float) -> Array:
-    """Normals at the corners, (3m, 3): mean of the faces that meet there, split at creases.
+    """Return the normals at the corners, (3m, 3): mean of the faces that meet there, up to creases.
 
-    Each face counts with its area and its angle at the corner.
+    The weight of a face is its area times its angle at the corner.
     """
     face = _face_normals(corners)
     unit = face / np.linalg.norm(face, axis=1, keepdims=True)
     sides = np.roll(corners, -1, axis=1) - corners  # (m, 3, 3) from each corner to the next
     sides /= np.linalg.norm(sides, axis=2, keepdims=True)
     cosine = -np.einsum("ijk,ijk->ij", sides, np.roll(sides, 1, axis=1))
-    weighted = face[:, None] * _angles(np.clip(cosine, -1.0, 1.0))[..., None]
-    weighted = weighted.reshape(-1, 3)  # (3m, 3)
-    point = _groups(corners.reshape(-1, 3) / _grain(corners))
+    weighted_sums = face[:, None] * _angles(np.clip(cosine, -1.0, 1.0))[..., None]
+    weighted_sums = weighted_sums.reshape(-1, 3)  # (3m, 3)
+    point = _groups(corners.reshape(-1, 3) / _tolerance(corners))
     order = by_point = np.argsort(point, kind="stable")
     size = np.bincount(point)
     start = np.concatenate([[0], np.cumsum(size)[:-1]])
     # Pairs of corners that share a point: each corner beside every corner of its group. Points
     # where very many faces meet (fans of broken files) keep the faces' own normals.
     order = order[size[point[order]] <= 128]
-    n_beside = size[point[order]]
-    first = np.repeat(order, n_beside)
-    step = np.arange(len(first)) - np.repeat(np.cumsum(n_beside) - n_beside, n_beside)
-    second = by_point[np.repeat(start[point[order]], n_beside) + step]
-    alike = np.einsum("ij,ij->i", unit[first // 3], unit[second // 3]) > math.cos(crease)
-    first, second = first[alike], second[alike]
+    n_neighbours = size[point[order]]
+    corner = np.repeat(order, n_neighbours)
+    step = np.arange(len(corner)) - np.repeat(np.cumsum(n_neighbours) - n_neighbours, n_neighbours)
+    neighbour = by_point[np.repeat(start[point[order]], n_neighbours) + step]
+    is_smooth = np.einsum("ij,ij->i", unit[corner // 3], unit[neighbour // 3]) > math.cos(crease)
+    corner, neighbour = corner[is_smooth], neighbour[is_smooth]
     total = np.stack(
-        [np.bincount(first, weights=weighted[second, k], minlength=len(point)) for k in range(3)],
+        [
+            np.bincount(corner, weights=weighted_sums[neighbour, k], minlength=len(point))
+            for k in range(3)
+        ],
         axis=1,
     )
-    long = np.linalg.norm(total, axis=1, keepdims=True)
-    normals: Array = np.where(long > 0.0, total / np.where(long > 0.0, long, 1.0),
+    lengths = np.linalg.norm(total, axis=1, keepdims=True)
+    normals: Array = np.where(lengths > 0.0, total / np.where(lengths > 0.0, lengths, 1.0),
                               np.repeat(unit, 3, axis=0))  # fmt: skip
     return normals
 
 
 @njit
 def _angles(cosines: Array) -> Array:
-    """Of cosines (m, 3) [rad]; every scene with a mesh needs them, see `elementwise` for others."""
+    """Return the angles of cosines (m, 3) [rad]; every scene with a mesh needs them."""
     angles = np.empty(cosines.shape)
     for row in range(cosines.shape[0]):
         for corner in range(cosines.shape[1]):
@@ -152,8 +155,8 @@ def _angles(cosines: Array) -> Array:
     return angles
 
 
-def _grain(corners: Array) -> float:
-    """Points nearer than this are one point [m]: a millionth of the shape, 1 um at most."""
+def _tolerance(corners: Array) -> float:
+    """Return the distance below which points are one [m]: 1e-6 of the shape, at most 1 um."""
     return float(min(1e-6, max(np.ptp(corners.reshape(-1, 3), axis=0).max() * 1e-6, 1e-12)))
 
 
@@ -164,21 +167,21 @@ def mesh(
     crease: float = CREASE,
     two_sided: bool = False,
 ) -> Mesh:
-    """Shapes of one material as a mesh with shared vertices and unit normals."""
+    """Convert shapes of one material to a mesh with shared vertices and unit normals."""
     shape = join(*shapes)
     areas = np.linalg.norm(_face_normals(shape.corners), axis=1)
-    big = areas > min(_grain(shape.corners) ** 2, 1e-9 * float(areas.max()))
-    corners, uvs = shape.corners[big], shape.uvs[big].reshape(-1, 2)
+    is_valid = areas > min(_tolerance(shape.corners) ** 2, 1e-9 * float(areas.max()))
+    corners, uvs = shape.corners[is_valid], shape.uvs[is_valid].reshape(-1, 2)
     normals = _normals(corners, crease)
     points = corners.reshape(-1, 3)
-    grain = np.array([_grain(corners)] * 3 + [1e-3] * 3 + [1e-5] * 2)
-    same = _groups(np.hstack([points, normals, uvs]) / grain)
-    _, first = np.unique(same, return_index=True)
+    tolerances = np.array([_tolerance(corners)] * 3 + [1e-3] * 3 + [1e-5] * 2)
+    groups = _groups(np.hstack([points, normals, uvs]) / tolerances)
+    _, representatives = np.unique(groups, return_index=True)
     return Mesh(
-        vertices=points[first].astype(np.float32),
-        normals=normals[first].astype(np.float32),
-        uvs=uvs[first].astype(np.float32),
-        triangles=same.reshape(-1, 3).astype(np.uint32),
+        vertices=points[representatives].astype(np.float32),
+        normals=normals[representatives].astype(np.float32),
+        uvs=uvs[representatives].astype(np.float32),
+        triangles=groups.reshape(-1, 3).astype(np.uint32),
         colour=colour,
         texture=texture,
         two_sided=two_sided,
@@ -186,17 +189,17 @@ def mesh(
 
 
 def surface(points: Array, uvs: Array | None = None) -> Shape:
-    """A grid of points (k, n, 3) as triangles facing ``d/dn x d/dk``."""
+    """Return a grid of points (k, n, 3) as triangles that face ``d/dn x d/dk``."""
     k, n = points.shape[:2]
     if uvs is None:
         v, u = np.meshgrid(np.linspace(0, 1, k), np.linspace(0, 1, n), indexing="ij")
         uvs = np.stack([u, v], axis=2)
-    both = np.concatenate([points, uvs], axis=2)  # (k, n, 5)
-    a, b, c, d = both[:-1, :-1], both[:-1, 1:], both[1:, 1:], both[1:, :-1]
+    grid = np.concatenate([points, uvs], axis=2)  # (k, n, 5)
+    a, b, c, d = grid[:-1, :-1], grid[:-1, 1:], grid[1:, 1:], grid[1:, :-1]
     triangles = np.stack([np.stack([a, b, c], axis=2), np.stack([a, c, d], axis=2)], axis=2)
-    flat = triangles.reshape(-1, 3, 5)
-    real = np.linalg.norm(_face_normals(flat[:, :, :3]), axis=1) > 1e-12
-    return Shape(flat[real, :, :3], flat[real, :, 3:])
+    corners = triangles.reshape(-1, 3, 5)
+    has_area = np.linalg.norm(_face_normals(corners[:, :, :3]), axis=1) > 1e-12
+    return Shape(corners[has_area, :, :3], corners[has_area, :, 3:])
 
 
 def quad(
@@ -210,7 +213,7 @@ def quad(
 ) -> Shape:
     """A four-cornered face, counter-clockwise from bottom left; ``uv`` is (u0, v0, u1, v1).
 
-    ``cuts`` says into how many pieces it is divided along a-b and along a-d.
+    ``cuts`` has the numbers of its pieces along a-b and along a-d.
     """
     s, t = np.linspace(0, 1, cuts[0] + 1), np.linspace(0, 1, cuts[1] + 1)
     t_, s_ = (g[..., None] for g in np.meshgrid(t, s, indexing="ij"))
@@ -221,7 +224,7 @@ def quad(
 
 
 def box(lower: Triple, upper: Triple) -> Shape:
-    """A box; every face shows the whole texture, upright on the sides."""
+    """Return a box; every face shows the whole texture, upright on the sides."""
     (x0, y0, z0), (x1, y1, z1) = lower, upper
     return join(
         quad((x0, y0, z0), (x1, y0, z0), (x1, y0, z1), (x0, y0, z1)),  # -y
@@ -233,8 +236,8 @@ def box(lower: Triple, upper: Triple) -> Shape:
     )
 
 
-def rounded(width: float, height: float, radius: float, n: int = 3) -> Array:
-    """Outline of a rounded rectangle about the origin, counter-clockwise, (4(n+1), 2) [m]."""
+def rounded_rectangle(width: float, height: float, radius: float, n: int = 3) -> Array:
+    """Return the outline of a rounded rectangle, counter-clockwise, (4(n+1), 2) [m]."""
     corner = np.linspace(0, math.pi / 2, n + 1)
     points = []
     for k, (sx, sy) in enumerate([(1, 1), (-1, 1), (-1, -1), (1, -1)]):
@@ -245,27 +248,27 @@ def rounded(width: float, height: float, radius: float, n: int = 3) -> Array:
 
 
 def circle(radius: float, n: int = 16) -> Array:
-    """Outline of a circle, counter-clockwise, (n, 2) [m]."""
+    """Return the outline of a circle, counter-clockwise, (n, 2) [m]."""
     angle = np.arange(n) * (2 * math.pi / n)
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
-def loft(rings: Array, *, closed: bool = True) -> Shape:
-    """A skin over rings (k, n, 3) that go up, each counter-clockwise seen from above.
+def loft(rings: Array, *, has_lids: bool = True) -> Shape:
+    """Connect rings (k, n, 3) that go up, each counter-clockwise as seen from above.
 
-    ``closed`` puts flat lids (fans round the middle) on both ends.
+    ``has_lids`` puts flat lids (fans round the middle) on both ends.
     """
-    around = np.concatenate([rings, rings[:, :1]], axis=1)
-    shapes = [surface(around)]
-    if closed:
+    grid = np.concatenate([rings, rings[:, :1]], axis=1)
+    shapes = [surface(grid)]
+    if has_lids:
         n = rings.shape[1]
-        for ring, way in ((rings[0], -1), (rings[-1], 1)):
+        for ring, order in ((rings[0], -1), (rings[-1], 1)):
             middle = ring.mean(axis=0)
             fan = np.stack([np.broadcast_to(middle, (n, 3)), ring, np.roll(ring, -1, axis=0)], 1)
-            flat = fan[:, ::way]
+            lid = fan[:, ::order]
             low, high = ring.min(axis=0), ring.max(axis=0)
             size = np.where(high - low < 1e-9, 1.0, high - low)
-            shapes.append(Shape(flat, ((flat - low) / size)[:, :, :2]))
+            shapes.append(Shape(lid, ((lid - low) / size)[:, :, :2]))
     return join(*shapes)
 
 
@@ -289,16 +292,16 @@ def extrusion(
 
 
 def rounded_box(lower: Triple, upper: Triple, *, radius: float, n: int = 2) -> Shape:
-    """A box with rounded edges upright and bevelled rims."""
+    """Return a box with rounded upright edges and bevelled rims."""
     low, high = np.array(lower), np.array(upper)
     size, middle = high - low, (low + high) / 2
-    outline = rounded(size[0], size[1], radius, n)
+    outline = rounded_rectangle(size[0], size[1], radius, n)
     shape = extrusion(outline, -size[2] / 2, size[2] / 2, bevel=radius * 0.6, bevel_steps=n)
-    return shape.moved(*middle.tolist())
+    return shape.shift(*middle.tolist())
 
 
 def lathe(profile: Sequence[tuple[float, float]] | Array, *, n: int = 24) -> Shape:
-    """A profile of (radius, z) from bottom to top, turned about z."""
+    """Rotate a profile of (radius, z) from bottom to top about z."""
     curve = np.asarray(profile, dtype=np.float64)
     angle = np.linspace(0, 2 * math.pi, n + 1)
     angle[-1] = 0.0
@@ -307,13 +310,13 @@ def lathe(profile: Sequence[tuple[float, float]] | Array, *, n: int = 24) -> Sha
         [radius * np.cos(angle), radius * np.sin(angle), np.broadcast_to(z, (len(z), n + 1))],
         axis=2,
     )
-    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
-    v, u = np.meshgrid(along / along[-1], np.linspace(0, 1, n + 1), indexing="ij")
+    distance = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(curve, axis=0), axis=1))])
+    v, u = np.meshgrid(distance / distance[-1], np.linspace(0, 1, n + 1), indexing="ij")
     return surface(points, np.stack([u, v], axis=2))
 
 
 def sphere(radius: float, *, n: int = 24) -> Shape:
-    """A sphere about the origin."""
+    """Return a sphere about the origin."""
     a = np.linspace(-math.pi / 2, math.pi / 2, max(3, n // 2) + 1)
     profile = radius * np.stack([np.cos(a), np.sin(a)], axis=1)
     profile[[0, -1], 0] = 0.0
@@ -321,7 +324,7 @@ def sphere(radius: float, *, n: int = 24) -> Shape:
 
 
 def capsule(radius: float, z0: float, z1: float, *, n: int = 20) -> Shape:
-    """A rod with round ends, z0 and z1 the tips."""
+    """Return a rod with round ends at z0 and z1."""
     a = np.linspace(0, math.pi / 2, max(2, n // 4) + 1)
     low = np.stack([radius * np.sin(a), z0 + radius - radius * np.cos(a)], axis=1)
     high = np.stack([radius * np.cos(a), z1 - radius + radius * np.sin(a)], axis=1)
@@ -329,15 +332,15 @@ def capsule(radius: float, z0: float, z1: float, *, n: int = 20) -> Shape:
 
 
 def torus(ring: float, tube_radius: float, *, n: int = 32, m: int = 12) -> Shape:
-    """A ring about z: radius of the middle line, radius of the tube."""
+    """Return a ring about z, with the radius of its middle line and that of the tube."""
     a = np.linspace(-math.pi, math.pi, m + 1)
     a[-1] = -math.pi
     profile = np.stack([ring + tube_radius * np.cos(a), tube_radius * np.sin(a)], axis=1)
     return lathe(profile, n=n)
 
 
-def facing(direction: Array) -> Array:
-    """A rotation (3, 3) that takes z into ``direction`` (3,)."""
+def rotation_to(direction: Array) -> Array:
+    """Return a rotation (3, 3) of z to ``direction`` (3,)."""
     z = np.asarray(direction, dtype=np.float64)
     z = z / length(z)
     helper = np.array([1.0, 0.0, 0.0]) if abs(z[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
@@ -349,48 +352,48 @@ def facing(direction: Array) -> Array:
 def cylinder(
     start: Triple, end: Triple, radius: float, *, n: int = 20, bevel: float = 0.0, top: float = 1.0
 ) -> Shape:
-    """A rod from ``start`` to ``end``; ``top`` times as thick at the end (0 is a cone)."""
+    """Return a rod from ``start`` to ``end``, ``top`` times as thick at the end (0 is a cone)."""
     a, b = np.array(start), np.array(end)
-    tall, wide = length(b - a), radius * top
+    height, end_radius = length(b - a), radius * top
     if bevel > 0.0:
         sides = [
             (radius - bevel, 0.0),
             (radius, bevel),
-            (wide, tall - bevel),
-            (wide - bevel, tall),
+            (end_radius, height - bevel),
+            (end_radius - bevel, height),
         ]
     else:
-        sides = [(radius, 0.0), (wide, tall)]
-    rod = lathe([(0.0, 0.0), *sides, (0.0, tall)], n=n)
-    return rod.turned(facing(b - a)).moved(*start)
+        sides = [(radius, 0.0), (end_radius, height)]
+    rod = lathe([(0.0, 0.0), *sides, (0.0, height)], n=n)
+    return rod.rotate(rotation_to(b - a)).shift(*start)
 
 
 def tube(
-    path: Sequence[Triple] | Array, radius: float, *, n: int = 10, closed: bool = True
+    path: Sequence[Triple] | Array, radius: float, *, n: int = 10, has_lids: bool = True
 ) -> Shape:
-    """A bent bar along a path of points; ``closed`` gives it flat ends."""
+    """Return a bent bar along a path of points; ``has_lids`` adds flat ends."""
     points = np.asarray(path, dtype=np.float64)
     step = np.diff(points, axis=0)
     step /= np.linalg.norm(step, axis=1, keepdims=True)
-    before, after = np.concatenate([step[:1], step]), np.concatenate([step, step[-1:]])
-    along = before + after
-    along /= np.linalg.norm(along, axis=1, keepdims=True)
-    across = facing(along[0])[:, 0]
+    to_point, from_point = np.concatenate([step[:1], step]), np.concatenate([step, step[-1:]])
+    tangent = to_point + from_point
+    tangent /= np.linalg.norm(tangent, axis=1, keepdims=True)
+    normal = rotation_to(tangent[0])[:, 0]
     disc = circle(radius, n)
     rings = []
     for k, point in enumerate(points):
-        across = across - along[k] * dot(across, along[k])
-        across /= length(across)
-        offsets = disc[:, :1] * across + disc[:, 1:] * np.cross(along[k], across)
-        bend = after[k] - before[k]
+        normal = normal - tangent[k] * dot(normal, tangent[k])
+        normal /= length(normal)
+        offsets = disc[:, :1] * normal + disc[:, 1:] * np.cross(tangent[k], normal)
+        bend = from_point[k] - to_point[k]
         if dot(bend, bend) > 1e-12:  # a mitre: wider across the bend, to stay as thick
             bend /= length(bend)
-            wider = 1.0 / dot(before[k], along[k]) - 1.0
-            offsets += np.outer(product(offsets, bend), bend) * wider
+            stretch = 1.0 / dot(to_point[k], tangent[k]) - 1.0
+            offsets += np.outer(product(offsets, bend), bend) * stretch
         rings.append(point + offsets)
-    return loft(np.array(rings), closed=closed)
+    return loft(np.array(rings), has_lids=has_lids)
 
 
-def ring(outer: float, inner: float, z0: float, z1: float, *, n: int = 24) -> Shape:
-    """A pipe about z with both walls and both rims."""
-    return lathe([(inner, z0), (outer, z0), (outer, z1), (inner, z1), (inner, z0)], n=n)
+def ring(r_out: float, r_in: float, z0: float, z1: float, *, n: int = 24) -> Shape:
+    """Return a pipe about z with both walls and both rims."""
+    return lathe([(r_in, z0), (r_out, z0), (r_out, z1), (r_in, z1), (r_in, z0)], n=n)

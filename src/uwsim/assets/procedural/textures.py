@@ -12,9 +12,9 @@ from ...base import rng
 from ..mesh import Texture
 
 Grey = npt.NDArray[np.float32]
-"""(h, w), about 0..1."""
+"""A grey image, (h, w), about 0..1."""
 Pixels = npt.NDArray[np.float32]
-"""(h, w, 3), 0..1, red green blue, row 0 at the top."""
+"""A colour image, (h, w, 3), 0..1, red green blue, row 0 at the top."""
 Colour = tuple[float, float, float]
 
 
@@ -28,89 +28,92 @@ def noise(
     gain: float = 0.55,
     tiles: bool = True,
 ) -> Grey:
-    """Smooth noise, about zero mean and unit deviation.
+    """Return smooth noise, about zero mean and unit deviation.
 
     The sum of random grids, each finer and weaker than the one before.
 
     Args:
-        name: Names the chance it is drawn from.
-        height: Rows.
-        width: Columns.
-        cells: Cells of the coarsest grid along the shorter side.
-        octaves: How many grids, each with cells half as large as the one before.
-        gain: Weight of each grid relative to the one before.
-        tiles: Whether opposite sides fit together.
+        name: The name of the random stream.
+        height: The number of rows.
+        width: The number of columns.
+        cells: The number of cells of the coarsest grid along the shorter side.
+        octaves: The number of grids, each with cells half as large as the one before.
+        gain: The weight of each grid relative to the one before.
+        tiles: True if opposite sides fit together.
     """
-    draw = rng.stream(0, f"assets/{name}")
-    short = min(height, width)
-    rows, columns = round(cells * height / short), round(cells * width / short)
-    total = draw.standard_normal((rows, columns), dtype=np.float32)
+    stream = rng.stream(0, f"assets/{name}")
+    short_side = min(height, width)
+    rows, columns = round(cells * height / short_side), round(cells * width / short_side)
+    total = stream.standard_normal((rows, columns), dtype=np.float32)
     weight = 1.0
     for _ in range(octaves - 1):
         if 2 * rows > height or 2 * columns > width:
             break
         rows, columns, weight = 2 * rows, 2 * columns, weight * gain
-        total = _stretched(total, rows, columns, tiles)
-        total += np.float32(weight) * draw.standard_normal((rows, columns), dtype=np.float32)
+        total = _resize(total, rows, columns, tiles)
+        total += np.float32(weight) * stream.standard_normal((rows, columns), dtype=np.float32)
     total -= total.mean()
     total /= total.std()
-    return _stretched(total, height, width, tiles)
+    return _resize(total, height, width, tiles)
 
 
-def _stretched(grid: Grey, height: int, width: int, tiles: bool) -> Grey:
-    """A grid at a higher resolution, bicubic; across the borders too when it tiles."""
+def _resize(grid: Grey, height: int, width: int, tiles: bool) -> Grey:
+    """Resize a grid to a higher resolution, bicubic; across the borders too when it tiles."""
     rows, columns = grid.shape
     if (rows, columns) == (height, width):
         return grid
     if not tiles:
-        whole = cv2.resize(grid, (width, height), interpolation=cv2.INTER_CUBIC)
-        return np.asarray(whole, dtype=np.float32)
-    wrapped = cv2.copyMakeBorder(grid, 2, 2, 2, 2, cv2.BORDER_WRAP)
-    tall, wide = round(height * (rows + 4) / rows), round(width * (columns + 4) / columns)
-    big = cv2.resize(wrapped, (wide, tall), interpolation=cv2.INTER_CUBIC)
-    top, left = (tall - height) // 2, (wide - width) // 2
-    return np.ascontiguousarray(big[top : top + height, left : left + width])
+        image = cv2.resize(grid, (width, height), interpolation=cv2.INTER_CUBIC)
+        return np.asarray(image, dtype=np.float32)
+    wrapped_grid = cv2.copyMakeBorder(grid, 2, 2, 2, 2, cv2.BORDER_WRAP)
+    full_height, full_width = (
+        round(height * (rows + 4) / rows),
+        round(width * (columns + 4) / columns),
+    )
+    full_image = cv2.resize(wrapped_grid, (full_width, full_height), interpolation=cv2.INTER_CUBIC)
+    top, left = (full_height - height) // 2, (full_width - width) // 2
+    return np.ascontiguousarray(full_image[top : top + height, left : left + width])
 
 
-def plain(height: int, width: int, colour: Colour) -> Pixels:
-    """An image of one colour."""
+def fill(height: int, width: int, colour: Colour) -> Pixels:
+    """Return an image of one colour."""
     return np.broadcast_to(np.array(colour, dtype=np.float32), (height, width, 3)).copy()
 
 
-def mixed(first: Pixels | Colour, second: Pixels | Colour, amount: Grey) -> Pixels:
-    """``first`` where ``amount`` is 0, ``second`` where it is 1."""
-    a, b = np.asarray(first, dtype=np.float32), np.asarray(second, dtype=np.float32)
+def mix(start: Pixels | Colour, end: Pixels | Colour, amount: Grey) -> Pixels:
+    """Mix two images: ``start`` where ``amount`` is 0, ``end`` where it is 1."""
+    a, b = np.asarray(start, dtype=np.float32), np.asarray(end, dtype=np.float32)
     blend: Pixels = a + (b - a) * amount[:, :, None]
     return blend
 
 
-def step(low: float, high: float, value: Grey) -> Grey:
-    """0 below ``low``, 1 above ``high``, smooth between."""
+def smoothstep(low: float, high: float, value: Grey) -> Grey:
+    """Return 0 below ``low``, 1 above ``high``, and a smooth step between."""
     t = np.clip((value - np.float32(low)) / np.float32(high - low), 0.0, 1.0)
-    smooth: Grey = t * t * (3.0 - 2.0 * t)
-    return smooth
+    ramp: Grey = t * t * (3.0 - 2.0 * t)
+    return ramp
 
 
-def lit(height_map: Grey, strength: float, *, tiles: bool = False) -> Grey:
-    """Shading of a relief, about 1: brighter on the slopes that face the top left."""
+def shading(height_map: Grey, strength: float, *, tiles: bool = False) -> Grey:
+    """Return the shading of a relief, about 1: brighter on the slopes that face the top left."""
     border = cv2.BORDER_WRAP if tiles else cv2.BORDER_REFLECT
-    padded = cv2.copyMakeBorder(height_map, 1, 1, 1, 1, border)
-    slope = padded[2:, 2:] - padded[:-2, :-2]
+    border_map = cv2.copyMakeBorder(height_map, 1, 1, 1, 1, border)
+    slope = border_map[2:, 2:] - border_map[:-2, :-2]
     slope *= np.float32(strength)
     slope += np.float32(1.0)
     shade: Grey = np.clip(slope, 0.35, 1.7, out=slope)
     return shade
 
 
-def finished(name: str, image: Pixels, *, repeats: bool = True) -> Texture:
-    """The image as a texture, clipped to 0..1 and rounded to 8 bit."""
+def to_texture(name: str, image: Pixels, *, repeats: bool = True) -> Texture:
+    """Convert an image to a texture, clipped to 0..1 and rounded to 8 bit."""
     pixels = cv2.convertScaleAbs(np.clip(image, 0.0, 1.0), alpha=255.0)
     return Texture(name=name, pixels=np.ascontiguousarray(pixels, dtype=np.uint8), repeats=repeats)
 
 
 @lru_cache(maxsize=64)
 def lettering(text: str, size: int) -> Grey:
-    """Words as an image, 1 where there is ink, cropped to the ink; no system font is needed."""
+    """Return a text as an image, 1 where there is ink, cropped; no system font is needed."""
     from PIL import Image, ImageDraw, ImageFont
 
     font = ImageFont.load_default(size=size)
@@ -124,7 +127,7 @@ def lettering(text: str, size: int) -> Grey:
     return ink
 
 
-def write(
+def paint_text(
     image: Pixels,
     text: str,
     centre: tuple[float, float],
@@ -134,9 +137,9 @@ def write(
     colour: Colour = (0.0, 0.0, 0.0),
     quarter_turns: int = 0,
 ) -> None:
-    """Paint words onto an image; places and sizes are fractions of its width and height.
+    """Paint a text onto an image; positions and sizes are fractions of its width and height.
 
-    One of ``width`` and ``height`` of the (turned) words must be given; both stretch them.
+    One of ``width`` and ``height`` of the (rotated) text is required; both together stretch it.
     """
     ink = np.rot90(lettering(text, 96), quarter_turns)
     h, w = image.shape[:2]
@@ -145,42 +148,44 @@ def write(
     elif width is not None:
         size = (round(width * w), round(width * w * ink.shape[0] / ink.shape[1]))
     else:
-        tall = (height or 0.1) * h
-        size = (round(tall * ink.shape[1] / ink.shape[0]), round(tall))
-    small = cv2.resize(np.ascontiguousarray(ink), size, interpolation=cv2.INTER_AREA)
+        text_height = (height or 0.1) * h
+        size = (round(text_height * ink.shape[1] / ink.shape[0]), round(text_height))
+    text_image = cv2.resize(np.ascontiguousarray(ink), size, interpolation=cv2.INTER_AREA)
     left, top = round(centre[0] * w - size[0] / 2), round(centre[1] * h - size[1] / 2)
     rows = slice(max(top, 0), min(top + size[1], h))
     columns = slice(max(left, 0), min(left + size[0], w))
-    part = small[rows.start - top : rows.stop - top, columns.start - left : columns.stop - left]
+    part = text_image[
+        rows.start - top : rows.stop - top, columns.start - left : columns.stop - left
+    ]
     patch = image[rows, columns]
-    image[rows, columns] = mixed(patch, colour, part.astype(np.float32))
+    image[rows, columns] = mix(patch, colour, part.astype(np.float32))
 
 
 @cache
-def worn(name: str, colour: Colour, *, size: int = 256, grain: float = 0.06) -> Texture:
-    """Paint or metal that has been used: cloudy, with fine scratches."""
+def worn_paint(name: str, colour: Colour, *, size: int = 256, grain: float = 0.06) -> Texture:
+    """Return the texture of used paint or metal: cloudy, with fine scratches."""
     clouds = noise(f"{name}/clouds", size, size, cells=3, octaves=6)
-    image = plain(size, size, colour) * (1.0 + np.float32(grain) * clouds)[:, :, None]
+    image = fill(size, size, colour) * (1.0 + np.float32(grain) * clouds)[:, :, None]
     streak = cv2.GaussianBlur(
         noise(f"{name}/streaks", size, size, cells=size // 2, octaves=1), (25, 1), 0
     )
     image *= (1.0 + np.float32(grain * 1.2) * streak / streak.std())[:, :, None]
-    return finished(name, image)
+    return to_texture(name, image)
 
 
 @cache
-def concrete(name: str, colour: Colour, *, size: int = 512, joints: int = 0) -> Texture:
-    """Cement, with stains and pores; ``joints`` tiles along each side when not 0."""
+def cement(name: str, colour: Colour, *, size: int = 512, joints: int = 0) -> Texture:
+    """Return cement with stains and pores; ``joints`` tiles along each side when not 0."""
     clouds = noise(f"{name}/clouds", size, size, cells=2, octaves=7, gain=0.62)
     pores = noise(f"{name}/pores", size, size, cells=size // 4, octaves=2)
-    image = plain(size, size, colour) * (1.0 + 0.07 * clouds)[:, :, None]
-    image *= (1.0 - 0.30 * step(1.9, 2.6, pores) + 0.02 * pores)[:, :, None]
+    image = fill(size, size, colour) * (1.0 + 0.07 * clouds)[:, :, None]
+    image *= (1.0 - 0.30 * smoothstep(1.9, 2.6, pores) + 0.02 * pores)[:, :, None]
     if joints:
-        draw = rng.stream(0, f"assets/{name}/tiles")
-        shade = draw.normal(1.0, 0.035, (joints, joints)).astype(np.float32)
+        stream = rng.stream(0, f"assets/{name}/tiles")
+        shade = stream.normal(1.0, 0.035, (joints, joints)).astype(np.float32)
         image *= cv2.resize(shade, (size, size), interpolation=cv2.INTER_NEAREST)[:, :, None]
         edge = (np.arange(size) * joints / size) % 1.0
-        near = np.minimum(edge, 1.0 - edge) * size / joints  # pixels to the nearest joint
-        gap = np.minimum(near[:, None], near[None, :]).astype(np.float32)
-        image *= (1.0 - 0.45 * (1.0 - step(0.8, 2.4, gap)))[:, :, None]
-    return finished(name, image)
+        distance = np.minimum(edge, 1.0 - edge) * size / joints  # pixels to the nearest joint
+        gap = np.minimum(distance[:, None], distance[None, :]).astype(np.float32)
+        image *= (1.0 - 0.45 * (1.0 - smoothstep(0.8, 2.4, gap)))[:, :, None]
+    return to_texture(name, image)

@@ -20,11 +20,11 @@ def places_of_files(scene: CheckedScene) -> list[Diagnostic]:
             path = assets.find(vehicle.file, **scene.where)
         except UwsimError:
             continue
-        remark = assets.place_remark(vehicle.file, path, **scene.where)
+        remark = assets.location_remark(vehicle.file, path, **scene.where)
         remarks.setdefault(remark, vehicle)
     for spec, name, file in _models(scene):
         where = Where(named_by=file, data_path=scene.data_path)
-        remark = assets.model_place_remark(name, **where)
+        remark = assets.model_location_remark(name, **where)
         if not remark and not assets.has_model(name, **where):
             lost = assets.package_remark(name, **where) or "there is no model, nor a stand-in"
             remark = f"{lost}: a labelled box in place of {name!r}"

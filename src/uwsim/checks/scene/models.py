@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterator
 
 from ... import assets
-from ...assets.packages import without_file_scheme
+from ...assets.packages import strip_file_scheme
 from ...devices.structured_light_projector import StructuredLightProjectorSpec
 from ...errors import AssetError, Diagnostic
 from ...model.parts import comms_devices
@@ -25,16 +25,16 @@ def model_files(scene: CheckedScene) -> Iterator[Diagnostic]:
         if thing.physics is not None and thing.physics.collision_shape:
             first.setdefault(thing.physics.collision_shape, thing)
     for name, spec in itertools.islice(first.items(), MAX_FILES):
-        if why := assets.why_unreadable(name, **scene.where):
+        if why := assets.model_read_error(name, **scene.where):
             yield scene.error(spec, why)
         elif not assets.has_model(name, **scene.where):
             yield _lost(
                 scene,
                 spec,
-                f"model {without_file_scheme(name)!r} is nowhere and has no stand-in",
+                f"model {strip_file_scheme(name)!r} is nowhere and has no stand-in",
                 name,
             )
-        elif remark := assets.model_place_remark(name, **scene.where):
+        elif remark := assets.model_location_remark(name, **scene.where):
             yield scene.warning(spec, remark)
         for said in assets.model_remarks(name, **scene.where):
             yield scene.warning(spec, said)
@@ -61,9 +61,9 @@ def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:
         if path is None:
             so = f"projector {projector.name!r} shines nothing"
             yield _lost(
-                scene, projector, f"image {without_file_scheme(image)!r} is nowhere and {so}", image
+                scene, projector, f"image {strip_file_scheme(image)!r} is nowhere and {so}", image
             )
-        elif remark := assets.place_remark(image, path, **scene.where):
+        elif remark := assets.location_remark(image, path, **scene.where):
             yield scene.warning(projector, remark)
 
 
@@ -74,4 +74,4 @@ def _lost(scene: CheckedScene, place: object, message: str, name: str) -> Diagno
     original's DOCTYPE is not at error for naming what lay in it.
     """
     report = scene.warning if scene.spec.is_original else scene.error
-    return report(place, f"{message}; {assets.searched_for(name, **scene.where)}")
+    return report(place, f"{message}; {assets.describe_search(name, **scene.where)}")

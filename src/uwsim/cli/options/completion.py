@@ -62,9 +62,9 @@ def one_of(names: Iterable[str]) -> Callable[[str], list[tuple[str, str]]]:
 
 
 def _bundled(kind: str, incomplete: str) -> list[tuple[str, str]]:
-    from ...assets.bundled import bundled
+    from ...assets.bundled import bundled_files
 
-    return _matching({n: head_comment(p) for n, p in bundled(kind).items()}, incomplete)
+    return _matching({n: head_comment(p) for n, p in bundled_files(kind).items()}, incomplete)
 
 
 def _matching(names: Mapping[str, str], incomplete: str) -> list[tuple[str, str]]:

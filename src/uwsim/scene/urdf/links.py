@@ -73,9 +73,9 @@ def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, 
 
 
 def _file_of(shape: etree._Element) -> str:
-    from ...assets.packages import without_file_scheme
+    from ...assets.packages import strip_file_scheme
 
-    return without_file_scheme(shape.get("filename") or "")
+    return strip_file_scheme(shape.get("filename") or "")
 
 
 def _edges_of(box: etree._Element, diagnostics: Diagnostics) -> Triple:

@@ -65,14 +65,14 @@ class _NamedFiles:
         Of a package that is not found only a file of the same path counts: the content of another
         file of that name, or of the one that names it, would be taken without a word.
         """
-        from ...assets import find, searched_for
+        from ...assets import describe_search, find
 
         try:
             found = find(name, named_by=named_by, data_path=self._data_path)
         except AssetError as outside:
             raise ExpressionError(str(outside)) from None
         if found is None or _is_guess(name, found, named_by):
-            why = searched_for(name, named_by=named_by, data_path=self._data_path)
+            why = describe_search(name, named_by=named_by, data_path=self._data_path)
             raise NotFound(f"the file {name[:200]!r} is nowhere; {why}")
         return found
 
@@ -82,17 +82,17 @@ class _NamedFiles:
 
     def place_remark(self, name: str, path: Path, named_by: Path) -> str:
         """Say that a file was found elsewhere than its name states; empty if it is there."""
-        from ...assets import place_remark
+        from ...assets import location_remark
 
-        return place_remark(name, path, named_by=named_by, data_path=self._data_path)
+        return location_remark(name, path, named_by=named_by, data_path=self._data_path)
 
 
 def _is_guess(name: str, found: Path, named_by: Path) -> bool:
     """Whether a file of a package has another path than its name states, or names itself."""
-    from ...assets.packages import OURS, package_of
+    from ...assets.packages import UWSIM_PACKAGE, package_of
 
     in_package = package_of(name)
-    if in_package is None or in_package[0] == OURS:
+    if in_package is None or in_package[0] == UWSIM_PACKAGE:
         return False
     parts = PurePosixPath(in_package[1]).parts
     return found.parts[-len(parts) :] != parts or found.samefile(named_by)

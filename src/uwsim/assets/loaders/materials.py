@@ -13,20 +13,20 @@ from ...errors import AssetError
 from ..mesh import Texture
 
 MAX_TEXTURE_SIDE = 2048
-"""Textures are reduced to this many pixels a side."""
+"""The greatest side of a texture [px]; larger ones are reduced."""
 MAX_PIXELS = 8192 * 8192
-"""Largest image [px]: it is decoded whole."""
-MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
-"""Of all images of a model [px]."""
+"""The greatest size of an image [px]: it is decoded whole."""
+MAX_TOTAL_PIXELS = 4 * MAX_PIXELS
+"""The greatest size of all images of a model [px]."""
 FORMATS = ("BMP", "DDS", "GIF", "JPEG", "MPO", "PNG", "PPM", "SGI", "TGA", "TIFF", "WEBP")
-"""Images that are decoded; Pillow knows others, some of them programs."""
+"""The image formats that are decoded; Pillow reads others, some of which are programs."""
 
 
-def check_size(data: bytes, name: object) -> None:
-    """Refuse an image that is too large for Pillow, which trimesh would silently leave out.
+def check_image_size(data: bytes, name: object) -> None:
+    """Reject an image that is too large for Pillow, which trimesh would silently leave out.
 
     Raises:
-        AssetError: it is one.
+        AssetError: the image is too large.
     """
     from PIL import Image
 
@@ -37,19 +37,19 @@ def check_size(data: bytes, name: object) -> None:
         raise AssetError(
             f"{name}: an image of too many pixels; at most {MAX_PIXELS / 1e6:.0f} million are read"
         ) from error
-    except Exception:  # no image, or a broken one: whoever wants one says so
+    except Exception:  # no image, or a broken one: its readers report it
         pass
 
 
-def opened(data: bytes) -> Any:
-    """Return an image that is decoded later, with what Pillow raises if it is none."""
+def open_image(data: bytes) -> Any:
+    """Open an image that is decoded later; raise the errors of Pillow if it is not one."""
     from PIL import Image
 
     return Image.open(io.BytesIO(data))
 
 
 def is_broken(path: Path, *, is_decoded: bool) -> bool:
-    """Whether a file of an image cannot be opened, or not decoded, which takes longer."""
+    """Return whether an image file cannot be opened, or cannot be decoded, which takes longer."""
     from PIL import Image
 
     try:
@@ -62,25 +62,25 @@ def is_broken(path: Path, *, is_decoded: bool) -> bool:
 
 
 GREY = (0.7, 0.7, 0.7)
-"""The colour of what has none."""
+"""The colour of a part without a material."""
 WHITE = (1.0, 1.0, 1.0)
 """The same by the specification of glTF 2.0 (3.7.2.1, "default material")."""
 
-Look = tuple[tuple[float, float, float], Texture | None]
+Appearance = tuple[tuple[float, float, float], Texture | None]
 
 
-class Looks:
+class Materials:
     """The materials of one file; parts of one material share its texture."""
 
     def __init__(self, path: Path) -> None:
         self._path, self._is_gltf = path, path.suffix.lower() in (".gltf", ".glb")
         self._n_pixels = 0
         self.has_broken_image = False
-        """Whether an image could not be decoded."""
-        self._of_material: dict[int, tuple[Any, Look]] = {}
+        """The state after decoding: True if an image could not be decoded."""
+        self._appearances: dict[int, tuple[Any, Appearance]] = {}
 
-    def of(self, visual: Any) -> Look:
-        """Colour and texture of a trimesh visual.
+    def appearance(self, visual: Any) -> Appearance:
+        """Return the colour and texture of a trimesh visual.
 
         Raises:
             AssetError: its image is too large, or of a type that is not read.
@@ -92,11 +92,11 @@ class Looks:
             colours = np.asarray(visual.face_colors, dtype=np.float64)
             red, green, blue = (colours[:, :3].mean(axis=0) / 255.0).tolist()
             return (red, green, blue), None
-        if id(material) not in self._of_material:
-            self._of_material[id(material)] = material, self._look(material)
-        return self._of_material[id(material)][1]
+        if id(material) not in self._appearances:
+            self._appearances[id(material)] = material, self._material_appearance(material)
+        return self._appearances[id(material)][1]
 
-    def _look(self, material: Any) -> Look:
+    def _material_appearance(self, material: Any) -> Appearance:
         image = getattr(material, "baseColorTexture", None) or getattr(material, "image", None)
         texture = None if image is None else self._texture(image)
         if texture is not None and not self._is_gltf:
@@ -114,10 +114,10 @@ class Looks:
         """Decode an image, which was only opened; None if it is broken."""
         n = image.width * image.height
         self._n_pixels += n
-        if n > MAX_PIXELS or self._n_pixels > MAX_PIXELS_IN_ALL:
+        if n > MAX_PIXELS or self._n_pixels > MAX_TOTAL_PIXELS:
             raise AssetError(
-                f"{self._path}: an image of {image.width} x {image.height} pixels; at most "
-                f"{MAX_PIXELS / 1e6:.0f} million are read, and {MAX_PIXELS_IN_ALL / 1e6:.0f} "
+                f"{self._path}: an image has {image.width} x {image.height} pixels; at most "
+                f"{MAX_PIXELS / 1e6:.0f} million are read, and {MAX_TOTAL_PIXELS / 1e6:.0f} "
                 "in a model."
             )
         if image.format not in (None, *FORMATS):

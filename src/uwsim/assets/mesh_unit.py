@@ -9,21 +9,21 @@ from . import load_model
 from .conventions import robot_scale
 
 MAX_LENGTH = 100.0
-"""No robot is longer [m]; one of 0.1 m in millimetres is as long."""
+"""The greatest length of a robot [m]; one of 0.1 m in millimetres is as long."""
 
 
-def doubtful_size(
+def mesh_unit_remark(
     name: str,
     scale: tuple[float, float, float],
     *,
     named_by: Path | None = None,
     data_path: tuple[Path, ...] = (),
 ) -> str:
-    """Say why the mesh of a robot is likely not in metres; empty if it may be, or is not there.
+    """Report that the mesh of a robot is likely not in metres; empty if it may be, or is absent.
 
     Args:
-        name: of the mesh, as the robot file calls it.
-        scale: of the mesh in the robot file [1].
+        name: the name of the mesh in the robot file.
+        scale: the scale of the mesh in the robot file [1].
         named_by: the robot file.
         data_path: further folders to search.
     """
@@ -31,16 +31,16 @@ def doubtful_size(
         model = load_model(name, named_by=named_by, data_path=data_path)
     except AssetError:
         return ""
-    if model.asset is not None and (wrong := model.asset.wrong_unit):
+    if model.asset is not None and (invalid_unit := model.asset.invalid_unit):
         return (
-            f"the mesh {name!r} states {wrong} as its unit; expected a length in metres: "
-            "it is read in metres"
+            f"the mesh {name!r} states the unit {invalid_unit}; expected a length in metres: it is "
+            "read in metres"
         )
     unit = 1.0 if model.asset is None else model.asset.unit
     if unit != 1.0 and all(abs(abs(factor) / unit - 1.0) < 0.02 for factor in scale):
         return (
-            f"the mesh {name!r} states that its unit is {unit:g} m, which is applied, and its "
-            'scale is the same again; expected scale="1 1 1"'
+            f"the mesh {name!r} states the unit {unit:g} m, which is applied; its scale applies it "
+            'again; expected scale="1 1 1"'
         )
     size = [
         abs(factor) * (high - low)
@@ -50,5 +50,5 @@ def doubtful_size(
     ]
     if max(size) <= MAX_LENGTH:
         return ""
-    longest = " x ".join(f"{side:.4g}" for side in size)
-    return f'the mesh {name!r} is {longest} m; if it is in millimetres: scale="0.001 0.001 0.001"'
+    size_text = " x ".join(f"{side:.4g}" for side in size)
+    return f'the mesh {name!r} is {size_text} m; if it is in millimetres: scale="0.001 0.001 0.001"'

@@ -35,8 +35,8 @@ def test_the_unit_of_a_collada_file_is_applied_once(unit: str, tmp_path: Path) -
     (tmp_path / "hull.dae").write_text(with_unit(text, unit))
     assert said(tmp_path, 'filename="hull.dae"') == []
     assert said(tmp_path, f'filename="hull.dae" scale="{unit} {unit} {unit}"') == [
-        "warning 2: the mesh 'hull.dae' states that its unit is 0.0254 m, which is applied, and "
-        'its scale is the same again; expected scale="1 1 1"'
+        "warning 2: the mesh 'hull.dae' states the unit 0.0254 m, which is applied; "
+        'its scale applies it again; expected scale="1 1 1"'
     ] * (unit == "0.0254")
 
 
@@ -53,7 +53,7 @@ def test_a_unit_that_is_no_length_is_warned_of(tmp_path: Path) -> None:
     text = (tmp_path / "hull.dae").read_text()
     (tmp_path / "hull.dae").write_text(with_unit(text, "inch"))
     assert said(tmp_path, 'filename="hull.dae"') == [
-        "warning 2: the mesh 'hull.dae' states inch as its unit; expected a length in metres: "
+        "warning 2: the mesh 'hull.dae' states the unit inch; expected a length in metres: "
         "it is read in metres"
     ]
 
