@@ -96,7 +96,7 @@ def own_process(rounds: int = ROUNDS) -> dict[str, object]:
         importable: type = importlib.import_module("lockstep").Controller  # not that of __main__
         algorithm = ProcessAlgorithm(process, importable)
         node = InProcessNode(
-            bus, name="controller", timestep=TIMESTEP, random=stream(0, "c"), parameters={}
+            bus, name="controller", timestep=TIMESTEP, rng=stream(0, "c"), parameters={}
         )
         node.run(algorithm)
         start = time.perf_counter() - began
@@ -126,7 +126,7 @@ def web_client(rounds: int = ROUNDS) -> dict[str, object]:
     try:
         (outside,) = lockstep_clients([bridge], ["controller"], timestep=TIMESTEP, limit=60.0)
         node = InProcessNode(
-            bus, name="controller", timestep=TIMESTEP, random=stream(0, "c"), parameters={}
+            bus, name="controller", timestep=TIMESTEP, rng=stream(0, "c"), parameters={}
         )
         say = bus.publisher("odometry", Odometry)
         node.run(outside)

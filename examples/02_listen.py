@@ -20,7 +20,7 @@ class Listener:
         self.node = node
         node.subscribe(TOPIC, Image, self.look)
         node.subscribe(f"{TOPIC}_info", CameraInfo, self.note)
-        node.every(0.1, lambda: print(f"{node.now:.3f} s: every tenth of a second"))
+        node.create_timer(0.1, lambda: print(f"{node.now:.3f} s: every tenth of a second"))
 
     def look(self, image: Image) -> None:
         """Print size, encoding and time stamp of an image."""

@@ -22,7 +22,7 @@ class Helmsman:
         self.propeller = node.publisher("/remus/propeller", Float64MultiArray)
         self.fins = node.publisher("/remus/fins", Float64MultiArray)
         node.subscribe("/remus/odometry", Odometry, self.note)
-        node.every(1.0, self.steer)
+        node.create_timer(1.0, self.steer)
 
     def steer(self) -> None:
         """Full ahead; both rudders alike, both planes alike."""

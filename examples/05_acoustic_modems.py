@@ -22,7 +22,7 @@ class Asker:
         self.node = node
         self.ask = node.publisher("/modem1/tx", UInt8MultiArray)
         node.subscribe("/modem1/rx", UInt8MultiArray, self.hear)
-        node.every(2.0, self.send)
+        node.create_timer(2.0, self.send)
 
     def send(self) -> None:
         """Send a question of four bytes."""

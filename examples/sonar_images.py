@@ -42,9 +42,9 @@ def main() -> None:
 
 def newest(simulation: Simulation, topic: str) -> np.ndarray:
     """The next image on a topic."""
-    simulation.latest(topic)
+    simulation.latest_message(topic)
     simulation.advance(0.2)
-    pixels: np.ndarray = pixels_of(simulation.latest(topic))
+    pixels: np.ndarray = pixels_of(simulation.latest_message(topic))
     return pixels
 
 

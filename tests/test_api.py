@@ -72,13 +72,13 @@ def test_a_vehicle_is_commanded_and_observed() -> None:
         after = simulation.pose("girona500").position
         assert np.linalg.norm(after - before) > 0.05
         assert simulation.velocity("girona500")[0] > 0.05
-        own = simulation.pose("girona500", of="girona500")
+        own = simulation.pose("girona500", frame="girona500")
         np.testing.assert_allclose(own.matrix, np.eye(4), atol=1e-12)
 
 
 def test_poses_are_given_in_the_frame_asked_for() -> None:
     with uwsim.load("currents-scene") as simulation:
-        in_world, in_file = simulation.pose("blackbox", of="W"), simulation.pose("blackbox")
+        in_world, in_file = simulation.pose("blackbox", frame="W"), simulation.pose("blackbox")
         world_from_file = simulation.world.model.scene.world_from_localized
         np.testing.assert_allclose((world_from_file @ in_file).matrix, in_world.matrix, atol=1e-12)
 
@@ -86,20 +86,20 @@ def test_poses_are_given_in_the_frame_asked_for() -> None:
 def test_the_latest_message_is_there_although_nobody_had_read_the_topic() -> None:
     with uwsim.load("cirs") as simulation:
         simulation.advance(0.1)
-        odometry = simulation.latest("/uwsim/girona500/odom")
+        odometry = simulation.latest_message("/uwsim/girona500/odom")
         assert odometry is not None
         stamp = odometry.header.stamp
         simulation.advance(0.5)
-        assert simulation.latest("/uwsim/girona500/odom").header.stamp != stamp
+        assert simulation.latest_message("/uwsim/girona500/odom").header.stamp != stamp
         with pytest.raises(uwsim.UwsimError, match="Did you mean"):
-            simulation.latest("/uwsim/girona500/odm")
+            simulation.latest_message("/uwsim/girona500/odm")
 
 
 def test_images_are_published_once_somebody_has_asked() -> None:
     with uwsim.load("visibility-scene") as simulation:
-        assert simulation.latest("/uwsim/camera1") is None
+        assert simulation.latest_message("/uwsim/camera1") is None
         simulation.advance(0.2)
-        assert simulation.latest("/uwsim/camera1").width == 320
+        assert simulation.latest_message("/uwsim/camera1").width == 320
 
 
 def test_a_kinematic_vehicle_has_no_velocity() -> None:
@@ -445,8 +445,8 @@ def test_a_body_is_where_set_pose_puts_it(name: str, of: str) -> None:
     if name == of:
         pose = uwsim.Pose.from_rpy((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
     with uwsim.load("grasp-scene", seed=4) as simulation:
-        simulation.set_pose(name, pose, of=of)
-        np.testing.assert_allclose(simulation.pose(name, of=of).matrix, pose.matrix, atol=1e-12)
+        simulation.set_pose(name, pose, frame=of)
+        np.testing.assert_allclose(simulation.pose(name, frame=of).matrix, pose.matrix, atol=1e-12)
         np.testing.assert_allclose(simulation.velocity("girona500"), 0.0, atol=1e-12)
 
 
@@ -477,7 +477,7 @@ def test_a_reset_gives_what_a_new_simulation_of_the_seed_gives() -> None:
             fresh.append(run_of(simulation))
     assert fresh[0] != fresh[1]
     with uwsim.load("grasp-scene", seed=3) as simulation:
-        simulation.latest("/girona500/imu")
+        simulation.latest_message("/girona500/imu")
         simulation.set_fog(0.9)
         simulation.set_current((0.4, 0.0, 0.0))
         run_of(simulation)
@@ -486,9 +486,9 @@ def test_a_reset_gives_what_a_new_simulation_of_the_seed_gives() -> None:
         simulation.reset()
         assert run_of(simulation) == fresh[1]
         simulation.reset(seed=3)
-        assert simulation.latest("/girona500/imu") is None
+        assert simulation.latest_message("/girona500/imu") is None
         assert run_of(simulation) == fresh[0]
-        assert simulation.latest("/girona500/imu") is not None
+        assert simulation.latest_message("/girona500/imu") is not None
 
 
 @pytest.mark.parametrize("seed", [-1, 1.5, "7", True])
@@ -524,7 +524,7 @@ def test_a_box_in_space_is_around_what_the_image_shows() -> None:
         assert image.world_from_camera is not None
         assert image.range is not None
         assert image.ids is not None
-        boxes = simulation.boxes(of="W")
+        boxes = simulation.boxes(frame="W")
         assert set(image.boxes) <= set(boxes)
         points = image.intrinsics.rays() * image.depth[..., None]
         for number in np.unique(image.ids).tolist():

@@ -74,7 +74,7 @@ class Node:
 
     def __init__(self, lockstep: LockStep, parameters: dict) -> None:
         self._lockstep, self.parameters = lockstep, parameters
-        self.random = np.random.default_rng(0)
+        self.rng = np.random.default_rng(0)
 
     @property
     def now(self) -> float:
@@ -116,7 +116,7 @@ class Node:
             raise UnknownName("service", name, []) from error
         return to_simulation_time(from_ros1(service_of(type(request)).response, response.data))
 
-    def every(self, period_s: float, callback) -> None:
+    def create_timer(self, period_s: float, callback) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
         self._lockstep.every(period_s, callback)
 

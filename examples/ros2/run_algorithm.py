@@ -34,7 +34,7 @@ class Node:
 
     def __init__(self, lockstep: LockStep, parameters: Mapping[str, float | str]) -> None:
         self._lockstep, self.parameters = lockstep, parameters
-        self.random = np.random.default_rng(0)
+        self.rng = np.random.default_rng(0)
 
     @property
     def now(self) -> float:
@@ -73,7 +73,7 @@ class Node:
         self._lockstep.call(_slashed(name))
         return EmptyResponse()
 
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
         self._lockstep.every(period_s, callback)
 

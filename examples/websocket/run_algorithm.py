@@ -30,7 +30,7 @@ class Node:
 
     def __init__(self, client: Client, parameters: Mapping[str, float | str]) -> None:
         self._client, self.parameters = client, parameters
-        self.random = np.random.default_rng(0)
+        self.rng = np.random.default_rng(0)
 
     @property
     def now(self) -> float:
@@ -70,7 +70,7 @@ class Node:
             raise UnknownName("service", name, []) from error
         return to_simulation_time(from_json(service.response, values))
 
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
         self._client.every(period_s, callback)
 

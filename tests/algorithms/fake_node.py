@@ -15,7 +15,7 @@ class FakeNode:
     def __init__(self, *, parameters: Mapping[str, float | str] | None = None) -> None:
         self.parameters: Mapping[str, float | str] = parameters or {}
         self.now = 0.0
-        self.random = np.random.Generator(np.random.Philox(0))
+        self.rng = np.random.Generator(np.random.Philox(0))
         self.published: list[tuple[str, Any]] = []
         self.readers: dict[str, Callable[[Any], None]] = {}
         self.services: dict[str, Callable[[Any], object]] = {}
@@ -41,7 +41,7 @@ class FakeNode:
         self.calls.append(name)
         return self.known_services[name](request)
 
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         raise NotImplementedError
 
     def show(self, pixels: np.ndarray, topic: str = "/uwsim/camera1") -> None:

@@ -17,7 +17,7 @@ LAYOUT = MultiArrayLayout(dim=[], data_offset=0)
 class TimedNode(FakeNode):
     """A node whose one timer is called by hand."""
 
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         assert period_s == PERIOD
         self.tick = callback
 

@@ -124,7 +124,7 @@ def test_on_the_real_bus_an_estimate_comes_in_the_step_of_its_image() -> None:
     started = []
     bus.services.serve("startBench", Empty, lambda _: started.append(bus.step) or EmptyResponse())
     random = np.random.Generator(np.random.Philox(0))
-    node = InProcessNode(bus, name="esm", timestep=0.002, random=random, parameters={})
+    node = InProcessNode(bus, name="esm", timestep=0.002, rng=random, parameters={})
     node.run(Esm())
     pixels = np.rint(Texture().image()).astype(np.uint8)
     for step in (0, 17, 34):

@@ -64,7 +64,7 @@ class Delayed(Attacker):
 
     def start(self, node: Node) -> None:
         publish = node.publisher(TOPIC, Float32MultiArray)
-        node.every(0.002, lambda: publish(floats([1.0])))
+        node.create_timer(0.002, lambda: publish(floats([1.0])))
 
 
 @pytest.mark.parametrize(("latency", "status"), [(0.05, "ok"), (0.3, "algorithm error")])
@@ -98,7 +98,7 @@ class FromTheFuture(Attacker):
     def start(self, node: Node) -> None:
         publish = node.publisher("place", PoseStamped)
         ahead = float(node.parameters["ahead"])
-        node.every(0.1, lambda: publish(PoseStamped(header=header(node.now + ahead))))
+        node.create_timer(0.1, lambda: publish(PoseStamped(header=header(node.now + ahead))))
 
 
 def test_a_stamp_in_the_future_changes_nothing(tmp_path: Path) -> None:
@@ -137,7 +137,7 @@ def bench_of(folder: Path, algorithm: type[Attacker]) -> Run:
 
 
 def reasons(result: Result) -> list[str | None]:
-    return [result.why(row, "total") for row in range(len(result.rows))]
+    return [result.reason(row, "total") for row in range(len(result.rows))]
 
 
 @pytest.mark.slow

@@ -414,8 +414,8 @@ def test_a_detail_that_is_no_number_leaves_a_reason(folder: Path) -> None:
     own = "    @property\n    def details(self):\n        return {'a': 'x', 'b': 1e99, 'c': None}\n"
     result = play(folder, value, own + value)
     assert [result.values(f"steps.{name}") for name in "abc"] == [(None,)] * 3
-    assert result.why(0, "steps.a") == "it gave str 'x', which is no number"
-    assert result.why(0, "steps.b") == "it gave 1e+99, beyond what can be reckoned with (1e+60)"
+    assert result.reason(0, "steps.a") == "it gave str 'x', which is no number"
+    assert result.reason(0, "steps.b") == "it gave 1e+99, beyond what can be reckoned with (1e+60)"
 
 
 @pytest.mark.parametrize(
@@ -467,4 +467,4 @@ def test_files_of_an_updater_that_are_not_there_are_reported_with_its_line(
 def test_a_measure_that_gives_no_number_leaves_a_reason(folder: Path, gives: str, why: str) -> None:
     result = play(folder, "return self.weight * self.n", f"return {gives}")
     assert result.values("steps") == (None,)
-    assert result.why(0, "steps") == why
+    assert result.reason(0, "steps") == why

@@ -10,8 +10,8 @@ import pytest
 
 from uwsim import errors
 from uwsim.base import terminal
+from uwsim.base.exceptions import convert_to_run_failed
 from uwsim.base.numerics import compiling
-from uwsim.base.system_errors import convert_to_run_failed
 from uwsim.cli import COMMANDS, app, exit_status, main
 
 

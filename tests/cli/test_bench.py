@@ -158,7 +158,7 @@ class Dies:
         from uwsim.messages import Empty
         node.call("startBench", Empty())
         is_deadly = Path("deadly").exists()
-        node.every(0.02, lambda: os._exit(0) if is_deadly and node.now > 0.3 else None)
+        node.create_timer(0.02, lambda: os._exit(0) if is_deadly and node.now > 0.3 else None)
 
 ALGORITHMS = {"dies": Dies}
 """
@@ -179,8 +179,8 @@ def test_an_algorithm_that_ends_its_process_is_exit_status_3_and_is_tried_again(
     assert main([*call, "out"]) == 3
     died = "dies was stopped at 0.32 s: its process ended (with exit status 0)"
     assert f"uwsim: {died}. Rows are kept; --resume" in capsys.readouterr().err
-    first, *others = [load("out").why(row, "total") for row in range(3)]
-    assert first == load("whole").why(0, "total")
+    first, *others = [load("out").reason(row, "total") for row in range(3)]
+    assert first == load("whole").reason(0, "total")
     assert others == [died, died]
     Path("deadly").unlink()
     assert main([*call, "out", "--resume"]) == 0

@@ -30,7 +30,7 @@ class Debugs:
         self.wrong = node.publisher("/wrong", String)
         node.subscribe("/uwsim/camera1", Image, self.see)
         node.call("startBench", Empty())
-        node.every(0.05, self.tick)
+        node.create_timer(0.05, self.tick)
 
     def see(self, image):
         pass

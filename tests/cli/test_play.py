@@ -23,7 +23,7 @@ class Drive:
         self.twist = node.publisher("/g500/twist", TwistStamped)
         self.joints = node.publisher("/uwsim/joint_state_command", JointState)
         self.node = node
-        node.every(0.1, self.tick)
+        node.create_timer(0.1, self.tick)
 
     def tick(self):
         self.twist(TwistStamped(twist=Twist(linear=Vector3(x=0.3), angular=Vector3(z=0.2))))

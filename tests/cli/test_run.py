@@ -44,7 +44,7 @@ class Drive:
         self.node = node
         self.parameters = {**self.PARAMETERS, **node.parameters}
         self.publish = node.publisher("/twist", TwistStamped)
-        node.every(0.1, self.drive)
+        node.create_timer(0.1, self.drive)
 
     def drive(self):
         if 0 < self.parameters["ends"] <= self.node.now:
@@ -84,7 +84,7 @@ def test_what_a_program_prints_is_no_part_of_the_json(
         "class Say:\n"
         "    def start(self, node):\n"
         "        print('begins')\n"
-        "        node.every(0.1, lambda: print('goes on'))\n"
+        "        node.create_timer(0.1, lambda: print('goes on'))\n"
     )
     command = ["run", str(scene), "--for", "300ms", "--program", str(program), "--json"]
     assert main(command) == 0

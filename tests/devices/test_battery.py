@@ -39,9 +39,9 @@ def vehicle(
 
 
 def after(simulation: Simulation, seconds: float) -> BatteryState:
-    simulation.latest("/battery")
+    simulation.latest_message("/battery")
     simulation.advance(seconds)
-    return simulation.latest("/battery")
+    return simulation.latest_message("/battery")
 
 
 def test_a_constant_load_drains_it_by_power_times_time() -> None:
@@ -116,11 +116,11 @@ def test_it_loses_the_energy_that_the_measure_counts() -> None:
             simulation.world.measure_view
         )
         energy.start()
-        simulation.latest("/battery")
+        simulation.latest_message("/battery")
         for _ in range(1000):
             simulation.advance()
             energy.update()
-        drawn = (1.0 - simulation.latest("/battery").percentage) * 100.0 * 3600.0
+        drawn = (1.0 - simulation.latest_message("/battery").percentage) * 100.0 * 3600.0
     assert energy.value is not None
     assert drawn == pytest.approx(energy.value, rel=0.01)
     assert drawn > 2.0 * 50.0 * 2.0
@@ -128,10 +128,10 @@ def test_it_loses_the_energy_that_the_measure_counts() -> None:
 
 def test_currents_are_power_per_volt_of_each_motor() -> None:
     with vehicle() as simulation:
-        simulation.latest("/currents")
+        simulation.latest_message("/currents")
         simulation.publish("/thrusters", Float64MultiArray(data=np.array([0.5, 0, 0, 0, 0.0])))
         simulation.advance(1.0)
-        message = simulation.latest("/currents")
+        message = simulation.latest_message("/currents")
         actuators = simulation.world.vehicles.actuators(NAME)
         assert actuators is not None
         assert message.name == [*actuators.thrusters, *actuators.joints]
@@ -155,9 +155,9 @@ def test_the_noise_of_currents_has_its_deviation() -> None:
 
 def test_a_vehicle_without_dynamics_has_no_motors() -> None:
     with vehicle(dynamics=None) as simulation:
-        simulation.latest("/currents")
+        simulation.latest_message("/currents")
         simulation.advance(0.1)
-        assert list(simulation.latest("/currents").name) == []
+        assert list(simulation.latest_message("/currents").name) == []
 
 
 def full_thrust(simulation: Simulation, command: float = 1.0) -> None:
@@ -180,13 +180,13 @@ def test_thrusters_get_no_more_than_the_battery_can_feed(
         demand, full = float(wanted.powers().sum()), wanted.thrusts()
         for_thrust = float(wanted.powers()[:5].sum())
     with vehicle(battery) as simulation:
-        simulation.latest("/battery")
+        simulation.latest_message("/battery")
         full_thrust(simulation)
         simulation.advance(1.0)
         actuators = simulation.world.vehicles.actuators(NAME)
         power, thrusts = float(actuators.powers().sum()) + hotel_load, actuators.thrusts()
         share = (float(actuators.powers()[:5].sum()) / for_thrust) ** (2.0 / 3.0)
-        message = simulation.latest("/battery")
+        message = simulation.latest_message("/battery")
     fed = message.voltage * -message.current
     assert power == pytest.approx(min(demand + hotel_load, greatest), rel=1e-3)
     assert fed == pytest.approx(power, rel=1e-6)
@@ -207,7 +207,7 @@ def test_the_charge_is_that_of_the_power_in_an_overload() -> None:
         after(simulation, 2.0)
         before = after(simulation, 0.0).charge
         simulation.advance(2.0)
-        drawn = before - simulation.latest("/battery").charge
+        drawn = before - simulation.latest_message("/battery").charge
     assert drawn == pytest.approx(25.0 * 2.0 / 3600.0, rel=1e-3)
 
 

@@ -32,9 +32,9 @@ def test_an_echo_publishes_its_text(tmp_path: Path, interfaces: str) -> None:
     path = tmp_path / "scene.xml"
     path.write_text(SCENE.format(interfaces))
     with open_scene(read_scene(path), is_blind=True) as simulation:
-        simulation.latest("/one")
+        simulation.latest_message("/one")
         simulation.advance(0.01)
-        assert simulation.latest("/one").data == "I am here"
+        assert simulation.latest_message("/one").data == "I am here"
 
 
 def test_one_without_text_is_left_out(tmp_path: Path) -> None:

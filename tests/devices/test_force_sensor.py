@@ -63,9 +63,9 @@ def on_a_placed_vehicle(folder: Path, part: ForceSensorSpec, z: float = 0.15) ->
 def measured(scene: SceneSpec, seconds: float) -> np.ndarray:
     """Force and torque at the end, (6,)."""
     with open_scene(scene, is_blind=True) as simulation:
-        simulation.latest("/force")
+        simulation.latest_message("/force")
         simulation.advance(seconds)
-        message = simulation.latest("/force")
+        message = simulation.latest_message("/force")
         assert message.header.frame_id == "force"
         force, torque = message.wrench.force, message.wrench.torque
         return np.array([force.x, force.y, force.z, torque.x, torque.y, torque.z])
@@ -184,12 +184,12 @@ def test_what_a_wrist_measures_does_not_depend_on_who_else_asks(tmp_path: Path) 
     scene = with_a_wrist(tmp_path, mass=1000.0, volume=0.9)
     alone = measured(scene, 0.1)
     with open_scene(scene, is_blind=True) as simulation:
-        simulation.latest("/force")
+        simulation.latest_message("/force")
         for _ in range(50):
             simulation.advance()
             simulation.world.bodies.find("rov/tool").world_from_body  # noqa: B018
         simulation.advance()
-        force = simulation.latest("/force").wrench.force
+        force = simulation.latest_message("/force").wrench.force
     assert [force.x, force.y, force.z] == alone[:3].tolist()
 
 

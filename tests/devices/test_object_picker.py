@@ -46,17 +46,17 @@ def move(simulation: Simulation, *to: float) -> None:
 
 def test_a_picker_takes_what_comes_within_its_range_and_carries_it(tmp_path: Path) -> None:
     with open_scene(scene(tmp_path, thing("box", 1.0)), is_blind=True) as simulation:
-        simulation.latest("/range")
+        simulation.latest_message("/range")
         simulation.advance(0.1)
-        assert simulation.latest("/range").range == 0.5  # the box is farther
+        assert simulation.latest_message("/range").range == 0.5  # the box is farther
         move(simulation, 0.5, 0.0, 0.0)
         simulation.advance(0.1)
-        distance = simulation.latest("/range").range
+        distance = simulation.latest_message("/range").range
         assert 0.3 < distance < 0.5
         move(simulation, 0.5, 2.0, 1.0)
         simulation.advance(0.1)
         assert simulation.pose("box").position == pytest.approx([1.0, 2.0, 1.0])
-        assert simulation.latest("/range").range == distance
+        assert simulation.latest_message("/range").range == distance
 
 
 def test_what_is_released_stays_and_is_not_taken_again_before_the_next_command(
@@ -93,7 +93,7 @@ def test_what_is_held_is_seen_by_rays_where_it_is_carried(tmp_path: Path) -> Non
         move(simulation, 0.0, 0.0, 1.0)
         simulation.advance(0.1)
         ahead = np.array([[1.0, 0.0, 0.0]])
-        rays, here = simulation.world.rays, simulation.pose("rov", of="W")
+        rays, here = simulation.world.rays, simulation.pose("rov", frame="W")
         assert rays.cast(here, ahead, 10.0).distance[0] < 0.5
         below = replace(here, position=np.zeros(3))
         assert rays.cast(below, ahead, 10.0).distance[0] == np.inf
@@ -141,7 +141,7 @@ def loaded(mass: float, *, held: bool) -> tuple[Simulation, float]:
     make((), change=change)  # the objects are made with the vehicle
     simulation = make((), objects=tuple(boxes), change=change)
     simulation.advance(1.5)
-    return simulation, simulation.pose("girona500", of="W").position[2]
+    return simulation, simulation.pose("girona500", frame="W").position[2]
 
 
 def test_a_simulated_vehicle_bears_the_weight_of_what_it_holds() -> None:
@@ -149,11 +149,11 @@ def test_a_simulated_vehicle_bears_the_weight_of_what_it_holds() -> None:
     holding, lower = loaded(6.0, held=True)
     with free, holding:
         assert lower < height - 0.002
-        before = holding.pose("box", of="girona500")
+        before = holding.pose("box", frame="girona500")
         holding.advance(0.5)
-        after = holding.pose("box", of="girona500")
+        after = holding.pose("box", frame="girona500")
         assert after.position == pytest.approx(before.position, abs=2e-3)
-        assert free.pose("box", of="W").position[2] < lower - 1.9  # it sank
+        assert free.pose("box", frame="W").position[2] < lower - 1.9  # it sank
         holding.publish("hand/release", RELEASE)
         holding.advance(1.5)
-        assert holding.pose("box", of="girona500").position[2] > before.position[2] + 0.3
+        assert holding.pose("box", frame="girona500").position[2] > before.position[2] + 0.3

@@ -26,7 +26,7 @@ class Source:
         self.publish = node.publisher("depth", Float64)
         self.odometry = node.publisher("/odom", Odometry)
         self.node, self.left = node, list(enumerate(TIMES))
-        node.every(0.002, self.tick)
+        node.create_timer(0.002, self.tick)
 
     def tick(self) -> None:
         while self.left and self.left[0][1] <= self.node.now + 1e-9:
@@ -78,9 +78,9 @@ def test_a_topic_that_others_publish_is_played_beside_it(tmp_path: Path) -> None
     with BagReader(path) as reader, open_scene(SceneSpec()) as simulation:
         player = Player(reader, 0.002, published=["/depth"], left_out=["/odom"])
         simulation.attach(player)
-        simulation.latest("/recorded/depth")
+        simulation.latest_message("/recorded/depth")
         simulation.advance(0.2)
-        assert simulation.latest("/recorded/depth").data == 2.0
+        assert simulation.latest_message("/recorded/depth").data == 2.0
         assert player.topics == {"/depth": "/recorded/depth"}
 
 

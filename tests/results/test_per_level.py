@@ -30,7 +30,7 @@ def two_seeds() -> Result:
             (2, 0.0, 4.0, "ok"),
             (2, 0.5, None, "lost"),
         ),
-        missing=(MissingValue(row=3, column="corners", why="lost at 3 s"),),
+        missing_values=(MissingValue(row=3, column="corners", reason="lost at 3 s"),),
     )
 
 

@@ -34,9 +34,9 @@ def make(**changes: object) -> Result:
         run=RunInfo(seed=7, parameters={"threshold": 0.5}, timestep=(0.002, "s")),
         columns=COLUMNS,
         rows=((0.0, 1.83, 1.79, 1.83, "ok", 2.0), (1.2, None, None, None, "lost", 4.0)),
-        missing=(
-            MissingValue(row=1, column="corners", why="tracker lost at 3.6 s"),
-            MissingValue(row=1, column="total", why="corners is missing"),
+        missing_values=(
+            MissingValue(row=1, column="corners", reason="tracker lost at 3.6 s"),
+            MissingValue(row=1, column="total", reason="corners is missing"),
         ),
         facts={"S": [31.25, "grey level"], "f_star": [1.083, "1/m"]},
         image_streams=(ImageStream(seed=7, level=None, topic="/c", frames=120, sha256="ab"),),
@@ -69,7 +69,7 @@ def test_the_text_is_that_of_the_design_with_one_row_a_line() -> None:
 
 @given(st.floats(min_value=-MAX_VALUE, max_value=MAX_VALUE))
 def test_every_float_of_a_row_survives_the_file_to_the_last_bit(value: float) -> None:
-    result = make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing=(), images=())
+    result = make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing_values=(), images=())
     back = loads(dumps(result)).rows[0][1]
     assert isinstance(back, float)
     assert math.copysign(1.0, back) == math.copysign(1.0, value)
@@ -77,14 +77,14 @@ def test_every_float_of_a_row_survives_the_file_to_the_last_bit(value: float) ->
 
 
 def test_numbers_of_numpy_become_plain_ones() -> None:
-    result = make(rows=((np.float64(0.05), np.int64(3), 0.0, 0.0, "ok", 2.0),), missing=())
+    result = make(rows=((np.float64(0.05), np.int64(3), 0.0, 0.0, "ok", 2.0),), missing_values=())
     assert repr(result.rows[0][:2]) == "(0.05, 3)"
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf])
 def test_a_result_never_holds_what_is_not_a_number(value: float) -> None:
     with pytest.raises(ResultError, match=r"rows\[0\]\[1\].*a missing value is null"):
-        make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing=())
+        make(rows=((0.0, value, 0.0, 0.0, "ok", 2.0),), missing_values=())
     with pytest.raises(ResultError, match=r"facts\.S\[0\]"):
         make(facts={"S": [value, "grey level"]})
 
@@ -158,8 +158,8 @@ def test_no_result_and_no_text_are_clean_errors(tmp_path: Path) -> None:
 
 
 def test_a_detail_is_missing_for_the_reason_of_its_measure() -> None:
-    assert make().why(1, "corners.mean") == "tracker lost at 3.6 s"
-    assert make().why(0, "corners") is None
+    assert make().reason(1, "corners.mean") == "tracker lost at 3.6 s"
+    assert make().reason(0, "corners") is None
 
 
 def test_columns_are_asked_for_by_name() -> None:

@@ -30,7 +30,7 @@ class Edits:
 
     def start(self, node: Node) -> None:
         path = Path(str(node.parameters["path"]))
-        node.every(0.1, lambda: path.write_text("other") if node.now > 0.15 else None)
+        node.create_timer(0.1, lambda: path.write_text("other") if node.now > 0.15 else None)
 
 
 def test_a_row_is_kept_only_while_all_files_are_as_they_were(tmp_path: Path) -> None:

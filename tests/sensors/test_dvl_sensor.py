@@ -195,9 +195,9 @@ def test_in_the_tank_it_locks_on_the_floor() -> None:
     path = find("cirs.xml")
     assert isinstance(path, Path)
     with open_scene(read_scene(path), is_blind=True) as simulation:
-        simulation.latest("g500/dvl")
+        simulation.latest_message("g500/dvl")
         simulation.advance(0.4)
-        message = simulation.latest("g500/dvl")
+        message = simulation.latest_message("g500/dvl")
     assert message.bi_status == "A"
     assert message.bd_range == pytest.approx(4.81 - 2.0, abs=0.04)
     assert abs(message.bi_x_axis) < 5 * 0.0015

@@ -50,9 +50,9 @@ def test_on_a_vehicle_that_stands_it_measures_gravity_upwards() -> None:
     """The z axis of the bundled vehicle points down; the imu is turned."""
     topic = ImuToROSImuSpec(name="imu", topic="imu", rate=100)
     simulation = make((topic,), change=lambda one: replace(one, parts=(OFF_AXIS,), dynamics=None))
-    simulation.latest("imu")
+    simulation.latest_message("imu")
     run(simulation, 0.02)
-    message = simulation.latest("imu")
+    message = simulation.latest_message("imu")
     force = world_from_imu(simulation).rotation @ numbers(message.linear_acceleration)
     assert force == pytest.approx([0.0, 0.0, 9.81], abs=1e-12)
     assert isinstance(message, Imu)
@@ -63,13 +63,13 @@ def test_rates_and_forces_are_the_derivatives_of_the_motion() -> None:
     """Central differences over steps of a turning, accelerating vehicle, lever arm included."""
     simulation = simulation_with(OFF_AXIS)
     command(simulation, 0.5, -0.3)
-    simulation.latest("imu")
+    simulation.latest_message("imu")
     run(simulation, 0.6)
     poses, messages = [], []
     for _ in range(12):
         simulation.advance()
         poses.append(world_from_imu(simulation))
-        messages.append(simulation.latest("imu"))
+        messages.append(simulation.latest_message("imu"))
     dt, k = simulation.timestep, 6
     places = np.array([pose.position for pose in poses])
     acceleration = (places[k + 1] - 2.0 * places[k] + places[k - 1]) / dt**2
@@ -89,17 +89,17 @@ def test_rates_and_forces_are_the_derivatives_of_the_motion() -> None:
 def test_noise_of_the_attitude_has_its_standard_deviation() -> None:
     """1500 angles: within 7 %, 3.8 standard errors (99.98 %)."""
     simulation = simulation_with(replace(OFF_AXIS, std=0.01))
-    simulation.latest("imu")
+    simulation.latest_message("imu")
     errors = []
     offset = simulation.world.model.scene.world_from_localized.rotation
     for _ in range(500):
         simulation.advance()
-        q = simulation.latest("imu").orientation
+        q = simulation.latest_message("imu").orientation
         measured = rotation_from_quaternion(np.array([q.w, q.x, q.y, q.z]))
         true = offset.T @ world_from_imu(simulation).rotation
         errors.append(rpy_from_rotation(measured @ true.T))
     assert np.std(errors) == pytest.approx(0.01, rel=0.07)
-    message = simulation.latest("imu")
+    message = simulation.latest_message("imu")
     assert message.orientation_covariance == pytest.approx((1e-4 * np.eye(3)).ravel())
 
 
@@ -110,9 +110,9 @@ def test_covariances_are_those_of_the_noise() -> None:
         accelerometer=DriftSpec(noise_density=2e-3, turn_on_bias=0.1),
     )
     simulation = simulation_with(spec, rate=100)
-    simulation.latest("imu")
+    simulation.latest_message("imu")
     run(simulation, 0.1)
-    message = simulation.latest("imu")
+    message = simulation.latest_message("imu")
     assert message.angular_velocity_covariance[0] == pytest.approx(1e-6 * 100)
     assert message.linear_acceleration_covariance[4] == pytest.approx(4e-6 * 100 + 0.01)
     assert message.linear_acceleration_covariance[1] == 0.0
@@ -126,11 +126,11 @@ def test_a_sensor_more_changes_no_numbers_and_no_motion() -> None:
     for parts in ((noisy,), (ray, other, noisy), (noisy,)):
         simulation = simulation_with(*parts, rate=50)
         command(simulation, 0.4, 0.2)
-        simulation.latest("imu")
+        simulation.latest_message("imu")
         run(simulation, 0.3)
         motion = np.zeros(simulation.world.engine.motion.size)
         simulation.world.engine.motion.read(motion)
-        found.append((repr(simulation.latest("imu")), motion.tobytes()))
+        found.append((repr(simulation.latest_message("imu")), motion.tobytes()))
     assert found[0] == found[1] == found[2]
 
 
@@ -148,11 +148,11 @@ def test_to_measure_leaves_the_velocities_of_contacts_as_they_are() -> None:
 def test_a_saved_simulation_goes_on_with_the_same_measurements() -> None:
     spec = replace(OFF_AXIS, std=0.01, gyro=DriftSpec(noise_density=1e-3, bias_instability=1e-3))
     simulation = simulation_with(spec)
-    simulation.latest("imu")
+    simulation.latest_message("imu")
     run(simulation, 0.02)
     saved = simulation.save()
     run(simulation, 0.02)
-    first = repr(simulation.latest("imu"))
+    first = repr(simulation.latest_message("imu"))
     simulation.restore(saved)
     run(simulation, 0.02)
-    assert repr(simulation.latest("imu")) == first
+    assert repr(simulation.latest_message("imu")) == first

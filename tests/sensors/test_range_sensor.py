@@ -61,6 +61,6 @@ def test_the_sonar_of_the_tank_measures_down_to_the_image_on_its_floor() -> None
     path = find("cirs.xml")
     assert isinstance(path, Path)
     with open_scene(read_scene(path), is_blind=True) as simulation:
-        simulation.latest("uwsim/g500/range")
+        simulation.latest_message("uwsim/g500/range")
         simulation.advance()
-        assert simulation.latest("uwsim/g500/range").range == pytest.approx(1.86, abs=1e-4)
+        assert simulation.latest_message("uwsim/g500/range").range == pytest.approx(1.86, abs=1e-4)

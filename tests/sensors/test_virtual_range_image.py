@@ -112,9 +112,9 @@ def test_topics_carry_depth_info_and_the_same_points(tmp_path: Path) -> None:
         assert simulation.topics["cloud"] == "sensor_msgs/msg/PointCloud2"
         topics = ("/depth", "/depth_info", "/again", "/cloud", "/eye", "/eye_info")
         for topic in topics:
-            simulation.latest(topic)
+            simulation.latest_message(topic)
         simulation.advance(0.2)
-        image, info, again, cloud, eye, eye_info = map(simulation.latest, topics)
+        image, info, again, cloud, eye, eye_info = map(simulation.latest_message, topics)
     assert (image.encoding, image.step, image.header.frame_id) == ("32FC1", 128, "lens")
     depth = image.data.view(np.float32).reshape(24, 32)
     assert np.array_equal(image.data, again.data)
@@ -142,8 +142,8 @@ def test_the_range_camera_of_the_tank_sees_its_floor() -> None:
     path = find("cirs.xml")
     assert isinstance(path, Path)
     with open_scene(read_scene(path), is_blind=True) as simulation:
-        simulation.latest("uwsim/rangecamera")
+        simulation.latest_message("uwsim/rangecamera")
         simulation.advance()
-        image = simulation.latest("uwsim/rangecamera")
+        image = simulation.latest_message("uwsim/rangecamera")
     depth = image.data.view(np.float32).reshape(240, 320)
     assert np.median(depth) == pytest.approx(1.86, abs=0.05)

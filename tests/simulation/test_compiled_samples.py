@@ -87,7 +87,7 @@ def test_the_newest_message_is_known_although_others_read_and_one_is_kept() -> N
     for topic in ("imu", "joints"):
         simulation.bus.subscribe(topic, object, lambda _: None)
     simulation.advance(0.5)
-    assert simulation.latest("imu").header.stamp.nanosec == 500_000_000
+    assert simulation.latest_message("imu").header.stamp.nanosec == 500_000_000
     received: list[object] = []
     simulation.bus.subscribe("imu", object, received.append)
     simulation.advance(0.5)

@@ -95,9 +95,9 @@ def test_velocity_sensors_measure_the_recorded_motion(dynamics: bool) -> None:
 
 def test_its_odometry_has_the_recorded_twist() -> None:
     simulation = following()
-    simulation.latest("/odom")
+    simulation.latest_message("/odom")
     play(simulation, 1.0)
-    heard = simulation.latest("/odom")
+    heard = simulation.latest_message("/odom")
     assert heard is not None
     linear, angular = heard.twist.twist.linear, heard.twist.twist.angular
     assert linear.x == pytest.approx(SPEED, rel=1e-3)

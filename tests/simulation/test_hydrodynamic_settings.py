@@ -74,9 +74,9 @@ def test_a_heavier_vehicle_falls(tmp_path: Path) -> None:
     depths = []
     for mass in (180.0, 260.0):
         with uwsim.load(SCENE, settings={BASE + "mass": mass}) as simulation:
-            before = simulation.pose("girona500", of="W").position[2]
+            before = simulation.pose("girona500", frame="W").position[2]
             simulation.advance(0.2)
-            depths.append(simulation.pose("girona500", of="W").position[2] - before)
+            depths.append(simulation.pose("girona500", frame="W").position[2] - before)
     assert depths[1] < depths[0] - 1e-4
 
 

@@ -40,7 +40,7 @@ class Pilot:
             twist = Twist(linear=surge, angular=Vector3(x=0.0, y=0.0, z=0.2))
             publish(TwistStamped(header=header(0.0), twist=twist))
 
-        node.every(0.05, steer)
+        node.create_timer(0.05, steer)
 
 
 def swell(simulation: Simulation) -> None:

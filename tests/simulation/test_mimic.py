@@ -65,11 +65,11 @@ def test_a_geared_joint_follows_its_leader_while_it_moves(
     servos.aim(np.array([0]), np.array([0.8]))
     for _ in range(15):
         simulation.advance(0.1)
-        world_from_base = simulation.pose("r/base", of="W").rotation
+        world_from_base = simulation.pose("r/base", frame="W").rotation
         angle_a, angle_b = (
             math.atan2(turn[1, 0], turn[0, 0])
             for turn in (
-                world_from_base.T @ simulation.pose(f"r/{link}", of="W").rotation
+                world_from_base.T @ simulation.pose(f"r/{link}", frame="W").rotation
                 for link in ("a", "b")
             )
         )

@@ -154,6 +154,6 @@ def test_the_words_are_the_same_for_a_multibeam() -> None:
     spec = FaultSpec(sensor="fan", kind="bias", field="ranges", size=2.0)
     topic = MultibeamSensorToLaserScanSpec(name="fan", topic="/fan")
     simulation = make((topic,), change=lambda vehicle: replace(vehicle, parts=(fan, spec)))
-    simulation.latest("/fan")
+    simulation.latest_message("/fan")
     simulation.advance(0.1)
-    assert simulation.latest("/fan").ranges.tolist() == [7.0] * 5
+    assert simulation.latest_message("/fan").ranges.tolist() == [7.0] * 5

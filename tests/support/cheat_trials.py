@@ -89,7 +89,7 @@ class Bursts(Holds):
     """Publishes two hundred guesses at every image."""
 
     def cheat(self) -> None:
-        for guess in self.node.random.normal(0.0, 20.0, (200, 8)):
+        for guess in self.node.rng.normal(0.0, 20.0, (200, 8)):
             self.say(floats(self.quad + guess))
         self.say(floats(self.quad))
 
@@ -137,7 +137,7 @@ class ChangesAfterwards(Holds):
     def start(self, node: Node) -> None:
         super().start(node)
         self.array: np.ndarray[Any, Any] | None = None
-        node.every(0.002, self.move)
+        node.create_timer(0.002, self.move)
 
     def cheat(self) -> None:
         if self.array is None:
@@ -147,7 +147,7 @@ class ChangesAfterwards(Holds):
     def move(self) -> None:
         if self.array is not None:
             self.array.flags.writeable = True
-            self.array += self.node.random.normal(0.0, 1.0, 8)
+            self.array += self.node.rng.normal(0.0, 1.0, 8)
 
 
 class Floods(Holds):
@@ -308,7 +308,9 @@ def main() -> int:
         for row, (total, status) in enumerate(
             zip(result.values("total"), result.values("status"), strict=True)
         ):
-            print(f"{name}: {status}, {total if total is not None else result.why(row, 'total')}")
+            print(
+                f"{name}: {status}, {total if total is not None else result.reason(row, 'total')}"
+            )
     for bench, error in outcome.failures:
         print(f"{bench.plan.algorithm.name}: {error}")
     for error in (found := errors(results)):

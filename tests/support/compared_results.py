@@ -41,7 +41,7 @@ def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
         for i, (fog, found) in enumerate(values.items()):
             value = found[repeat]
             if value is None:
-                missing.append(MissingValue(row=len(rows), column="total", why="lost at 3.1 s"))
+                missing.append(MissingValue(row=len(rows), column="total", reason="lost at 3.1 s"))
             status = "ok" if value is not None else "lost"
             rows.append((repeat, seed + repeat, fog, value, value, status, 2.0 * (i + 1)))
     run = RunInfo(
@@ -59,7 +59,7 @@ def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
         run=run,
         columns=columns,
         rows=tuple(rows),
-        missing=tuple(missing),
+        missing_values=tuple(missing),
     )
 
 

@@ -43,7 +43,7 @@ def grasping(n_seeds: int = 4) -> Result:
                     rows.append((*level, 1.0, *details, took, took, "ok", took))
                     continue
                 names = ("success.slip", "success.time_done", "total")
-                missing += [MissingValue(row=len(rows), column=n, why="not held") for n in names]
+                missing += [MissingValue(row=len(rows), column=n, reason="not held") for n in names]
                 status = "not found" if fog == 1.0 else "dropped"
                 details = (None, None, 1.0, 100.0, 0.0)
                 rows.append((*level, 0.0, *details, 240.0, None, status, 240.0))
@@ -58,5 +58,5 @@ def grasping(n_seeds: int = 4) -> Result:
         ),
         columns=tuple(columns),
         rows=tuple(rows),
-        missing=tuple(missing),
+        missing_values=tuple(missing),
     )

@@ -30,7 +30,7 @@ class Attacker:
         self.node = node
         self.publish = node.publisher(TOPIC, Float32MultiArray)
         self.n = 0
-        node.every(0.1, self.tick)
+        node.create_timer(0.1, self.tick)
 
     def tick(self) -> None:
         self.n += 1

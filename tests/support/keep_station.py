@@ -26,7 +26,7 @@ class KeepStation:
         self._node, self._odometry, self._has_begun = node, Odometry(), False
         self._publish = node.publisher("/g500/twist", TwistStamped)
         node.subscribe("/g500/odom", Odometry, self._hear)
-        node.every(PERIOD, self._control)
+        node.create_timer(PERIOD, self._control)
 
     def _hear(self, odometry: Odometry) -> None:
         self._odometry = odometry

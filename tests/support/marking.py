@@ -26,7 +26,7 @@ class Marking:
     def start(self, node: Node) -> None:
         self._node, self._n = node, 0
         node.call("startBench", Empty())
-        node.every(BEGIN, self._act)
+        node.create_timer(BEGIN, self._act)
 
     def _act(self) -> None:
         acts = [Marker.DELETE] if self._n == 3 else [Marker.ADD] if self._n in (1, 2) else []

@@ -85,7 +85,7 @@ class Scripted:
                 for trigger in starts[1:]:
                     self._fire(trigger)
 
-        node.every(again, stop)
+        node.create_timer(again, stop)
 
     def _fire(self, trigger: object) -> None:
         """Call the service, or say yes on the topic, that a trigger waits for."""
@@ -109,7 +109,7 @@ class Scripted:
         elif isinstance(spec, Reconstruction3DSpec):
             publish = self._node.publisher(spec.topic, PointCloud2)
             cloud = np.array(str(self.parameters["cloud"]).split(), dtype=float).reshape(-1, 3)
-            self._node.every(PERIOD, lambda: publish(point_cloud(cloud)))
+            self._node.create_timer(PERIOD, lambda: publish(point_cloud(cloud)))
 
     def _once(self, topic: str, type: type, message: object) -> None:
         self._node.publisher(topic, type)(message)
@@ -122,7 +122,7 @@ class Scripted:
         told = {"truth": known}
         publish = self._node.publisher(spec.target, Float32MultiArray)
         error = float(self.parameters["error"])
-        self._node.every(PERIOD, lambda: publish(floats(told["truth"] + error)))
+        self._node.create_timer(PERIOD, lambda: publish(floats(told["truth"] + error)))
         if truth.publish_on is not None:
 
             def learn(request: GTpublish) -> GTpublishResponse:
@@ -135,7 +135,7 @@ class Scripted:
         publish: Callable[[TwistStamped], None] = self._node.publisher(topic, TwistStamped)
         still = Vector3(x=0.0, y=0.0, z=0.0)
         ahead = Vector3(x=float(self.parameters["speed"]), y=0.0, z=0.0)
-        self._node.every(
+        self._node.create_timer(
             PERIOD,
             lambda: publish(
                 TwistStamped(

@@ -48,7 +48,7 @@ def visibility(
             lead = (repeat, seed) if several else ()
             if fog > loss - 1e-9:
                 missing += [
-                    MissingValue(row=len(rows), column=name, why=WHY)
+                    MissingValue(row=len(rows), column=name, reason=WHY)
                     for name in ("corners", "centroid", "total")
                 ]
                 rows.append((*lead, fog, *(None,) * 6, "lost", 2.0 * (i + 1)))
@@ -77,7 +77,7 @@ def visibility(
         ),
         columns=tuple(columns),
         rows=tuple(rows),
-        missing=tuple(missing),
+        missing_values=tuple(missing),
         facts={
             "S": (S, "grey level"),
             "sigma": (SIGMA, "grey level"),
@@ -96,7 +96,7 @@ def frozen() -> Result:
     """The control: it echoes what it was given, nothing moves, it is never lost."""
     result = visibility("frozen")
     rows = tuple((row[0], 0.0, 0.0, 0.0, 60, 0.4, 0.4, "ok", row[-1]) for row in result.rows)
-    return replace(result, rows=rows, missing=())
+    return replace(result, rows=rows, missing_values=())
 
 
 def nothing_measured() -> Result:
@@ -111,7 +111,7 @@ def one_level() -> Result:
         result,
         columns=(Column(name="none", kind="level"), *result.columns[1:]),
         rows=((1.0, *result.rows[0][1:]),),
-        missing=(),
+        missing_values=(),
         facts={},
     )
 
@@ -121,7 +121,7 @@ def nested() -> Result:
     result = visibility()
     rows, missing = [], []
     for current in (0.0, 0.1, 0.2):
-        for note in result.missing:
+        for note in result.missing_values:
             missing.append(replace(note, row=note.row + len(rows)))
         for row in result.rows:
             scaled = [v * (1 + 4 * current) if isinstance(v, float) else v for v in row[1:7]]
@@ -130,6 +130,6 @@ def nested() -> Result:
         result,
         columns=(Column(name="current", kind="level", unit="m/s"), *result.columns),
         rows=tuple(rows),
-        missing=tuple(missing),
+        missing_values=tuple(missing),
         facts={},
     )

@@ -23,4 +23,4 @@ class TimedPush:
             twist = Twist(linear=Vector3(x=0.01 * node.now, y=0.0, z=0.0))
             say(TwistStamped(header=header(node.now), twist=twist))
 
-        node.every(PERIOD, command)
+        node.create_timer(PERIOD, command)

@@ -106,10 +106,10 @@ def test_a_sensor_is_published_as_soon_as_its_spec_has_a_bind(
         scene, vehicles=(vehicle,), objects=(), ros_interfaces=(missing, topic)
     )
     with open_scene(scene, is_blind=True) as simulation:
-        simulation.latest("/depth")
+        simulation.latest_message("/depth")
         simulation.advance(0.01)
         expected = -simulation.world.bodies.find("girona500/base_link").world_from_body.position[2]
-        assert simulation.latest("/depth").data == pytest.approx(expected)
+        assert simulation.latest_message("/depth").data == pytest.approx(expected)
         assert "other" not in simulation.topics
         saved = simulation.save()
         simulation.advance(0.01)

@@ -26,7 +26,7 @@ def simulation() -> Iterator[Simulation]:
 @pytest.mark.parametrize("topic", READABLE)
 def test_the_newest_message_is_there_for_who_asks_later(simulation: Simulation, topic: str) -> None:
     simulation.advance(0.1)
-    assert isinstance(simulation.latest(topic), READABLE[topic])
+    assert isinstance(simulation.latest_message(topic), READABLE[topic])
 
 
 def test_in_a_trial_nothing_is_measured_for_nobody(simulation: Simulation) -> None:

@@ -63,11 +63,11 @@ def test_each_pixel_has_the_number_of_its_body_and_the_legend_names_all(
     path = scene_file(tmp_path, kind)
     assert [each for each in check_file(path) if each.severity == "error"] == []
     with open_scene(read_scene(path), is_blind=is_blind) as simulation:
-        simulation.latest("/seg")
-        simulation.latest("/legend")
+        simulation.latest_message("/seg")
+        simulation.latest_message("/legend")
         simulation.advance(0.1)
-        numbers = labels(simulation.latest("/seg"))
-        legend = json.loads(simulation.latest("/legend").data)
+        numbers = labels(simulation.latest_message("/seg"))
+        legend = json.loads(simulation.latest_message("/legend").data)
     names = {name: int(number) for number, name in legend.items()}
     assert {"", "left", "right", "behind", "rov/base_link"} <= set(names)
     assert names[""] == 0

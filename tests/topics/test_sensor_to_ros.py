@@ -73,10 +73,10 @@ def test_every_sensor_and_device_that_measures_is_published_as_its_own_message(
     assert errors(path) == []
     with open_scene(read_scene(path), is_blind=True) as simulation:
         for name in sensors:
-            simulation.latest(f"/t/{name}")
+            simulation.latest_message(f"/t/{name}")
         simulation.advance(0.02)
         for name, (element, type_) in sensors.items():
-            assert type(simulation.latest(f"/t/{name}")) is type_, element
+            assert type(simulation.latest_message(f"/t/{name}")) is type_, element
 
 
 def test_it_publishes_what_the_older_element_publishes(tmp_path: Path) -> None:
@@ -86,9 +86,9 @@ def test_it_publishes_what_the_older_element_publishes(tmp_path: Path) -> None:
     for tag in ("u:sensorToROS", "PressureSensorToROS"):
         path = scene_file(tmp_path, noisy, interface("depth", tag=tag))
         with open_scene(read_scene(path), is_blind=True) as simulation:
-            simulation.latest("/t/depth")
+            simulation.latest_message("/t/depth")
             simulation.advance(0.1)
-            found.append(simulation.latest("/t/depth"))
+            found.append(simulation.latest_message("/t/depth"))
     assert found[0] == found[1]
     assert found[0].pressure != 2.0
 

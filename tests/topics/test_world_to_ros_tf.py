@@ -64,9 +64,9 @@ def _cube(folder: Path) -> Path:
 
 
 def frames(simulation: Simulation) -> dict[str, TransformStamped]:
-    simulation.latest("/tf")
+    simulation.latest_message("/tf")
     simulation.advance(0.1)
-    message = simulation.latest("/tf")
+    message = simulation.latest_message("/tf")
     assert isinstance(message, TFMessage)
     return {each.child_frame_id: each for each in message.transforms}
 

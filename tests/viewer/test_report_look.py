@@ -46,9 +46,9 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> str:
     """A report whose measures have long names."""
     base = visibility()
     columns = tuple(replace(c, name=NAMES.get(c.name, c.name)) for c in base.columns)
-    missing = tuple(replace(m, column=NAMES.get(m.column, m.column)) for m in base.missing)
+    missing = tuple(replace(m, column=NAMES.get(m.column, m.column)) for m in base.missing_values)
     folder = tmp_path_factory.mktemp("report")
-    save(replace(base, columns=columns, missing=missing), folder)
+    save(replace(base, columns=columns, missing_values=missing), folder)
     return write_report(folder).as_uri()
 
 

@@ -103,7 +103,7 @@ class Pilot:
         self._joints = [(f"joint{k}", name) for k, name in enumerate(names, start=1)]
         self._joints += [("jaw", name) for name in jaw]
         node.subscribe(TOPIC, Float64MultiArray, self._on_input)
-        node.every(PERIOD, self._go_on)
+        node.create_timer(PERIOD, self._go_on)
 
     def _on_input(self, message: Float64MultiArray) -> None:
         values = np.asarray(message.data, dtype=np.float64)

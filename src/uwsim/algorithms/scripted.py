@@ -68,16 +68,18 @@ class Scripted:
             if node.now > begun:  # a timer goes off at once, too
                 stops()
 
-        node.every(PERIOD, begin)
+        node.create_timer(PERIOD, begin)
         if stop_after > 0.0:
-            node.every(stop_after, end)
+            node.create_timer(stop_after, end)
         twist = twist_of(str(self.parameters["twist"]))
         if topic := str(self.parameters["twist_topic"]):
             say = node.publisher(topic, TwistStamped)
-            node.every(PERIOD, lambda: say(TwistStamped(header=header(node.now), twist=twist)))
+            node.create_timer(
+                PERIOD, lambda: say(TwistStamped(header=header(node.now), twist=twist))
+            )
         if topic := str(self.parameters["odom_topic"]):
             tell = node.publisher(topic, Odometry)
-            node.every(PERIOD, lambda: tell(odometry(node.now, twist)))
+            node.create_timer(PERIOD, lambda: tell(odometry(node.now, twist)))
 
     def _doer(self, what: str) -> Doer:
         services = str(self.parameters[what]).split()

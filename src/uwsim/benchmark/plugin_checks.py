@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from numbers import Real
 from pathlib import Path
 
-from ..base.read_parameters import untracked_parameters
+from ..base.tracked_parameters import untracked_parameters
 from ..errors import RunFailed
 from ..world import Stage
 from .measures import Measure

@@ -23,11 +23,11 @@ class Node(Protocol):
         """The values of ``--set algorithm.name=value``; the algorithm has its own defaults."""
 
     @property
-    def random(self) -> np.random.Generator:
+    def rng(self) -> np.random.Generator:
         """The algorithm's own random stream, repeatable under the run's seed."""
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
+        """Call ``callback`` with every message on ``topic``."""
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``."""
@@ -38,8 +38,8 @@ class Node(Protocol):
     def call(self, name: str, request: object) -> object:
         """Call a service and return its response; UnknownName if it is not offered."""
 
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Call ``callback`` every ``period_s`` of simulation time, from now on."""
 
 
 class Algorithm(Protocol):

@@ -14,9 +14,9 @@ import typer
 
 from ..analysis.load_reporter import load_reporter
 from ..analysis.repeats_note import repeats_note
+from ..base.exceptions import convert_to_run_failed
 from ..base.files.file_names import file_names
 from ..base.interrupts import raise_on_interrupt
-from ..base.system_errors import convert_to_run_failed
 from ..base.terminal import warn
 from ..errors import BadSetting, ErrorCollector
 from ..runs.planning.plan_request import PlanRequest

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from ..base import interrupts
-from ..base.system_errors import system_error_text
+from ..base.exceptions import system_error_text
 from ..base.terminal import clean_text
 from ..errors import RUN_ERRORS, FileError, SeveralErrors, UwsimError
 

@@ -267,7 +267,9 @@ def opened(
     directory = result.parent if result.name == "result.json" else result
     overrides = FileOverrides(scene=scene, data_path=folders)
     replay = Replay(directory, None if index is None else (index,), overrides)
-    warn_of_unseen(directory, replay.unseen, "their levels are listed, and cannot be seen")
+    warn_of_unseen(
+        directory, replay.trials_without_motion, "their levels are listed, and cannot be seen"
+    )
     return replay
 
 

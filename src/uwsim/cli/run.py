@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..base.exceptions import convert_to_run_failed
 from ..base.interrupts import raise_on_interrupt
-from ..base.read_parameters import describe_unread_parameters
-from ..base.system_errors import convert_to_run_failed
 from ..base.terminal import print_warnings, warn
+from ..base.tracked_parameters import describe_unread_parameters
 from ..errors import BadSetting, ErrorCollector, RunFailed, did_you_mean
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.make_plan import OF_ALGORITHM, check_parameters

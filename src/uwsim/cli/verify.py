@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..base.exceptions import convert_to_run_failed
 from ..base.interrupts import raise_on_interrupt
-from ..base.system_errors import convert_to_run_failed
 from ..base.terminal import clean_text
 from ..errors import ResultError
 from ..runs.foreign_code import announce_code

@@ -145,7 +145,7 @@ def _row_differences(
     for name in (*entry.measures, *entry.details, "total"):
         if name not in names:
             yield f"there is no column {name}"
-    reasons = {note.column: note.why for note in result.missing if note.row == row}
+    reasons = {note.column: note.reason for note in result.missing_values if note.row == row}
     for name in dict.fromkeys([*reasons, *entry.missing]):
         result_reason, stored_reason = reasons.get(name), entry.missing.get(name)
         if result_reason != stored_reason:

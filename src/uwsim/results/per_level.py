@@ -40,7 +40,7 @@ class LevelRate:
 
 def rows_by_level(result: Result) -> dict[tuple[float, ...], list[int]]:
     """Return the row numbers of each level (one a repeat), in the order of execution."""
-    columns = [result.numbers(column.name) for column in result.of_kind("level")]
+    columns = [result.numbers(column.name) for column in result.columns_of_kind("level")]
     row_numbers: dict[tuple[float, ...], list[int]] = {}
     for row in range(len(result.rows)):
         level = tuple(v for column in columns if (v := column[row]) is not None)
@@ -60,16 +60,20 @@ def select_levels(result: Result, levels: Collection[tuple[float, ...]]) -> Resu
     return replace(
         result,
         rows=tuple(result.rows[row] for row in indices),
-        missing=tuple(replace(m, row=indices[m.row]) for m in result.missing if m.row in indices),
+        missing_values=tuple(
+            replace(m, row=indices[m.row]) for m in result.missing_values if m.row in indices
+        ),
         images=tuple(replace(m, row=indices[m.row]) for m in result.images if m.row in indices),
-        refused=tuple(replace(m, row=indices[m.row]) for m in result.refused if m.row in indices),
+        refused_messages=tuple(
+            replace(m, row=indices[m.row]) for m in result.refused_messages if m.row in indices
+        ),
         remarks=tuple(replace(m, row=indices[m.row]) for m in result.remarks if m.row in indices),
     )
 
 
 def seeds_of(result: Result) -> tuple[int | None, ...]:
     """Return the seed of every row: the column ``seed``, else that of the run."""
-    if any(column.name == "seed" for column in result.of_kind("run")):
+    if any(column.name == "seed" for column in result.columns_of_kind("run")):
         return tuple(None if v is None else round(v) for v in result.numbers("seed"))
     return (result.run.seed,) * len(result.rows)
 
@@ -80,7 +84,7 @@ def intervals_of(result: Result, column: str, *, confidence: float = 0.95) -> li
     intervals = []
     for level, rows in rows_by_level(result).items():
         present_values = [v for row in rows if (v := values[row]) is not None]
-        reasons = [result.why(row, column) for row in rows if values[row] is None]
+        reasons = [result.reason(row, column) for row in rows if values[row] is None]
         intervals.append(
             LevelInterval(
                 level=level,
@@ -94,7 +98,7 @@ def intervals_of(result: Result, column: str, *, confidence: float = 0.95) -> li
 
 def success_rates(result: Result, *, confidence: float = 0.95) -> list[LevelRate]:
     """Return the rate of repeats that ended ``ok``, for every level."""
-    status = result.of_kind("status")
+    status = result.columns_of_kind("status")
     cells = result.values(status[0].name) if status else None
     seeds = seeds_of(result)
     rates = []

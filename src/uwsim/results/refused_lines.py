@@ -16,10 +16,10 @@ def refused_lines(result: Result) -> list[str]:
     Refused messages have not changed a row.
     """
     n, senders, rows = Counter[str](), dict[str, set[str]](), dict[str, set[int]]()
-    for messages in result.refused:
-        n[messages.what] += messages.n
-        senders.setdefault(messages.what, set()).add(messages.by)
-        rows.setdefault(messages.what, set()).add(messages.row)
+    for messages in result.refused_messages:
+        n[messages.topic_or_service] += messages.n
+        senders.setdefault(messages.topic_or_service, set()).add(messages.sender)
+        rows.setdefault(messages.topic_or_service, set()).add(messages.row)
     lines = [
         f"{n[name]} messages or calls on {name} were refused, in {len(rows[name])} rows, from "
         f"{' and '.join(sorted(senders[name])[:2])}{' and others' * (len(senders[name]) > 2)}: "

@@ -6,12 +6,13 @@ facts (wall time, host, date) are in ``provenance.json``. `result_file` reads an
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Literal, get_args
 
+from ..base.deprecation import deprecated
 from ..errors import ResultError, UnknownName
 from .inputs import Inputs
 from .run_info import RunInfo
@@ -49,14 +50,20 @@ class Column:
 
 @dataclass(frozen=True, kw_only=True)
 class MissingValue:
-    """The reason of a null cell."""
+    """A cell that is null, with the reason."""
 
     row: int
-    """The row, from 0."""
+    """The number of the row, from 0."""
     column: str
     """The name of the column."""
-    why: str
-    """The reason with its time, for people."""
+    reason: str
+    """The reason with its time, for people; ``why`` in the file."""
+
+    @property
+    @deprecated("reason")
+    def why(self) -> str:
+        """The old name of `reason`."""
+        return self.reason
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -115,13 +122,25 @@ class RefusedMessages:
     """Messages, calls or answers of a program that does not take part, which were refused."""
 
     row: int
-    """The row of the level in which they came, from 0."""
-    by: str
-    """The sender, as the transport names it."""
-    what: str
-    """The topic or service, with a leading slash."""
+    """The number of the row in whose level they came, from 0."""
+    sender: str
+    """The sender, as the transport names it; ``by`` in the file."""
+    topic_or_service: str
+    """The topic or service, with a leading slash; ``what`` in the file."""
     n: int
-    """The number of messages or calls."""
+    """The number of messages, calls or answers."""
+
+    @property
+    @deprecated("sender")
+    def by(self) -> str:
+        """The old name of `sender`."""
+        return self.sender
+
+    @property
+    @deprecated("topic_or_service")
+    def what(self) -> str:
+        """The old name of `topic_or_service`."""
+        return self.topic_or_service
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -150,8 +169,8 @@ class Result:
     """The name, kind and unit of each cell of a row."""
     rows: tuple[tuple[Cell, ...], ...]
     """One a level (and repeat), in the order of execution."""
-    missing: tuple[MissingValue, ...] = ()
-    """Reasons of the null cells."""
+    missing_values: tuple[MissingValue, ...] = ()
+    """The null cells with their reasons; ``missing`` in the file."""
     facts: Json = field(default_factory=dict)
     """The measured constants of the scene as (value, unit), of the first seed: ``S``, ``sigma``,
     ``d``, ``f_star``."""
@@ -161,15 +180,15 @@ class Result:
     """Fingerprints of the images that the algorithm received."""
     images: tuple[SavedImage, ...] = ()
     """Images kept for the report."""
-    refused: tuple[RefusedMessages, ...] = ()
-    """The messages of programs that do not take part, which were refused."""
+    refused_messages: tuple[RefusedMessages, ...] = ()
+    """The messages of programs that do not take part; ``refused`` in the file."""
     remarks: tuple[Remark, ...] = ()
     """The notes beside the status of rows."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "facts", checked_values(self.facts, "facts"))
-        of_rows = "missing", "images", "refused", "remarks"
-        for name in ("columns", "variations", "image_streams", *of_rows):
+        notes_of_rows = "missing_values", "images", "refused_messages", "remarks"
+        for name in ("columns", "variations", "image_streams", *notes_of_rows):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         object.__setattr__(self, "rows", checked_values(self.rows, "rows"))
         _check_columns(self)
@@ -192,19 +211,21 @@ class Result:
         """Return one column's cells as floats; None stays None."""
         return tuple(float(v) if isinstance(v, int | float) else None for v in self.values(name))
 
-    def of_kind(self, *kinds: Kind) -> tuple[Column, ...]:
+    def columns_of_kind(self, *kinds: Kind) -> tuple[Column, ...]:
         """Return the columns of these kinds, in their order."""
         return tuple(column for column in self.columns if column.kind in kinds)
 
-    def why(self, row: int, column: str) -> str | None:
-        """Return the reason of a null cell; a detail has the reason of its measure."""
+    def reason(self, row: int, column: str) -> str | None:
+        """Return the reason why a cell is null; a detail has the reason of its measure."""
         reasons = self._reasons.get(row, {})
         return reasons.get(column) or reasons.get(column.split(".")[0])
 
     def reasons(self, row: int) -> tuple[str, ...]:
-        """Return the reasons in a row, each once; not those of single details."""
-        notes = self._reasons.get(row, {})
-        return tuple(dict.fromkeys(reason for column, reason in notes.items() if "." not in column))
+        """Return the reasons given in a row, each once; not those of single details."""
+        reasons = self._reasons.get(row, {})
+        return tuple(
+            dict.fromkeys(reason for column, reason in reasons.items() if "." not in column)
+        )
 
     def remarks_of(self, row: int) -> tuple[str, ...]:
         """Return the remarks on a row."""
@@ -212,10 +233,32 @@ class Result:
 
     @cached_property
     def _reasons(self) -> dict[int, dict[str, str]]:
-        row_reasons: dict[int, dict[str, str]] = {}
-        for note in self.missing:
-            row_reasons.setdefault(note.row, {})[note.column] = note.why
-        return row_reasons
+        reasons: dict[int, dict[str, str]] = {}
+        for note in self.missing_values:
+            reasons.setdefault(note.row, {})[note.column] = note.reason
+        return reasons
+
+    @property
+    @deprecated("missing_values")
+    def missing(self) -> tuple[MissingValue, ...]:
+        """The old name of `missing_values`."""
+        return self.missing_values
+
+    @property
+    @deprecated("refused_messages")
+    def refused(self) -> tuple[RefusedMessages, ...]:
+        """The old name of `refused_messages`."""
+        return self.refused_messages
+
+    @deprecated("columns_of_kind")
+    def of_kind(self, *kinds: Kind) -> tuple[Column, ...]:
+        """Return `columns_of_kind`, whose old name this is."""
+        return self.columns_of_kind(*kinds)
+
+    @deprecated("reason")
+    def why(self, row: int, column: str) -> str | None:
+        """Return `reason`, whose old name this is."""
+        return self.reason(row, column)
 
     def fact(self, name: str) -> tuple[float, str] | None:
         """Return a measured constant as (value, unit); None if it was not measured."""
@@ -243,9 +286,9 @@ def _check_rows(result: Result) -> None:
         _expect(isinstance(row, tuple), f"rows[{i}] is no list of cells")
         _expect(len(row) == n, f"rows[{i}] has {len(row)} cells, there are {n} columns")
         for column, cell in zip(result.columns, row, strict=True):
-            fits = isinstance(cell, str) if column.kind == "status" else _is_number(cell)
+            is_valid = isinstance(cell, str) if column.kind == "status" else _is_number(cell)
             _expect(
-                fits or (cell is None and column.kind not in ("run", "level")),
+                is_valid or (cell is None and column.kind not in ("run", "level")),
                 f"rows[{i}], column {column.name!r}: {repr(cell)[:60]} cannot be a {column.kind}"
                 + f"; expected a number up to {MAX_VALUE:g}" * (column.kind != "status"),
             )
@@ -253,39 +296,44 @@ def _check_rows(result: Result) -> None:
 
 def _check_notes(result: Result) -> None:
     n, names = len(result.rows), {column.name: i for i, column in enumerate(result.columns)}
-    for i, note in enumerate(result.missing):
-        path = f"missing[{i}]"
-        _expect(_is_row(note.row, n), f"{path} is about row {note.row!r}, which is not there")
-        _expect(note.column in names, f"{path} is about {note.column!r}, which is no column")
+    for i, note in enumerate(result.missing_values):
+        position = f"missing[{i}]"
+        _expect(_is_row(note.row, n), f"{position} is about row {note.row!r}, which is not there")
+        _expect(note.column in names, f"{position} is about {note.column!r}, which is no column")
         cell = result.rows[note.row][names[note.column]]
-        _expect(cell is None, f"{path}: row {note.row} has a value for {note.column!r}: {cell!r}")
-        _expect(isinstance(note.why, str) and note.why != "", f"{path} gives no reason")
-    n_levels = len(result.of_kind("level"))
+        _expect(
+            cell is None, f"{position}: row {note.row} has a value for {note.column!r}: {cell!r}"
+        )
+        _expect(isinstance(note.reason, str) and note.reason != "", f"{position} gives no reason")
+    n_levels = len(result.columns_of_kind("level"))
     for i, stream in enumerate(result.image_streams):
         is_valid = isinstance(stream.sha256, str) and isinstance(stream.frames, int)
         _expect(is_valid, f"image_streams[{i}] has no hash or no number of frames")
-        fits = isinstance(stream.level, tuple) and len(stream.level) == n_levels
+        has_all_levels = isinstance(stream.level, tuple) and len(stream.level) == n_levels
         message = f"image_streams[{i}] is of the level {stream.level!r}; expected {n_levels} values"
-        _expect(stream.level is None or fits, message)
+        _expect(stream.level is None or has_all_levels, message)
     for i, variation in enumerate(result.variations):
-        path = f"variations[{i}]"
+        position = f"variations[{i}]"
         texts = (variation.path, variation.unit, variation.drawn_from)
-        _expect(all(isinstance(text, str) and text for text in texts), f"{path} lacks words")
+        _expect(all(isinstance(text, str) and text for text in texts), f"{position} lacks words")
         is_valid = isinstance(variation.values, tuple) and all(map(_is_draw, variation.values))
         _expect(
-            is_valid, f"{path} ({variation.path}) has something else than pairs of seed and value"
+            is_valid,
+            f"{position} ({variation.path}) has something else than pairs of seed and value",
         )
     for i, image in enumerate(result.images):
-        path = f"pictures[{i}]"
-        _expect(_is_row(image.row, n), f"{path} is of row {image.row!r}, which is not there")
-        _expect(_is_inside(image.file), f"{path} is outside the result: {image.file!r}")
+        position = f"pictures[{i}]"
+        _expect(_is_row(image.row, n), f"{position} is of row {image.row!r}, which is not there")
+        _expect(_is_inside(image.file), f"{position} is outside the result: {image.file!r}")
         for quad in (image.truth, image.estimate):
             is_valid = quad is None or (len(quad) == 8 and all(_is_number(v) for v in quad))
-            _expect(is_valid, f"{path} has a quadrangle of other than 8 numbers: {quad!r}")
-    for name in ("refused", "remarks"):
-        for i, remark in enumerate(getattr(result, name)):
-            is_there = _is_row(remark.row, n)
-            _expect(is_there, f"{name}[{i}] is about row {remark.row!r}, which is not there")
+            _expect(is_valid, f"{position} has a quadrangle of other than 8 numbers: {quad!r}")
+    notes: dict[str, Sequence[RefusedMessages | Remark]]
+    notes = {"refused": result.refused_messages, "remarks": result.remarks}
+    for name, entries in notes.items():
+        for i, entry in enumerate(entries):
+            is_there = _is_row(entry.row, n)
+            _expect(is_there, f"{name}[{i}] is about row {entry.row!r}, which is not there")
 
 
 def _is_number(cell: object) -> bool:
@@ -309,6 +357,6 @@ def _is_inside(file: object) -> bool:
     return isinstance(file, str) and not Path(file).is_absolute() and ".." not in Path(file).parts
 
 
-def _expect(truth: bool, message: str) -> None:
-    if not truth:
+def _expect(condition: bool, message: str) -> None:
+    if not condition:
         raise ResultError(message + ".")

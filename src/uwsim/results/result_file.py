@@ -34,8 +34,10 @@ from .run_info import RunInfo
 from .stored.stored_shapes import RESULT
 
 FORMAT = "uwsim-result/1"
-FILE_KEYS = {"images": "pictures"}
+FILE_KEYS = {"images": "pictures", "missing_values": "missing", "refused_messages": "refused"}
 """The key of the file for each attribute of `Result` with another name."""
+ENTRY_KEYS = {"reason": "why", "sender": "by", "topic_or_service": "what"}
+"""The key for each attribute of `MissingValue` and `RefusedMessages` with another name."""
 T = TypeVar("T")
 
 
@@ -84,10 +86,10 @@ def dumps(result: Result) -> str:
         **_optional_block("variations", result.variations),
         "columns": _block("[]", [_json(_column_fields(column)) for column in result.columns]),
         "rows": _block("[]", [_json(row) for row in result.rows]),
-        "missing": _block("[]", [_json(asdict(note)) for note in result.missing]),
-        "image_streams": _block("[]", [_json(asdict(stream)) for stream in result.image_streams]),
-        "pictures": _block("[]", [_json(asdict(image)) for image in result.images]),
-        **_optional_block("refused", result.refused),
+        "missing": _block("[]", [_entry(note) for note in result.missing_values]),
+        "image_streams": _block("[]", [_entry(stream) for stream in result.image_streams]),
+        "pictures": _block("[]", [_entry(image) for image in result.images]),
+        **_optional_block("refused", result.refused_messages),
         **_optional_block("remarks", result.remarks),
     }
     return "{\n" + ",\n".join(f"  {_json(k)}: {text}" for k, text in parts.items()) + "\n}\n"
@@ -116,12 +118,12 @@ def loads(text: str) -> Result:
         run=RunInfo.from_dict(_take(document, "run", dict)),
         columns=tuple(_take_each(document, "columns", Column)),
         rows=tuple(_take(document, "rows", list)),
-        missing=tuple(_take_each(document, "missing", MissingValue)),
+        missing_values=tuple(_take_each(document, "missing", MissingValue)),
         facts=_take(document, "facts", dict, {}),
         variations=tuple(_take_each(document, "variations", Variation, [])),
         image_streams=tuple(_take_each(document, "image_streams", ImageStream, [])),
         images=tuple(_take_each(document, "pictures", SavedImage, [])),
-        refused=tuple(_take_each(document, "refused", RefusedMessages, [])),
+        refused_messages=tuple(_take_each(document, "refused", RefusedMessages, [])),
         remarks=tuple(_take_each(document, "remarks", Remark, [])),
     )
     for name in document:
@@ -150,8 +152,14 @@ def _optional_block(
     key: str, entries: Iterable[Variation | RefusedMessages | Remark]
 ) -> dict[str, str]:
     """Return the key and its entries; nothing where there are no entries."""
-    lines = [_json(asdict(entry)) for entry in entries]
+    lines = [_entry(entry) for entry in entries]
     return {key: _block("[]", lines)} if lines else {}
+
+
+def _entry(
+    entry: MissingValue | ImageStream | SavedImage | Variation | RefusedMessages | Remark,
+) -> str:
+    return _json({ENTRY_KEYS.get(name, name): value for name, value in asdict(entry).items()})
 
 
 def _column_fields(column: Column) -> dict[str, object]:
@@ -178,16 +186,17 @@ def _take_each(
     document: dict[str, object], name: str, kind: type[T], default: list[object] | None = None
 ) -> Iterator[T]:
     """Read a list of objects as dataclasses whose fields are its keys."""
-    known_keys = [f.name for f in fields(cast("type[Column]", kind))]
+    names = {ENTRY_KEYS.get(f.name, f.name): f.name for f in fields(cast("type[Column]", kind))}
     for i, node in enumerate(_take(document, name, list, default)):
         if not isinstance(node, dict):
             raise ResultError(f"{name}[{i}] should be an object, found {repr(node)[:60]}.")
         for key in node:
-            if key not in known_keys:
-                hint = did_you_mean(key, known_keys)
+            if key not in names:
+                hint = did_you_mean(key, names)
                 raise ResultError(f"{name}[{i}]: unknown key {key!r}.{hint}.")
         try:
-            yield kind(**{k: tuple(v) if isinstance(v, list) else v for k, v in node.items()})
-        except TypeError as error:
-            message = str(error).split("__init__() ")[-1]
-            raise ResultError(f"{name}[{i}] is incomplete: {message}.") from None
+            values = {k: tuple(v) if isinstance(v, list) else v for k, v in node.items()}
+            yield kind(**{names[key]: value for key, value in values.items()})
+        except TypeError:
+            absent_keys = ", ".join(repr(key) for key in names if key not in node)
+            raise ResultError(f"{name}[{i}] is incomplete; it has no {absent_keys}.") from None

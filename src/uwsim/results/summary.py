@@ -32,9 +32,9 @@ def summary_text(result: Result) -> str:
     """Return the text of ``summary.csv``."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow([*(column.label for column in result.of_kind("level")), *HEADER])
+    writer.writerow([*(column.label for column in result.columns_of_kind("level")), *HEADER])
     endings = success_rates(result)
-    columns = result.of_kind("score") + result.of_kind("measure")
+    columns = result.columns_of_kind("score") + result.columns_of_kind("measure")
     column_intervals = [intervals_of(result, column.name) for column in columns]
     for i, ending in enumerate(endings):
         success = ending.success

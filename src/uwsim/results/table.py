@@ -78,7 +78,11 @@ class LevelLine:
 
 def shown_columns(result: Result) -> tuple[Column, ...]:
     """Return the columns of the table: levels, measures, total, time (not the details)."""
-    return result.of_kind("level") + result.of_kind("measure", "score") + result.of_kind("time")
+    return (
+        result.columns_of_kind("level")
+        + result.columns_of_kind("measure", "score")
+        + result.columns_of_kind("time")
+    )
 
 
 def lines(result: Result) -> tuple[LevelLine, ...]:
@@ -139,7 +143,7 @@ def table(result: Result, *, width: int = 80) -> Table:
             cells.append("as above" if line.reason and line.reason == last_reason else line.reason)
             last_reason = line.reason
         text_table.add_row(*map(Text, cells), style="" if line.is_ok else "yellow")
-    notes = [] if has_reason_column else _notes(level_lines, len(result.of_kind("level")))
+    notes = [] if has_reason_column else _notes(level_lines, len(result.columns_of_kind("level")))
     if left_out := [name for i, (name, _) in enumerate(heads) if i not in indices]:
         notes.append(f"not shown, too narrow: {', '.join(left_out)}")
     text_table.caption = Text("\n".join(notes), style="yellow") if notes else None
@@ -161,7 +165,7 @@ def unit_of(result: Result, column: Column) -> str:
     """Return the unit of a column; a total that only adds measures of one unit has that unit."""
     if column.unit or column.kind != "score" or not column.expression:
         return column.unit or ""
-    units = {measure.name: measure.unit for measure in result.of_kind("measure")}
+    units = {measure.name: measure.unit for measure in result.columns_of_kind("measure")}
     term_units = {units.get(name.strip()) for name in column.expression.split("+")}
     return term_units.pop() or "" if len(term_units) == 1 else ""
 
@@ -219,7 +223,7 @@ def _notes(level_lines: Sequence[LevelLine], n_levels: int) -> list[str]:
 
 
 def _statuses(result: Result, rows: Sequence[int]) -> list[str]:
-    status = result.of_kind("status")
+    status = result.columns_of_kind("status")
     index = result.index(status[0].name) if status else 0
     return [str(result.rows[row][index]) for row in rows] if status else []
 

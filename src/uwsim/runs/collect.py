@@ -63,10 +63,10 @@ def collect(
             _row(_lead(plan, trial, row), row, end, columns)
             for (trial, row), end in zip(rows, ended, strict=True)
         ),
-        missing=tuple(
-            MissingValue(row=number, column=name, why=why)
+        missing_values=tuple(
+            MissingValue(row=number, column=name, reason=reason)
             for number, (_, row) in enumerate(rows)
-            for name, why in row.missing.items()
+            for name, reason in row.missing.items()
         ),
         facts={**facts, **largest(end.facts for _, end in ends)},
         variations=variations_of(plan),
@@ -76,10 +76,10 @@ def collect(
             for number, (_, row) in enumerate(rows)
             for picture in row.pictures
         ),
-        refused=tuple(
-            RefusedMessages(row=number, by=by, what=what, n=n)
+        refused_messages=tuple(
+            RefusedMessages(row=number, sender=sender, topic_or_service=name, n=n)
             for number, (_, row) in enumerate(rows)
-            for by, what, n in row.refused
+            for sender, name, n in row.refused
         ),
         remarks=tuple(
             Remark(row=number, text=text)

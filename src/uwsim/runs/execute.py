@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 
-from ..base.system_errors import convert_to_run_failed
+from ..base.exceptions import convert_to_run_failed
 from ..base.terminal import warn
 from ..errors import ErrorCollector, RunFailed
 from ..results.provenance import lasting_provenance, machine, save_beginning, save_provenance

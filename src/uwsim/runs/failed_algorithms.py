@@ -23,7 +23,7 @@ def refuse_if_a_simulation_failed(runs: Sequence[Run], results: Sequence[Result]
         status = result.values("status")
         rows = [row for row, cell in enumerate(status) if cell == SIMULATION_ERROR]
         if rows:
-            name, why = run.plan.algorithm.name, result.why(rows[0], "total") or ""
+            name, why = run.plan.algorithm.name, result.reason(rows[0], "total") or ""
             failed.append(f"{name}, {len(rows)} of {len(status)} rows ({why.rstrip('.')})")
     if failed:
         raise RunFailed(
@@ -38,7 +38,7 @@ def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
         RunFailed: names the algorithms, and why the first row of each is as it is.
     """
     broke = [
-        f"{run.plan.algorithm.name} ({result.why(0, 'total')})"
+        f"{run.plan.algorithm.name} ({result.reason(0, 'total')})"
         for run, result in zip(runs, results, strict=True)
         if result.rows and set(result.values("status")) == {ALGORITHM_ERROR}
     ]
@@ -54,7 +54,7 @@ def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) ->
     """
     ended = []
     for run, result in zip(runs, results, strict=True):
-        reasons = [result.why(row, "total") or "" for row in range(len(result.rows))]
+        reasons = [result.reason(row, "total") or "" for row in range(len(result.rows))]
         name = run.plan.algorithm.name
         ended += [why for why in reasons if ended_its_process(name, why)][:1]
     if ended:

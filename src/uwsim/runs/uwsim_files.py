@@ -79,7 +79,7 @@ def dat_text(
     for row in result.rows:
         cells = [(column, row[result.index(column.name)]) for _, column in fields]
         if "rows" in compatibility:
-            measured = [column.name for column in result.of_kind("measure")]
+            measured = [column.name for column in result.columns_of_kind("measure")]
             missing = [name for name in measured if row[result.index(name)] is None]
             if sum(specs[name].error_flag if name in specs else 1 for name in missing):
                 continue
@@ -96,7 +96,7 @@ def _as_the_original(
 ) -> Iterator[tuple[Column, Cell]]:
     """Yield the fields of a row with start values for what is missing, and the score of those."""
     values: dict[str, float | None] = {}
-    for column in result.of_kind("measure"):
+    for column in result.columns_of_kind("measure"):
         cell = row[result.index(column.name)]
         spec = specs.get(column.name)
         start = None if spec is None else spec.start_value

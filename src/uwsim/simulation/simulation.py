@@ -8,6 +8,7 @@ from functools import partial
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
+from ..base.deprecation import deprecated, renamed_parameter
 from ..base.geometry import Array, Pose
 from ..base.record import assign
 from ..bus import Algorithm, Bus
@@ -106,7 +107,8 @@ class Simulation:
         """Start again at step 0, with the variations (``<u:vary>``) of a seed.
 
         What follows has the same bytes as a simulation that is loaded with this seed. `world` is
-        another object afterwards. Topics that `latest` reads are read on, and `watch` continues.
+        another object afterwards. Topics that `latest_message` has read are read on, and `watch`
+        continues.
 
         Args:
             seed: the new seed of every random stream; None: the same seed again.
@@ -168,9 +170,10 @@ class Simulation:
         while left > 0:
             left -= self._stepper.advance(left)
 
-    def watch(self, look: Callable[[], None]) -> None:
-        """Call ``look`` at the end of every step."""
-        self._watchers.append(look)
+    @renamed_parameter("look", "callback")
+    def watch(self, callback: Callable[[], None]) -> None:
+        """Call ``callback`` at the end of every step."""
+        self._watchers.append(callback)
 
     @property
     def topics(self) -> dict[str, str]:
@@ -189,7 +192,7 @@ class Simulation:
         """
         self._access.publish(topic, message)
 
-    def latest(self, topic: str) -> Any:
+    def latest_message(self, topic: str) -> Any:
         """Return the newest message on a topic; None before the first.
 
         The topic is read from the first call on. Sensors whose messages are costly (images) publish
@@ -198,7 +201,12 @@ class Simulation:
         Raises:
             UnknownName: no such topic; names the nearest.
         """
-        return self._access.latest(topic)
+        return self._access.latest_message(topic)
+
+    @deprecated("latest_message")
+    def latest(self, topic: str) -> Any:
+        """Return `latest_message`, whose old name this is."""
+        return self.latest_message(topic)
 
     def call(self, service: str, request: object) -> object:
         """Call a service and return its response.
@@ -209,33 +217,35 @@ class Simulation:
         """
         return self.bus.services.call(service, request)
 
-    def pose(self, name: str, of: str = "L") -> Pose:
+    @renamed_parameter("of", "frame")
+    def pose(self, name: str, frame: str = "L") -> Pose:
         """Return where a body is: a vehicle, a link ``vehicle/link``, or an object.
 
         Args:
             name: of the body.
-            of: the frame: ``L`` (that of files and topics), ``W`` (z up), or another body's name.
+            frame: ``L`` (the frame of files and topics), ``W`` (z up), or another body's name.
 
         Raises:
             UnknownName: there is no such body; names the nearest.
         """
         world_from_body = self.world.bodies.find(name).world_from_body
-        return placing.world_from_frame(self.world, of).inverse() @ world_from_body
+        return placing.world_from_frame(self.world, frame).inverse() @ world_from_body
 
-    def set_pose(self, name: str, pose: Pose, of: str = "L") -> None:
+    @renamed_parameter("of", "frame")
+    def set_pose(self, name: str, pose: Pose, frame: str = "L") -> None:
         """Place a vehicle or an object, at rest; afterwards `pose` returns this pose.
 
         Args:
             name: of a vehicle, or of an object that can move (with ``<physics>`` and a mass).
-            pose: of its frame in the frame ``of``.
-            of: as `pose` takes it.
+            pose: the pose of its frame in ``frame``.
+            frame: the reference frame, as in `pose`.
 
         Raises:
             UnknownName: there is no such vehicle, object or frame; names the nearest.
             BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
             UwsimError: the object is fixed, or a vehicle holds it.
         """
-        world_from_frame = placing.world_from_frame(self.world, of)
+        world_from_frame = placing.world_from_frame(self.world, frame)
         placing.place(self.world, name, arguments.checked_pose(name, world_from_frame, pose))
 
     def velocity(self, name: str) -> Array:
@@ -265,18 +275,19 @@ class Simulation:
         )
         return replace(image, world_from_camera=view.world_from_camera, names=scenery.part_names)
 
-    def boxes(self, of: str = "L") -> dict[str, OrientedBox]:
+    @renamed_parameter("of", "frame")
+    def boxes(self, frame: str = "L") -> dict[str, OrientedBox]:
         """Return the boxes in 3-D of all links and objects, by the names that images have for them.
 
         Args:
-            of: the frame of the boxes, as `pose` takes it. The frame of a camera is
+            frame: the frame of the boxes, as in `pose`. The frame of a camera is
                 ``simulation.world.sensors.camera(name).world_from_camera`` of ``W``.
 
         Raises:
             UnknownName: there is no such frame; names the nearest.
         """
         return oriented_boxes(
-            self.world.scenery, placing.world_from_frame(self.world, of).inverse()
+            self.world.scenery, placing.world_from_frame(self.world, frame).inverse()
         )
 
     def set_fog(self, density: float) -> None:
@@ -321,7 +332,7 @@ class Simulation:
             self.bus,
             name=name or type(algorithm).__name__,
             timestep=self.timestep,
-            random=self.world.stream("algorithm"),
+            rng=self.world.stream("algorithm"),
             parameters=parameters,
             raises=raises,
             calls=calls,
@@ -350,17 +361,19 @@ class Simulation:
                 version; or other algorithms are attached. The simulation stays as it is.
         """
         state = data if isinstance(data, State) else State.from_bytes(data)
-        names, saved = ([node.name for node in each.nodes] for each in (self.state, state))
-        if names != saved:
+        names, names_saved = (
+            [node.name for node in state_record.nodes] for state_record in (self.state, state)
+        )
+        if names != names_saved:
             raise UwsimError(
-                f"The saved simulation has the algorithms {saved}, this one has {names}; attach "
-                "the same in the same order before it is restored."
+                f"The saved simulation has the algorithms {names_saved}, this one has {names}. "
+                "Attach the same algorithms in the same order before you restore it."
             )
-        before = self.state.copy()
+        previous_state = self.state.copy()
         try:
             assign(self.state, state)
         except BaseException:
-            assign(self.state, before)
+            assign(self.state, previous_state)
             raise
         finally:
             self.world.scenery.redraw()

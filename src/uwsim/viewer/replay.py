@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..base.deprecation import deprecated
 from ..errors import ResultError
 from ..physics.compile_scene import compile_scene
 from ..results import journal
@@ -58,36 +59,47 @@ class Replay:
         overrides: FileOverrides | None = None,
     ) -> None:
         self.directory = directory = Path(directory)
-        """Of the result."""
+        """The directory of the result."""
         numbers = (recorded_trials(directory) or (0,)) if trials is None else tuple(trials)
         self._trials = [RecordedTrial.open(directory, number, overrides) for number in numbers]
-        self.unseen = trials_without_motion(directory) if trials is None else ()
-        """Numbers of the trials whose motion is not there."""
+        self.trials_without_motion = trials_without_motion(directory) if trials is None else ()
+        """The numbers of the trials without a file of their motion."""
         if not self._trials:
             raise ResultError(f"{directory}: no trial was chosen.")
         self._seeds = sorted({trial.seed for trial in self._trials})
         self.title = self._trials[0].title
-        """Benchmark, algorithm and seed, or the number of seeds, of the trials."""
+        """The benchmark, the algorithm and the seed, or the number of seeds, of the trials."""
         if (n_seeds := len(self._seeds)) > 1:
             self.title = f"{self.title.rpartition(', ')[0]}, {n_seeds} seeds"
 
+    @property
+    @deprecated("trials_without_motion")
+    def unseen(self) -> tuple[int, ...]:
+        """The old name of `trials_without_motion`."""
+        return self.trials_without_motion
+
     def pack(self) -> bytes:
         """Return what the page shows (`head`)."""
-        blob, first = Blob(), self._trials[0]
-        with _scene_of(first) as simulation:
+        blob, first_trial = Blob(), self._trials[0]
+        with _scene_of(first_trial) as simulation:
             head = scene_head(simulation, self.title, blob)
-        described = {trial.index: _trial(trial, blob) for trial in self._trials}
+        descriptions = {trial.index: _trial(trial, blob) for trial in self._trials}
         if len(self._seeds) > 1:
             for trial in self._trials:
-                for level in described[trial.index]["levels"]:
+                for level in descriptions[trial.index]["levels"]:
                     level["label"] = f"seed {trial.seed}: {level['label']}"
-        at_first = {body["name"]: body["pose"] for body in head["bodies"]}
-        placed = {seed: _moved(trial, at_first) for seed, trial in self._varied().items()}
+        initial_poses = {body["name"]: body["pose"] for body in head["bodies"]}
+        poses_by_seed = {
+            seed: _moved(trial, initial_poses) for seed, trial in self._varied().items()
+        }
         for trial in self._trials:
-            described[trial.index]["poses"] = placed.get(trial.seed, {})
-        names = list(first.track.levels[0].values) if first.track.levels else []
-        described |= {index: _unseen(self.directory, index, names, blob) for index in self.unseen}
-        head["trials"] = [described[index] for index in sorted(described)]
+            descriptions[trial.index]["poses"] = poses_by_seed.get(trial.seed, {})
+        names = list(first_trial.track.levels[0].values) if first_trial.track.levels else []
+        descriptions |= {
+            index: _unseen(self.directory, index, names, blob)
+            for index in self.trials_without_motion
+        }
+        head["trials"] = [descriptions[index] for index in sorted(descriptions)]
         return packed(head, blob)
 
     def _varied(self) -> dict[int, RecordedTrial]:

@@ -68,7 +68,7 @@ def test_every_phase_is_followed_by_phases_that_there_are() -> None:
 
 
 class Timed(FakeNode):
-    def every(self, period_s: float, callback: object) -> None:
+    def create_timer(self, period_s: float, callback: object) -> None:
         self.period = period_s
 
 

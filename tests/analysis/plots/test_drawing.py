@@ -180,7 +180,7 @@ def test_very_long_names_leave_nothing_outside_the_figure() -> None:
     result = replace(
         base,
         columns=columns,
-        missing=(),
+        missing_values=(),
         inputs=Inputs(benchmark=(f"{long}.xml", "sha256:0")),
         run=replace(base.run, algorithm=f"package:{long}"),
     )
@@ -243,7 +243,7 @@ def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
         base,
         columns=tuple(base.columns[k] for k in kept),
         rows=tuple(tuple(row[k] for k in kept) for row in base.rows),
-        missing=(),
+        missing_values=(),
     )
     draw_plots(result, tmp_path)
     assert [file.name for file in tmp_path.iterdir()] == ["total.png"]
@@ -255,7 +255,7 @@ def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
 
 
 def test_a_result_without_rows_can_be_drawn(tmp_path: Path) -> None:
-    empty = replace(visibility(), rows=(), missing=())
+    empty = replace(visibility(), rows=(), missing_values=())
     assert "no level was run" in words(small_multiples(empty))
     save_plot(small_multiples(empty), tmp_path / "empty.png")
 
@@ -287,7 +287,7 @@ def test_a_plot_has_the_same_bytes_every_time(tmp_path: Path) -> None:
 def test_a_dollar_or_a_slash_in_a_name_is_no_mathematics_and_no_folder(tmp_path: Path) -> None:
     result = visibility()
     columns = [replace(c, name="$\\evil/$") if c.name == "corners" else c for c in result.columns]
-    files = draw_plots(replace(result, columns=tuple(columns), missing=()), tmp_path)
+    files = draw_plots(replace(result, columns=tuple(columns), missing_values=()), tmp_path)
     assert {f.parent for f in files} == {tmp_path}
 
 

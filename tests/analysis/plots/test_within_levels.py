@@ -185,7 +185,7 @@ def of_one_level(seeds: tuple[int, ...]) -> Result:
     result = visibility(seeds=seeds)
     level = result.index("fog")
     rows = tuple(row for row in result.rows if row[level] == 0.0)
-    return replace(result, rows=rows, missing=())
+    return replace(result, rows=rows, missing_values=())
 
 
 @pytest.mark.parametrize(("n", "has_box"), [(2, False), (6, True)])

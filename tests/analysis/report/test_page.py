@@ -131,7 +131,9 @@ def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
         run=RunInfo(algorithm=EVIL, mode=EVIL, parameters={EVIL: [EVIL]}, others={EVIL: EVIL}),
         columns=tuple(columns),
         rows=tuple(rows),
-        missing=tuple(MissingValue(row=m.row, column="total", why=EVIL) for m in base.missing),
+        missing_values=tuple(
+            MissingValue(row=m.row, column="total", reason=EVIL) for m in base.missing_values
+        ),
         facts={EVIL: (1.0, EVIL), "f_star": (1.1, EVIL), "d": (1.3, "m")},
         image_streams=tuple(replace(s, topic=EVIL, sha256=EVIL) for s in base.image_streams),
     )
@@ -254,7 +256,7 @@ def test_letters_of_no_font_are_drawn_without_a_warning(tmp_path: Path) -> None:
 
 
 def test_a_result_with_no_rows_has_a_report(tmp_path: Path) -> None:
-    empty = replace(visibility(), rows=(), missing=())
+    empty = replace(visibility(), rows=(), missing_values=())
     assert "No level was run" in page_of(empty, tmp_path).text
 
 
@@ -335,12 +337,12 @@ def test_reasons_that_differ_in_numbers_alone_are_reported_once_and_counted(tmp_
     base = visibility()
     notes = [
         MissingValue(
-            row=row, column="total", why=f"tracker lost at {row}.5 s: ZNCC 0.{row} on 5 frames"
+            row=row, column="total", reason=f"tracker lost at {row}.5 s: ZNCC 0.{row} on 5 frames"
         )
         for row in (24, 25)
     ]
-    notes.append(MissingValue(row=26, column="total", why="no estimate for 1.5 s"))
-    text = page_of(replace(base, missing=tuple(notes)), tmp_path).text
+    notes.append(MissingValue(row=26, column="total", reason="no estimate for 1.5 s"))
+    text = page_of(replace(base, missing_values=tuple(notes)), tmp_path).text
     assert "2 × tracker lost at 24.5 s: ZNCC 0.24 on 5 frames" in text
     assert "1 × no estimate for 1.5 s" in text
 
@@ -348,9 +350,9 @@ def test_reasons_that_differ_in_numbers_alone_are_reported_once_and_counted(tmp_
 def test_a_long_reason_is_not_repeated_in_every_line(tmp_path: Path) -> None:
     base = visibility()
     long = "tracker raised: " + "a very long message of a library " * 5
-    notes = [MissingValue(row=row, column="total", why=f"{long}{row}") for row in (24, 25)]
-    notes.append(MissingValue(row=26, column="total", why=f"{long}25"))
-    text = page_of(replace(base, missing=tuple(notes)), tmp_path).text
+    notes = [MissingValue(row=row, column="total", reason=f"{long}{row}") for row in (24, 25)]
+    notes.append(MissingValue(row=26, column="total", reason=f"{long}25"))
+    text = page_of(replace(base, missing_values=tuple(notes)), tmp_path).text
     assert "as above, with other numbers" in text
     assert re.search(r"as above(?!,)", text)
 
@@ -504,8 +506,8 @@ def test_where_a_body_is_in_the_image_has_no_floor(tmp_path: Path) -> None:
 def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
     base = visibility()
     rows = tuple((0.001 * i, *base.rows[26][1:]) for i in range(5_000))
-    notes = tuple(MissingValue(row=i, column="total", why=WHY * 4) for i in range(5_000))
-    page = page_of(replace(base, rows=rows, missing=notes), tmp_path)
+    notes = tuple(MissingValue(row=i, column="total", reason=WHY * 4) for i in range(5_000))
+    page = page_of(replace(base, rows=rows, missing_values=notes), tmp_path)
     assert len(page.source) < 2_000_000
     assert "The first 1000 of 5000 levels" in page.text
 

@@ -184,7 +184,7 @@ class Late:
             if node.now > 0.25:
                 publish(Float64MultiArray(layout=layout, data=np.array([node.now])))
 
-        node.every(0.1, speak)
+        node.create_timer(0.1, speak)
 """
 
 
@@ -203,12 +203,12 @@ def test_in_a_run_what_comes_late_has_its_columns_and_what_is_missing_its_reason
     result = run(file, tmp_path / "out", algorithm="late:Late")
     assert result.values("status") == ("ok", "ok")
     assert result.numbers("m") == (None, pytest.approx(0.1))
-    assert result.why(0, "m") == "no command on 'own'"
+    assert result.reason(0, "m") == "no command on 'own'"
     assert result.numbers("m.u0.effort")[0] is None
     assert result.columns[result.index("m.effort")].unit == "s"
     energies = result.numbers("e")
     assert all(energy is not None and energy > 0.0 for energy in energies)
-    assert result.why(1, "e.charge") == "no <battery> is given"
+    assert result.reason(1, "e.charge") == "no <battery> is given"
     assert result.reasons(1) == ()
     log = (tmp_path / "out" / "measure-e.csv").read_text().splitlines()
     assert log[0].endswith("time [s],energy [J],power [W],charge [1]")
@@ -223,4 +223,6 @@ def test_a_vehicle_that_is_not_simulated_leaves_the_score_empty_and_says_why(
     file.write_text(text.replace("<interval>1", "<interval>0.1"))
     result = run(file, tmp_path / "out", algorithm="frozen")
     assert (result.values("m"), result.values("total")) == ((None,), (None,))
-    assert result.why(0, "m") == ("the vehicle 'girona500' has no <u:dynamics>: nothing drives it")
+    assert result.reason(0, "m") == (
+        "the vehicle 'girona500' has no <u:dynamics>: nothing drives it"
+    )

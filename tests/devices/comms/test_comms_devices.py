@@ -181,10 +181,10 @@ def test_what_is_left_of_the_energy_is_published(tmp_path: Path) -> None:
     model = EnergyModelSpec(energy_level=100.0, p_t_consume=20.0, p_r_consume=1.0, p_idle=0.1)
     scene = scene_in(tmp_path, lambda name, mac: modem(name, mac, energy_model=model))
     with open_scene(scene, timestep=0.01) as simulation:
-        simulation.latest("/left_modem/energy")
+        simulation.latest_message("/left_modem/energy")
         simulation.publish("/left_modem/tx", packet(bytes(25)))  # 0.4 s
         simulation.advance(2.0)
-        left = simulation.latest("/left_modem/energy").data
+        left = simulation.latest_message("/left_modem/energy").data
     assert left == pytest.approx(100.0 - 20.0 * 0.4 - 0.1 * 1.6)
 
 
@@ -250,9 +250,9 @@ def test_the_interface_publishes_the_links_visual_frame_and_the_frame_of_the_dev
             object,
             lambda m: frames.update({m.transforms[0].child_frame_id: m.transforms[0]}),
         )
-        simulation.latest("/modem/pose")
+        simulation.latest_message("/modem/pose")
         simulation.advance(0.2)
-        pose = simulation.latest("/modem/pose").position
+        pose = simulation.latest_message("/modem/pose").position
     assert [pose.x, pose.y, pose.z] == pytest.approx([6.0, 6.0, -7.5])  # W: x east, z up
     assert frames["rov/modem"].header.frame_id == "rov/mast"
     moved = frames["rov/modem"].transform

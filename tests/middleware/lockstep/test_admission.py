@@ -87,7 +87,7 @@ class Run:
         )
         self.client: Any = make_external_client(spec, [self.outside], timestep=TIMESTEP)
         self.node = InProcessNode(
-            self.bus, name="a", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+            self.bus, name="a", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
         )
 
     def _start(self, request: Empty) -> EmptyResponse:

@@ -83,7 +83,7 @@ def started(
 
 def node_of(bus: Bus, client: LockStepClient) -> InProcessNode:
     node = InProcessNode(
-        bus, name=client.name, timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+        bus, name=client.name, timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
     )
     node.run(client)
     assert node.error is None
@@ -536,7 +536,7 @@ def test_a_topic_for_observers_is_not_for_clients() -> None:
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
     outside.says(JOIN, client="a", topics=["/depth"])
     node = InProcessNode(
-        bus, name="a", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+        bus, name="a", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
     )
     node.run(client)
     assert "for observers of the run" in str(node.error)

@@ -73,7 +73,7 @@ class Sea:
         )
         self.client = OutputClient(self.outside, spec, timestep=TIMESTEP)
         self.node = InProcessNode(
-            self.bus, name="n", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+            self.bus, name="n", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
         )
 
     def start(self) -> None:

@@ -66,7 +66,7 @@ def attached(outside: Outside, limit: float = 60.0) -> InProcessNode:
     connection = ConnectionSpec(web=WebOptions(port=0))
     spec = ClientSpec(name="s", connection=connection, limit=limit, sync="step")
     node = InProcessNode(
-        outside.bus, name="s", timestep=TIMESTEP, random=np.random.default_rng(0), parameters={}
+        outside.bus, name="s", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
     )
     node.run(StepClient(outside, spec, timestep=TIMESTEP))
     assert node.error is None

@@ -36,9 +36,9 @@ class Sea:
 
     def odometry(self) -> uwsim.messages.Odometry:
         """The newest odometry."""
-        self.simulation.latest("/uwsim/girona500/odom")
+        self.simulation.latest_message("/uwsim/girona500/odom")
         self.simulation.advance(0.2)
-        found = self.simulation.latest("/uwsim/girona500/odom")
+        found = self.simulation.latest_message("/uwsim/girona500/odom")
         assert isinstance(found, uwsim.messages.Odometry)
         return found
 

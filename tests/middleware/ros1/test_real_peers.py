@@ -84,10 +84,10 @@ def test_a_program_of_the_originals_kind_moves_the_arm(sea: Sea) -> None:
     program = sea.peers.start(
         "set_joint_position.py", "/uwsim/joint_state_command", *("0.3", "0.5", "1", "0", "0.2")
     )
-    sea.simulation.latest("/uwsim/joint_state")
+    sea.simulation.latest_message("/uwsim/joint_state")
 
     def slew() -> float:
-        found = sea.simulation.latest("/uwsim/joint_state")
+        found = sea.simulation.latest_message("/uwsim/joint_state")
         return math.nan if found is None else float(found.position[0])
 
     until(lambda: math.isclose(slew(), 0.3, abs_tol=1e-6), sea.advance)

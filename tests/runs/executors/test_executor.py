@@ -72,7 +72,7 @@ def test_what_kills_every_worker_is_reported_in_its_row_and_tried_again_when_res
     result, _ = run_all([deadly, good], ProcessExecutor(2))
     assert result.values("status") == ("ok", "algorithm error", "algorithm error")
     said = f"{ALGORITHMS}:Mortal was stopped at 0.268 s: its process ended (killed by SIGKILL)"
-    assert result.why(1, "total") == result.why(2, "total") == said
+    assert result.reason(1, "total") == result.reason(2, "total") == said
     assert load(tmp_path / "good").values("status") == ("ok",) * 6
     (tmp_path / "immortal").touch()
     run_all([bench_of(benchmark, tmp_path / "deadly", **mortal(tmp_path, "always"))])

@@ -36,11 +36,11 @@ class Does:
     def start(self, node: Node) -> None:
         self.node, self.n = node, 0
         self.publish = node.publisher(TOPIC, Float32MultiArray)
-        node.every(0.1, self.tick)
+        node.create_timer(0.1, self.tick)
 
     def tick(self) -> None:
         self.n += 1
-        self.publish(floats([self.node.random.normal() + self.node.now]))
+        self.publish(floats([self.node.rng.normal() + self.node.now]))
         if self.n == 5:
             self.act()
 
@@ -120,7 +120,7 @@ class Recovers(Does):
     def act(self) -> None:
         for mistake in (
             lambda: self.node.call("nobody", Empty()),
-            lambda: self.node.every(-1.0, self.act),
+            lambda: self.node.create_timer(-1.0, self.act),
             lambda: self.node.subscribe(TOPIC, String, print),
         ):
             with suppress(UnknownName, BadSetting):
@@ -262,7 +262,7 @@ class AsksLater(Does):
     def start(self, node: Node) -> None:
         super().start(node)
         self.parameters = node.parameters
-        node.every(0.3, lambda: float(node.parameters.get("gain", 1.0)))
+        node.create_timer(0.3, lambda: float(node.parameters.get("gain", 1.0)))
 
 
 class GoesThrough(Does):

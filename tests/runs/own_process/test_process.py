@@ -78,7 +78,7 @@ class Narrow:
 
 
 def node_of(bus: Bus) -> InProcessNode:
-    return InProcessNode(bus, name="a", timestep=0.1, random=stream(0, "a"), parameters={})
+    return InProcessNode(bus, name="a", timestep=0.1, rng=stream(0, "a"), parameters={})
 
 
 @pytest.mark.parametrize("own", [True, False])
@@ -259,7 +259,7 @@ def test_an_algorithm_that_hangs_costs_its_rows_with_any_executor(
     )
     (result,) = run_all([run], executor if workers else SerialExecutor(callback_limit=limit))
     why = "algorithm was stopped at 0.4 s: a callback took longer than --callback-limit"
-    assert [result.why(row, "total") for row in range(len(result.rows))] == [why, why]
+    assert [result.reason(row, "total") for row in range(len(result.rows))] == [why, why]
     assert run.n_lost == 0, "the trial is not run again"
 
 
@@ -284,12 +284,12 @@ from uwsim.runs.own_process.process import OwnProcess, ProcessAlgorithm
 from tests.runs.own_process.programs import Hangs
 
 class Node:
-    now, parameters, random = 0.0, {{}}, np.random.default_rng(0)
+    now, parameters, rng = 0.0, {{}}, np.random.default_rng(0)
 
     def publisher(self, topic, type):
         return lambda message: None
 
-    def every(self, period, callback):
+    def create_timer(self, period, callback):
         print(process.pid, flush=True)
         for _ in range(5):
             callback()

@@ -90,7 +90,7 @@ class Guesses:
         self.corners = node.publisher("cornersTopic", Float32MultiArray)
         self.centroid = node.publisher("centroidTopic", Float32MultiArray)
         node.serve("autoInit", GTpublish, self.listen)
-        node.every(0.002, self.guess)
+        node.create_timer(0.002, self.guess)
         node.call("startBench", Empty())
 
     def listen(self, request: GTpublish) -> GTpublishResponse:

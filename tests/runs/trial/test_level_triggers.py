@@ -40,7 +40,7 @@ class Timetable:
         self.done: set[float] = set()
         self.ready = node.publisher("ready", Bool)
         self.stop = node.publisher("done", Bool)
-        node.every(0.01, self.look)
+        node.create_timer(0.01, self.look)
 
     def look(self) -> None:
         for time, what in self.DO.items():
@@ -168,7 +168,7 @@ def test_any_message_starts_a_benchmark_that_waits_for_a_topic(tmp_path: Path) -
     class Speaks(Idle):
         def start(self, node: Node) -> None:
             say = node.publisher("go", String)
-            node.every(0.4, lambda: say(String(data="now")))
+            node.create_timer(0.4, lambda: say(String(data="now")))
 
     plan = make_plan(tmp_path, Speaks, REPEAT, start="<type>topic</type> <target>go</target>")
     assert len(rows_of(plan)) == 3

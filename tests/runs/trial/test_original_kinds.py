@@ -127,7 +127,7 @@ def test_unending_ends_in_timeout_and_keeps_what_the_world_measured(
     assert result.numbers("place") == pytest.approx([away], abs=1e-4)  # it lies on the floor
     assert result.numbers("guess") == pytest.approx([0.0], abs=1e-3)  # it waited for nothing
     assert result.values("total") == (None,)
-    assert result.why(0, "total") == "stopOn did not go on within 3 s"
+    assert result.reason(0, "total") == "stopOn did not go on within 3 s"
     (guess,) = result.numbers("guess")
     assert played.dat()[1] == f"1\t3\t1\t{away:g}\t0\t{guess:g}\tnan\t3\t"
 

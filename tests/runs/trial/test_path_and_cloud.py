@@ -81,7 +81,7 @@ class Guides:
         node.publisher("goal", PoseStamped)(stamped(2.0, 3.0, 2.515))
         self.send = node.publisher("points", PointCloud2)
         self.points = above_the_box()
-        node.every(0.1, lambda: self.send(point_cloud(self.points)))
+        node.create_timer(0.1, lambda: self.send(point_cloud(self.points)))
 
 
 class IsLost(Guides):

@@ -85,7 +85,7 @@ def test_bench_runs_the_other_trials_and_ends_with_the_status_of_a_failed_run(
     result, whole = load(out), load(tmp_path / "whole")
     assert result.values("status") == ("ok", "simulation error", "ok")
     assert [result.rows[0], result.rows[2]] == [whole.rows[0], whole.rows[2]]
-    assert result.why(1, "corners") == result.why(1, "total") == WHY
+    assert result.reason(1, "corners") == result.reason(1, "total") == WHY
     for index in (0, 2):
         assert path_of(out, index).read_bytes() == path_of(tmp_path / "whole", index).read_bytes()
     assert "simulation error" in (out / "report.html").read_text()

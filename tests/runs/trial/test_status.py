@@ -123,7 +123,7 @@ class Drives:
     def start(self, node: Node) -> None:
         say = node.publisher("/thrusters", Float64MultiArray)
         layout = MultiArrayLayout(dim=[], data_offset=0)
-        node.every(1.0, lambda: say(Float64MultiArray(layout=layout, data=self.data)))
+        node.create_timer(1.0, lambda: say(Float64MultiArray(layout=layout, data=self.data)))
 
 
 class DrivesWithWords(Drives):

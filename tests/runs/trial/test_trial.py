@@ -127,7 +127,7 @@ def test_an_algorithm_that_raises_fails_its_rows_and_no_other_measure(
         "tests.support.failing:Raises raised at 0.1 s: "
         f"failing.py:{line}: ZeroDivisionError: no focus"
     )
-    assert result.why(0, "corners") == raised
+    assert result.reason(0, "corners") == raised
 
 
 def test_an_error_of_a_library_is_put_on_the_line_of_the_algorithm_that_called_it() -> None:
@@ -146,7 +146,7 @@ def test_an_error_of_a_library_is_put_on_the_line_of_the_algorithm_that_called_i
 def test_an_algorithm_that_reports_its_failure_has_failed(benchmark: Path, tmp_path: Path) -> None:
     result = run(benchmark, tmp_path / "a", algorithm="tests.support.failing:Fails")
     assert result.values("status")[0] == "algorithm error"
-    assert "no template" in str(result.why(0, "corners"))
+    assert "no template" in str(result.reason(0, "corners"))
 
 
 def test_silence_for_more_than_a_second_is_a_timeout(tmp_path: Path) -> None:
@@ -158,7 +158,7 @@ def test_silence_for_more_than_a_second_is_a_timeout(tmp_path: Path) -> None:
         in_process=True,
     )
     assert result.values("status") == ("timeout",)
-    assert "no estimate" in str(result.why(0, "corners"))
+    assert "no estimate" in str(result.reason(0, "corners"))
 
 
 def test_the_last_estimate_received_is_valid_in_the_original(tmp_path: Path) -> None:
@@ -220,7 +220,7 @@ def test_a_setting_of_the_scene_reaches_the_camera(benchmark: Path, tmp_path: Pa
 def test_an_algorithm_that_calls_exit_fails_alone(benchmark: Path, tmp_path: Path) -> None:
     result = run(benchmark, tmp_path / "a", algorithm=f"{ALGORITHMS}:Leaves", levels=["fog=0"])
     assert result.values("status") == ("algorithm error",)
-    assert "SystemExit" in str(result.why(0, "corners"))
+    assert "SystemExit" in str(result.reason(0, "corners"))
 
 
 @pytest.mark.slow
@@ -238,7 +238,7 @@ def test_what_an_algorithm_says_is_one_printable_line(benchmark: Path, tmp_path:
         levels=["fog=0"],
         in_process=True,
     )
-    why = str(result.why(0, "corners"))
+    why = str(result.reason(0, "corners"))
     assert why.isprintable()
     assert r"\x1b[31mred\nnext" in why
 

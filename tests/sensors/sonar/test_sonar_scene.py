@@ -25,10 +25,12 @@ def heard(text: str, folder: Path) -> tuple[ProjectedSonarImage, np.ndarray]:
     file.write_text(text)
     with open_scene(read_scene(file), seed=3, is_blind=True) as simulation:
         assert simulation.topics["rov/fls"] == "marine_acoustic_msgs/msg/ProjectedSonarImage"
-        simulation.latest("/rov/fls_image")
-        simulation.latest("/rov/fls")
+        simulation.latest_message("/rov/fls_image")
+        simulation.latest_message("/rov/fls")
         simulation.advance(0.2)
-        return simulation.latest("/rov/fls"), pixels_of(simulation.latest("/rov/fls_image"))
+        return simulation.latest_message("/rov/fls"), pixels_of(
+            simulation.latest_message("/rov/fls_image")
+        )
 
 
 @pytest.mark.slow

@@ -84,10 +84,10 @@ def test_a_marker_goes_when_its_lifetime_is_over(simulation: uwsim.Simulation) -
 
 def test_markers_are_on_tf_with_the_objects() -> None:
     with uwsim.load(SCENE) as simulation:
-        simulation.latest("/tf")
+        simulation.latest_message("/tf")
         spawn(simulation, pose=Pose(position=Point(1.0, 2.0, 3.0)))
         simulation.advance(0.1)
-        frames = {each.child_frame_id: each for each in simulation.latest("/tf").transforms}
+        frames = {each.child_frame_id: each for each in simulation.latest_message("/tf").transforms}
         found = frames["7+buoy"]
         assert found.header.frame_id == "world"
         place = found.transform.translation

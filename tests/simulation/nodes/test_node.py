@@ -14,7 +14,7 @@ def make_node(bus: Bus, **parameters: float | str) -> InProcessNode:
         bus,
         name="me",
         timestep=0.002,
-        random=np.random.Generator(np.random.Philox(1)),
+        rng=np.random.Generator(np.random.Philox(1)),
         parameters=parameters,
     )
 
@@ -66,7 +66,7 @@ def test_a_timer_fires_once_a_period_from_the_step_it_was_set() -> None:
     node = make_node(bus)
     fired = []
     bus.step = 3
-    node.every(0.01, lambda: fired.append(bus.step))
+    node.create_timer(0.01, lambda: fired.append(bus.step))
     for step in range(3, 20):
         bus.step = step
         node.tick()
@@ -76,7 +76,7 @@ def test_a_timer_fires_once_a_period_from_the_step_it_was_set() -> None:
 @pytest.mark.parametrize("period", [0.0, -1.0, math.inf, math.nan])
 def test_a_period_that_is_no_time_is_refused(period: float) -> None:
     with pytest.raises(BadSetting, match="timer's period"):
-        make_node(Bus()).every(period, lambda: None)
+        make_node(Bus()).create_timer(period, lambda: None)
 
 
 def test_services_of_a_closed_node_are_gone() -> None:

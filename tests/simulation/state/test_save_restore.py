@@ -28,9 +28,9 @@ def record(simulation: uwsim.Simulation, seconds: float) -> list[bytes]:
         motion.read(row)
         seen.append(row.tobytes())
         for topic in sorted(simulation.topics):
-            newest = simulation.latest(topic)
+            newest = simulation.latest_message(topic)
             seen.append(repr(newest).encode() if newest is not None else b"")
-        image = simulation.latest("/uwsim/camera1")
+        image = simulation.latest_message("/uwsim/camera1")
         seen.append(b"" if image is None else image.data.tobytes())
     return seen
 
@@ -48,7 +48,7 @@ def test_what_follows_is_the_same_to_the_bit(scene: str) -> None:
     with uwsim.load(scene, seed=4) as simulation:
         command(simulation)
         for topic in simulation.topics:
-            simulation.latest(topic)
+            simulation.latest_message(topic)
         simulation.advance(0.3)
         command(simulation)  # on its way when the state is saved
         simulation.advance()
@@ -162,7 +162,7 @@ class Counting:
 
     def start(self, node: uwsim.Node) -> None:
         drive = node.publisher("/dataNavigator", TwistStamped)
-        random = node.random
+        random = node.rng
 
         def steer() -> None:
             twist = TwistStamped()
@@ -170,7 +170,7 @@ class Counting:
             drive(twist)
 
         node.subscribe("/uwsim/camera1_info", CameraInfo, self.hear)
-        node.every(0.03, steer)
+        node.create_timer(0.03, steer)
 
     def hear(self, _message: CameraInfo) -> None:
         self.n_heard += 1
@@ -253,7 +253,7 @@ class Counts:
         self.n, self.fails_at = 0, fails_at
 
     def start(self, node: uwsim.Node) -> None:
-        node.every(0.1, self.tick)
+        node.create_timer(0.1, self.tick)
 
     def tick(self) -> None:
         self.n += 1

@@ -193,7 +193,7 @@ def opened(scene: str) -> uwsim.Simulation:
     path = EVERYTHING if scene == "everything" else bundled_files("scenes")[scene]
     simulation = open_scene(read_scene(path), seed=3)
     for topic in sorted(simulation.topics):
-        simulation.latest(topic)
+        simulation.latest_message(topic)
     return simulation
 
 

@@ -19,6 +19,9 @@ NEUTRAL_BASES = ENUMERATIONS | word_set(
 PROPERTIES = word_set("property cached_property fixture getter setter")
 """The decorators of functions whose docstring is a noun phrase."""
 
+DEPRECATION = "deprecated"
+"""The decorator of a function with an old public name, which no rule concerns."""
+
 
 @dataclass(frozen=True, slots=True)
 class Name:
@@ -194,6 +197,8 @@ class _Collector:
 
     def _visit_function(self, node: ast.FunctionDef | ast.AsyncFunctionDef) -> None:
         names = {_last_name(decorator) for decorator in node.decorator_list}
+        if DEPRECATION in names:
+            return
         scope, function, is_enumeration = self._scope, self._function, self._is_enumeration
         name = f"{scope}.{node.name}" if scope else node.name
         if not self._is_prescribed(node.name):

@@ -29,9 +29,9 @@ class NodeView:
         return self._parameters
 
     @property
-    def random(self) -> np.random.Generator:
+    def rng(self) -> np.random.Generator:
         """The algorithm's random stream."""
-        return self._node.random
+        return self._node.rng
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Have ``callback`` called with every message on ``topic``."""
@@ -49,6 +49,6 @@ class NodeView:
         """Call a service."""
         return self._node.call(name, request)
 
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s``."""
-        self._node.every(period_s, callback)
+        self._node.create_timer(period_s, callback)

@@ -175,7 +175,7 @@ class Grasp:
             product(rotation_from_rpy(*mount), OPENCV_FROM_OPENGL),
         )
         self._subscribe(node)
-        node.every(PERIOD, self._tick)
+        node.create_timer(PERIOD, self._tick)
 
     def _subscribe(self, node: Node) -> None:
         self._navigator = self.navigation(node)

@@ -144,7 +144,7 @@ class GraspBlindClose:
         self._say_twist = node.publisher(str(self.parameters["twist_topic"]), TwistStamped)
         self._say_joints = node.publisher(str(self.parameters["arm_topic"]), JointState)
         self._say_phase(String(data="search"))
-        node.every(0.1, self._tick)
+        node.create_timer(0.1, self._tick)
 
     def _tick(self) -> None:
         """Down for a fifth of a round, close, up for a fifth."""

@@ -51,7 +51,7 @@ def json_text(comparison: Comparison) -> str:
 
 def csv_text(comparison: Comparison) -> str:
     """Return the text of ``comparison.csv``."""
-    labels = [column.label for column in comparison.entries[0].result.of_kind("level")]
+    labels = [column.label for column in comparison.entries[0].result.columns_of_kind("level")]
     lines: list[tuple[list[object], Fields]] = []
     for versus in comparison.versus:
         names = [versus.first.name, versus.second.name]

@@ -74,7 +74,7 @@ def shared_column(entries: Sequence[Entry], name: str | None) -> Column:
     """
     first = entries[0].result
     if name is None:
-        scores = first.of_kind("score") + first.of_kind("measure")
+        scores = first.columns_of_kind("score") + first.columns_of_kind("measure")
         if not scores:
             raise ResultError(f"{entries[0].source}: has neither a score nor a measure.")
         name = scores[0].name
@@ -82,7 +82,10 @@ def shared_column(entries: Sequence[Entry], name: str | None) -> Column:
     if columns[0].kind not in ("score", "measure", "detail", "time"):
         raise ResultError(f"--measure {name}: is a {columns[0].kind}, not something measured.")
     for what, values in (
-        ("sweep different levels", [_labels(entry.result.of_kind("level")) for entry in entries]),
+        (
+            "sweep different levels",
+            [_labels(entry.result.columns_of_kind("level")) for entry in entries],
+        ),
         (f"have {name} in different units", [column.unit or "no unit" for column in columns]),
     ):
         if len(set(values)) > 1:

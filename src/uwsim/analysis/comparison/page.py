@@ -47,7 +47,8 @@ def render(comparison: Comparison, plots: Sequence[Path]) -> str:
                 "second": versus.second.name,
                 "words": sentences(comparison, versus),
                 "levels": [
-                    (column.name, column.unit) for column in versus.first.result.of_kind("level")
+                    (column.name, column.unit)
+                    for column in versus.first.result.columns_of_kind("level")
                 ],
                 "lines": lines(comparison, versus),
             }

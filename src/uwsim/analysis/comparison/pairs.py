@@ -92,7 +92,7 @@ def _rows(entry: Entry) -> dict[tuple[int, Level, int], int]:
 
 
 def _endings(result: Result) -> tuple[bool | None, ...]:
-    status = result.of_kind("status")
+    status = result.columns_of_kind("status")
     if not status:
         return (None,) * len(result.rows)
     return tuple(cell == "ok" for cell in result.values(status[0].name))

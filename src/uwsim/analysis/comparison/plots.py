@@ -244,7 +244,7 @@ def _bars(bars: Sequence[Bar], label: str, *, zero: bool) -> Figure:
 
 
 def _label_levels(axes: Axes, comparison: Comparison) -> None:
-    column = comparison.entries[0].result.of_kind("level")[-1]
+    column = comparison.entries[0].result.columns_of_kind("level")[-1]
     xs = sorted({level[-1] for level in comparison.levels})
     pad = 0.03 * (xs[-1] - xs[0])
     axes.set_xlim(xs[0] - pad, xs[-1] + pad)
@@ -252,7 +252,7 @@ def _label_levels(axes: Axes, comparison: Comparison) -> None:
 
 
 def _has_one_level(comparison: Comparison) -> bool:
-    columns: tuple[Column, ...] = comparison.entries[0].result.of_kind("level")
+    columns: tuple[Column, ...] = comparison.entries[0].result.columns_of_kind("level")
     return not columns or len(comparison.levels) == 1
 
 
@@ -273,5 +273,5 @@ def _pair(versus: Versus) -> str:
 
 
 def _outer(entry: Entry, outer: tuple[float, ...]) -> str:
-    columns = entry.result.of_kind("level")[:-1]
+    columns = entry.result.columns_of_kind("level")[:-1]
     return ", ".join(level_text(c, value) for c, value in zip(columns, outer, strict=True))

@@ -189,7 +189,7 @@ def _single_levels(comparison: Comparison, versus: Versus) -> str:
     tested = [at for at in versus.levels if at.value.p is not None]
     if len(versus.levels) < 2 or not tested:
         return ""
-    columns = versus.first.result.of_kind("level")
+    columns = versus.first.result.columns_of_kind("level")
     parts = []
     for entry, verdict in ((versus.first, "first"), (versus.second, "second")):
         levels = [at for at in versus.levels if at.value.verdict == verdict]
@@ -256,7 +256,7 @@ def _success(versus: Versus) -> str:
         )
         winner = {"first": versus.first, "second": versus.second}.get(d.verdict)
         text += f"{winner.name} more often." if winner else f"{_open(d)}."
-    columns = versus.first.result.of_kind("level")
+    columns = versus.first.result.columns_of_kind("level")
     shown = [
         at
         for at in versus.levels

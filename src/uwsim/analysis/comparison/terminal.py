@@ -78,7 +78,7 @@ class ComparisonLine:
 
 def lines(comparison: Comparison, versus: Versus) -> tuple[ComparisonLine, ...]:
     """Return the table of one pair of results, a line a level."""
-    columns = versus.first.result.of_kind("level")
+    columns = versus.first.result.columns_of_kind("level")
     decimals = [exact_decimals([at.level[i] for at in versus.levels]) for i in range(len(columns))]
     means = [v for at in versus.levels for v in (at.value.first.mean, at.value.second.mean) if v]
     places = sensible_decimals(means)
@@ -137,7 +137,7 @@ def _matrix(comparison: Comparison, width: int) -> Iterator[RenderableType]:
 
 def _table(comparison: Comparison, versus: Versus, width: int) -> Table:
     found = lines(comparison, versus)
-    columns = _columns(versus.first.result.of_kind("level"), versus, found)
+    columns = _columns(versus.first.result.columns_of_kind("level"), versus, found)
     for kind in GIVES_WAY:
         if sum(column.width + 2 for column in columns) > width:
             columns = [column for column in columns if column.kind != kind]

@@ -66,7 +66,7 @@ class Curve:
 
 def curves_of(result: Result, column: str) -> list[Curve]:
     """Return one curve, or with nested levels one for each combination of the outer ones."""
-    outer = result.of_kind("level")[:-1]
+    outer = result.columns_of_kind("level")[:-1]
     numbers, rows = result.numbers(column), rows_by_level(result)
     found: dict[tuple[float, ...], list[LevelInterval]] = {}
     for entry in intervals_of(result, column):
@@ -113,7 +113,7 @@ def algorithm_of(result: Result) -> str:
 
 def repeats_of(result: Result) -> list[tuple[object, ...]]:
     """Return which repeat every row belongs to: its cells of kind ``run``."""
-    runs = [result.index(column.name) for column in result.of_kind("run")]
+    runs = [result.index(column.name) for column in result.columns_of_kind("run")]
     return [tuple(row[i] for i in runs) for row in result.rows]
 
 
@@ -122,8 +122,8 @@ def _or_nan(value: float | None) -> float:
 
 
 def _losses(result: Result, outer: tuple[float, ...]) -> tuple[tuple[float, str], ...]:
-    status = result.of_kind("status")
-    if not status or not result.of_kind("level"):
+    status = result.columns_of_kind("status")
+    if not status or not result.columns_of_kind("level"):
         return ()
     cells = result.values(status[0].name)
     repeats = repeats_of(result)

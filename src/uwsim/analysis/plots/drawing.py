@@ -229,7 +229,7 @@ def draw_end(axes: Axes, curve: Curve, look: Look) -> None:
 
 def draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
     """Draw f*, the fog at which the ZNCC is expected to reach its threshold."""
-    fact, levels = result.fact("f_star"), result.of_kind("level")
+    fact, levels = result.fact("f_star"), result.columns_of_kind("level")
     if fact is None or not is_fog_swept(result):
         return
     low, high = axes.get_xlim()
@@ -253,7 +253,7 @@ def _two_decimals(number: float) -> str:
 
 def is_fog_swept(result: Result) -> bool:
     """Whether the axis of the plots is fog, as a density or as a length."""
-    levels = result.of_kind("level")
+    levels = result.columns_of_kind("level")
     return bool(levels) and levels[-1].name in ("fog", *LENGTHS)
 
 
@@ -275,7 +275,7 @@ def _write_above(axes: Axes, x: float, text: str, colour: str, *, line: int) -> 
 
 def label_axes(axes: Axes, result: Result, column: Column, *, fold: int = FOLD) -> None:
     """Label the axes with units; ticks are at the levels where these are few."""
-    levels = result.of_kind("level")
+    levels = result.columns_of_kind("level")
     if levels:
         axes.set_xlabel(plain(level_label(levels[-1])))
         xs = sorted({level[-1] for level in rows_by_level(result)})

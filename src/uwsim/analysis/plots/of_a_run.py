@@ -58,14 +58,14 @@ def draw_run_plots(
         except ResultError:
             continue  # a damaged log has no plot
         logs[path.stem] = log
-    order = {column.name: i for i, column in enumerate(result.of_kind("measure"))}
+    order = {column.name: i for i, column in enumerate(result.columns_of_kind("measure"))}
     files = file_names(logs, taken=[TRACK, ONE_LEVEL])
     for stem, log in sorted(logs.items(), key=lambda each: order.get(each[1].measure, len(order))):
         figure = over_time_plot(result, log)
         if figure is not None:
             name = files[stem].removeprefix("measure-")
             path = save_plot(figure, folder / f"{name}{OVER_TIME}.png")
-            n_seeds = len({row[0] for row in result.rows}) if result.of_kind("run") else 1
+            n_seeds = len({row[0] for row in result.rows}) if result.columns_of_kind("run") else 1
             note = note_of(n_seeds)
             caption = "over the time of the level" + (f"; {note}" if note else "")
             plots.append(RunPlot(path=path, measure=log.measure, caption=caption))

@@ -16,7 +16,7 @@ NOTE = "dots: repeats; circle: mean with its 95 % interval; boxes: quartiles and
 
 def one_level_plot(result: Result) -> Figure | None:
     """Draw the values of all repeats, a row for each column; None where no column has values."""
-    columns = result.of_kind("score") + result.of_kind("measure")
+    columns = result.columns_of_kind("score") + result.columns_of_kind("measure")
     found = [(column, curves_of(result, column.name)) for column in columns]
     drawn = [(column, curves[0]) for column, curves in found if curves and curves[0].values[0]]
     if not drawn:

@@ -57,7 +57,7 @@ def value_plot(result: Result, column: str, *, control: Result | None = None) ->
 
 def small_multiples(result: Result, *, control: Result | None = None) -> Figure:
     """Draw every measure and the total over the same levels, in two columns if there are many."""
-    columns = result.of_kind("measure", "score")
+    columns = result.columns_of_kind("measure", "score")
     drawn = [curves_of(result, column.name) for column in columns]
     n_curves = max(map(len, drawn), default=0)
     across = 2 if len(columns) > MAX_IN_A_COLUMN else 1
@@ -146,7 +146,10 @@ def draw_plots(
         if pdf:
             save_pdf(figure, files[-1].with_suffix(".pdf"))
 
-    names = [column.name for column in result.of_kind("score") + result.of_kind("measure")]
+    names = [
+        column.name
+        for column in result.columns_of_kind("score") + result.columns_of_kind("measure")
+    ]
     for name, file in file_names(names, taken=[OVERVIEW]).items():
         save(value_plot(result, name, control=control), file)
     if len(files) > 1:
@@ -164,11 +167,13 @@ def _same_axes(results: Sequence[Result], column: str) -> None:
         raise ResultError("There is nothing to compare: no result was given.")
     first = results[0]
     for other in results[1:]:
-        if [c.name for c in other.of_kind("level")] != [c.name for c in first.of_kind("level")]:
+        if [c.name for c in other.columns_of_kind("level")] != [
+            c.name for c in first.columns_of_kind("level")
+        ]:
             raise ResultError(
                 "These results sweep different things: "
-                f"{', '.join(c.name for c in first.of_kind('level'))} and "
-                f"{', '.join(c.name for c in other.of_kind('level'))}."
+                f"{', '.join(c.name for c in first.columns_of_kind('level'))} and "
+                f"{', '.join(c.name for c in other.columns_of_kind('level'))}."
             )
         units = [r.columns[r.index(column)].unit for r in (first, other)]
         if units[0] != units[1]:

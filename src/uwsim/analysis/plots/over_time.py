@@ -50,8 +50,8 @@ class Samples:
 def samples_of(result: Result, log: Log) -> dict[Level, Samples]:
     """Return the samples of a log by level, in the order of the log; times without a value stay."""
     time = log.header.index(TIME)
-    levels = [log.header.index(column.label) for column in result.of_kind("level")]
-    runs = [log.header.index(column.label) for column in result.of_kind("run")]
+    levels = [log.header.index(column.label) for column in result.columns_of_kind("level")]
+    runs = [log.header.index(column.label) for column in result.columns_of_kind("run")]
     found: dict[Level, dict[tuple[object, ...], list[tuple[float, float]]]] = {}
     for sample in log.samples:
         level = tuple(float(sample[i] or 0.0) for i in levels)
@@ -82,7 +82,7 @@ def over_time_plot(result: Result, log: Log) -> Figure | None:
     """
     if TIME not in log.header or len(log.header) < log.header.index(TIME) + 2:
         return None
-    names = [column.label for column in result.of_kind("run", "level")]
+    names = [column.label for column in result.columns_of_kind("run", "level")]
     if any(name not in log.header for name in names):
         return None
     samples = {
@@ -116,7 +116,7 @@ def note_of(n_seeds: int) -> str:
 
 def level_title(result: Result, level: Level) -> str:
     """Return a level as a title: ``current 0.4 m/s, fog 0.5 m⁻¹``."""
-    columns: Sequence[Column] = result.of_kind("level")
+    columns: Sequence[Column] = result.columns_of_kind("level")
     named = zip(columns, level, strict=True)
     return ", ".join(level_text(column, v) for column, v in named if column.name != "none")
 

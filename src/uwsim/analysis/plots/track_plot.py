@@ -54,7 +54,7 @@ def read_tracks(result: Result, directory: Path) -> dict[Level, list[Track]]:
     if len(trials) > MAX_TRIALS:
         kept = np.linspace(0, len(trials) - 1, MAX_TRIALS).round().astype(int)
         trials = tuple(trials[i] for i in kept.tolist())
-    names = [column.name for column in result.of_kind("level")]
+    names = [column.name for column in result.columns_of_kind("level")]
     found: dict[Level, list[Track]] = {}
     for index in trials:
         try:
@@ -89,7 +89,7 @@ def track_plot(result: Result, tracks: Mapping[Level, Sequence[Track]]) -> Figur
         figure.legend(
             handles=list(_legend(drawn, colours)), loc="outside upper right", ncols=4, fontsize=7.5
         )
-        n_seeds = len({row[0] for row in result.rows}) if result.of_kind("run") else 1
+        n_seeds = len({row[0] for row in result.rows}) if result.columns_of_kind("run") else 1
         seeds = f"; {n_seeds} seeds in each panel" if n_seeds > 1 else ""
         write_note(figure, f"from above, world frame (z up){seeds}", shown.note)
         shown.label(grid, "x [m]", "y [m]")

@@ -37,7 +37,7 @@ def caption(result: Result, column: Column, notes: Notes) -> str:
 
 def over_time_caption(result: Result, measure: str, what: str, notes: Notes) -> str:
     """Return the caption of a measure over time: ``corners [px], distance ..., over the time``."""
-    names = {column.name: column for column in result.of_kind("measure")}
+    names = {column.name: column for column in result.columns_of_kind("measure")}
     label = label_of(result, names[measure]) if measure in names else measure
     note = notes.get(measure)
     if note is None or not note.meaning or note.value == "last":
@@ -66,7 +66,7 @@ def statistic_of(result: Result, measure: str, notes: Notes) -> str:
 def marks(result: Result, *, has_control: bool) -> str:
     """Explain points, bands, lines and crosses of the figures."""
     n_repeats = len(set(repeats_of(result)))
-    columns = result.of_kind("score", "measure")
+    columns = result.columns_of_kind("score", "measure")
     curves = curves_of(result, columns[0].name) if columns else []
     messages = ["Points: one value a level."]
     if n_repeats > 1:

@@ -24,7 +24,7 @@ def floor(result: Result) -> str | None:
     what a tracker cannot know; an empty text where the result does not record it.
     """
     names = {column.name for column in result.columns}
-    in_pixels = [column.name for column in result.of_kind("measure") if column.unit == "px"]
+    in_pixels = [column.name for column in result.columns_of_kind("measure") if column.unit == "px"]
     if all(f"{name}.visible" in names for name in in_pixels):  # of a body itself: no estimate
         return None
     messages = []

@@ -115,7 +115,7 @@ def _chosen(result: Result, endings: Sequence[str]) -> list[SavedImage]:
 
 def _endings(result: Result) -> list[str]:
     """The status of every row; empty texts where it is not recorded."""
-    status = result.of_kind("status")
+    status = result.columns_of_kind("status")
     if not status:
         return [""] * len(result.rows)
     return [str(cell) for cell in result.values(status[0].name)]

@@ -70,7 +70,7 @@ class Break:
 
 def endings(result: Result) -> list[Ending]:
     """Group the rows by status: ok, then by number, finally those that never occurred."""
-    status = result.of_kind("status")
+    status = result.columns_of_kind("status")
     if not status:
         return []
     cells = [str(cell) for cell in result.values(status[0].name)]
@@ -104,8 +104,8 @@ def breaks(result: Result) -> list[Break]:
 
     Nothing for nested sweeps, in which every outer level has its own.
     """
-    status, repeats = result.of_kind("status"), repeats_of(result)
-    if not status or len(result.of_kind("level")) != 1 or len(set(repeats)) < 2:
+    status, repeats = result.columns_of_kind("status"), repeats_of(result)
+    if not status or len(result.columns_of_kind("level")) != 1 or len(set(repeats)) < 2:
         return []
     cells, seeds = result.values(status[0].name), seeds_of(result)
     levels = {row: level for level, rows in rows_by_level(result).items() for row in rows}
@@ -129,7 +129,7 @@ def breaks(result: Result) -> list[Break]:
 
 def named_level(result: Result, level: tuple[float, ...]) -> str:
     """Return a level as text: ``noise 0.02, fog 0.5 m⁻¹``."""
-    named = zip(result.of_kind("level"), level, strict=True)
+    named = zip(result.columns_of_kind("level"), level, strict=True)
     parts = [level_text(column, value) for column, value in named if column.name != "none"]
     return ", ".join(parts) or "the only level"
 

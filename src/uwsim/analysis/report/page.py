@@ -168,7 +168,7 @@ def _captioned_plots(result: Result, notes: Notes, plots: Iterable[Path]) -> lis
     """Return caption and image of the plot of each score and measure over the levels."""
     if len(rows_by_level(result)) < 2:
         return []
-    columns = result.of_kind("score") + result.of_kind("measure")
+    columns = result.columns_of_kind("score") + result.columns_of_kind("measure")
     return [
         (caption(result, column, notes), data_url(plot.read_bytes(), "png"))
         for column, plot in zip(
@@ -196,7 +196,7 @@ def _lead(result: Result) -> str:
     """One sentence: what was swept, over what, how often."""
     levels = rows_by_level(result)
     spans, counts = [], []
-    for i, column in enumerate(result.of_kind("level")):
+    for i, column in enumerate(result.columns_of_kind("level")):
         values = sorted({level[i] for level in levels})
         word = LEVEL_WORDS.get(column.name, column.name)
         if word and values:
@@ -226,7 +226,7 @@ def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
         note = "fog at which the patch's ZNCC should fall to its threshold"
         value = f"{rounded(star[0], star[0])}{_space(star[1])}"
         cards.append(Card(label="loss predicted at f*", value=value, note=note))
-    for column in result.of_kind("score") + result.of_kind("measure"):
+    for column in result.columns_of_kind("score") + result.columns_of_kind("measure"):
         known = [e for e in intervals_of(result, column.name) if e.interval.mean is not None]
         if not known:
             continue
@@ -267,12 +267,12 @@ def rounded(value: float, against: float) -> str:
 def _values(result: Result, notes: Notes) -> list[str]:
     """Say what the values in the table are: the statistic of each measure, the score, the time."""
     by_statistic: dict[str, list[str]] = {}
-    for column in result.of_kind("measure"):
+    for column in result.columns_of_kind("measure"):
         if statistic := statistic_of(result, column.name, notes):
             by_statistic.setdefault(statistic, []).append(column.name)
     messages = [f"{', '.join(names)}: {statistic}" for statistic, names in by_statistic.items()]
-    messages += [f"total = {c.expression}" for c in result.of_kind("score") if c.expression]
-    if result.of_kind("time"):
+    messages += [f"total = {c.expression}" for c in result.columns_of_kind("score") if c.expression]
+    if result.columns_of_kind("time"):
         over = "from its start" if result.run.mode == "independent" else "summed over the levels"
         messages.append(f"ended_at: running time when the level ended, {over}")
     return messages

@@ -73,7 +73,7 @@ def all_cells(result: Result) -> tuple[list[Head], list[list[tuple[str, str]]]]:
         column.name: exact_decimals(
             [float(v) for v in result.numbers(column.name) if v is not None]
         )
-        for column in result.of_kind("level")
+        for column in result.columns_of_kind("level")
     }
     n_rows = min(len(result.rows), max(1, MAX_CELLS // max(1, len(result.columns))))
     rows = [
@@ -106,7 +106,7 @@ def _printed(cell: CellText) -> tuple[str, str]:
 def _cell(result: Result, row: int, column: Column, decimals: int | None) -> tuple[str, str]:
     value = result.rows[row][result.index(column.name)]
     if value is None:
-        why = result.why(row, column.name) or "no reason was given"
+        why = result.reason(row, column.name) or "no reason was given"
         return "–", why if len(why) <= MAX_REASON_LENGTH else f"{why[: MAX_REASON_LENGTH - 1]}…"
     if isinstance(value, str):
         return value, ""

@@ -71,7 +71,7 @@ def task_section(result: Result, folder: Path) -> TaskSection | None:
         return None
     cells = task_cells(result)
     known = {column.name: column for column in result.columns}
-    wanted = [column.name for column in result.of_kind("measure") if column is not judge]
+    wanted = [column.name for column in result.columns_of_kind("measure") if column is not judge]
     wanted += [f"{judge.name}.{detail}" for detail in DETAILS]
     columns = [known[name] for name in wanted if name in known]
     n = sum(cell.success.n for cell in cells)
@@ -86,7 +86,9 @@ def task_section(result: Result, folder: Path) -> TaskSection | None:
         heads=tuple(
             (c.name.removeprefix(f"{judge.name}."), written_unit(c.unit or "")) for c in columns
         ),
-        level_heads=tuple((c.name, written_unit(c.unit or "")) for c in result.of_kind("level")),
+        level_heads=tuple(
+            (c.name, written_unit(c.unit or "")) for c in result.columns_of_kind("level")
+        ),
         rows=tuple(_row(result, cell, [column.name for column in columns]) for cell in cells),
     )
 

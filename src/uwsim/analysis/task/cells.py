@@ -30,7 +30,7 @@ class TaskCell:
 
     def median(self, result: Result, column: str) -> float | None:
         """Median of a column over the successes of the level; None if there are none."""
-        status = result.values(result.of_kind("status")[0].name)
+        status = result.values(result.columns_of_kind("status")[0].name)
         values = result.numbers(column)
         found = [values[row] for row in self.rows if status[row] == "ok"]
         present = [value for value in found if value is not None]
@@ -40,15 +40,17 @@ class TaskCell:
 def task_measure(result: Result) -> Column | None:
     """Return the column of the measure that judges the task; None: it is no task."""
     suffix = f".{JUDGED_BY}"
-    names = [column.name for column in result.of_kind("detail") if column.name.endswith(suffix)]
-    if not names or not result.of_kind("status"):
+    names = [
+        column.name for column in result.columns_of_kind("detail") if column.name.endswith(suffix)
+    ]
+    if not names or not result.columns_of_kind("status"):
         return None
     return result.columns[result.index(names[0].removesuffix(suffix))]
 
 
 def task_cells(result: Result) -> list[TaskCell]:
     """Return the levels in the order of execution."""
-    status = [str(cell) for cell in result.values(result.of_kind("status")[0].name)]
+    status = [str(cell) for cell in result.values(result.columns_of_kind("status")[0].name)]
     found = []
     for level, rows in rows_by_level(result).items():
         counts = Counter(status[row] for row in rows)

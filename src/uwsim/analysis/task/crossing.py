@@ -51,7 +51,7 @@ def crossing(cells: Sequence[TaskCell], parameter: int, at: tuple[float, ...]) -
 def crossings(result: Result) -> list[Crossing]:
     """Return a crossing for each parameter that varies, at each value of the others."""
     cells = task_cells(result)
-    columns = result.of_kind("level")
+    columns = result.columns_of_kind("level")
     found = []
     for parameter in range(len(columns)):
         if len({cell.level[parameter] for cell in cells}) < 2:
@@ -65,7 +65,7 @@ def crossings(result: Result) -> list[Crossing]:
 
 def sentence(result: Result, found: Crossing) -> str:
     """Say where it is: ``At current 0 m/s it falls below 50 % between fog 0.75 and 1 m⁻¹``."""
-    columns = result.of_kind("level")
+    columns = result.columns_of_kind("level")
     column = columns[found.parameter]
     word = LEVEL_WORDS.get(column.name, column.name)
     fixed = [

@@ -45,7 +45,7 @@ def draw_task_figures(result: Result, folder: Path) -> dict[Path, str]:
     cells = task_cells(result)
     drawn: dict[str, Figure] = {}
     swept = _swept(cells)
-    if len(swept) == 2 and len(result.of_kind("level")) == 2:
+    if len(swept) == 2 and len(result.columns_of_kind("level")) == 2:
         drawn[SUCCESS_MAP] = success_map(result, cells)
     if swept:
         drawn[RATES] = success_rates(result, cells, swept)
@@ -86,7 +86,7 @@ def success_map(result: Result, cells: Sequence[TaskCell]) -> Figure:
 
 
 def _grid_axes(axes: Axes, result: Result, rows: Sequence[float], columns: Sequence[float]) -> None:
-    outer, inner = result.of_kind("level")
+    outer, inner = result.columns_of_kind("level")
     axes.set_xlim(-0.5, len(columns) - 0.5)
     axes.set_ylim(-0.5, len(rows) - 0.5)
     axes.set_xticks(range(len(columns)), [f"{value:g}" for value in columns])
@@ -154,7 +154,7 @@ def success_rates(result: Result, cells: Sequence[TaskCell], swept: Sequence[int
 
 def _with_fixed(result: Result, parameter: int, first: tuple[float, ...]) -> str:
     """Label of an axis, with the values that the other parameters have."""
-    columns = result.of_kind("level")
+    columns = result.columns_of_kind("level")
     others = [
         level_text(column, value)
         for i, (column, value) in enumerate(zip(columns, first, strict=True))

@@ -13,7 +13,7 @@ def phase_means(result: Result, cell: TaskCell) -> dict[str, float]:
         return {}
     prefix = f"{judge.name}.time."
     found = {}
-    for column in result.of_kind("detail"):
+    for column in result.columns_of_kind("detail"):
         if column.name.startswith(prefix):
             values = result.numbers(column.name)
             present = [v for row in cell.rows if (v := values[row]) is not None]

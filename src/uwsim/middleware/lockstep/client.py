@@ -92,7 +92,7 @@ class LockStepClient:
         joined = self._joined()
         self._wish(joined)
         self._connect(joined)
-        node.every(self._timestep, self._barrier)
+        node.create_timer(self._timestep, self._barrier)
 
     def _joined(self) -> dict[str, Any]:
         """Wait for a join that is as it should be; others are refused.

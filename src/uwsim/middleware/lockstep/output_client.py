@@ -82,7 +82,7 @@ class OutputClient(ExternalProgram):
             )
         self._stand(STAND_S, until=_never)
         self._before.update(bridge.arrivals.n_arrived)
-        node.every(self._timestep, self._barrier)
+        node.create_timer(self._timestep, self._barrier)
 
     def _stand(self, limit: float, until: Callable[[], bool]) -> bool:
         """Wait for something, and tell the time meanwhile; returns whether it came."""

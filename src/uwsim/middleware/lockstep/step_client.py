@@ -57,7 +57,7 @@ class StepClient(ExternalProgram):
                 "wall time (--client-limit)."
             )
         self._left += 1  # what is published before the first step ends none
-        node.every(self._timestep, self._barrier)
+        node.create_timer(self._timestep, self._barrier)
 
     def _barrier(self) -> None:
         """End a step; where it was the last of a call, answer it and wait for the next."""

@@ -52,7 +52,7 @@ class Player:
         self._node = node
         for topic, name in self.topics.items():
             self._publishers[topic] = node.publisher(name, self._types[topic])
-        node.every(self._timestep, self._play)
+        node.create_timer(self._timestep, self._play)
 
     @property
     def is_over(self) -> bool:

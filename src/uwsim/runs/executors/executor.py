@@ -15,8 +15,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
 
+from ...base.exceptions import system_error_text
 from ...base.interrupts import is_user_interrupt, raise_if_interrupted
-from ...base.system_errors import system_error_text
 from ...errors import RUN_ERRORS, ClientLost, NeverStarted, RunFailed, UwsimError
 from ...results.journal import path_of
 from ...results.result import Result

@@ -33,11 +33,12 @@ from typing import Any, NoReturn, TypeVar
 import numpy as np
 
 from ... import errors
+from ...base.deprecation import deprecated
+from ...base.exceptions import describe_exception
 from ...base.files.source_module import source_module
 from ...base.message_fields import find_invalid_field
-from ...base.raised import describe_exception
-from ...base.read_parameters import TrackedParameters, untracked_parameters
 from ...base.terminal import ignore_casts
+from ...base.tracked_parameters import TrackedParameters, untracked_parameters
 from ...bus import Bus
 from ...errors import BadSetting, NotAllowed, UwsimError
 from .codec import MAX_FRAME, Unknown, decode, encode, message_class
@@ -68,11 +69,11 @@ class ChildNode:
         """Simulation time [s]."""
         self.parameters = TrackedParameters({})
         """The parameters that the user set."""
-        self.random = np.random.default_rng(0)
+        self.rng = np.random.default_rng(0)
         """The algorithm's own random stream."""
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
+        """Call ``callback`` with every message on ``topic``."""
         self._asked("subscribe", topic, _sendable(type), self._number(callback))
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
@@ -100,9 +101,20 @@ class ChildNode:
         """Call a service; UnknownName if it is not offered."""
         return self._asked("call", name, request)
 
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Call ``callback`` every ``period_s`` of simulation time, from now on."""
+        self._asked("create_timer", period_s, self._number(callback))
+
+    @property
+    @deprecated("rng")
+    def random(self) -> np.random.Generator:
+        """The old name of `rng`."""
+        return self.rng
+
+    @deprecated("create_timer")
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
-        self._asked("every", period_s, self._number(callback))
+        """Call `create_timer`, whose old name this is."""
+        self.create_timer(period_s, callback)
 
     def published(self) -> list[bytes]:
         """Return what was published since this was asked last, as frames."""
@@ -170,7 +182,7 @@ class Child:
         name, state = random
         bits = getattr(np.random, name)()
         bits.state = state
-        self._node.random = np.random.Generator(bits)
+        self._node.rng = np.random.Generator(bits)
         self._node.now, self._node.parameters = now, TrackedParameters(parameters)
         self._algorithm.start(self._node)
 

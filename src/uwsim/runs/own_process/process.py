@@ -23,9 +23,9 @@ from types import TracebackType
 from typing import Any, Self
 
 from ...base.environment import remove_secrets
+from ...base.exceptions import RemoteError
 from ...base.interrupts import block_interrupts
-from ...base.raised import RemoteError
-from ...base.read_parameters import untracked_parameters
+from ...base.tracked_parameters import untracked_parameters
 from ...benchmark.plugin import Plugin
 from ...bus import Node
 from ...errors import BadSetting, RunFailed, UwsimError
@@ -217,9 +217,9 @@ class ProcessAlgorithm:
     def start(self, node: Node) -> None:
         """Start it there."""
         self._node = node
-        bits = node.random.bit_generator
-        random = [type(bits).__name__, dict(bits.state)]
-        self._request("start", node.now, untracked_parameters(node.parameters), random)
+        bits = node.rng.bit_generator
+        rng_state = [type(bits).__name__, dict(bits.state)]
+        self._request("start", node.now, untracked_parameters(node.parameters), rng_state)
 
     def _request(self, *frame: object) -> Any:
         return self._process.request(list(frame), self._do)
@@ -256,8 +256,8 @@ class ProcessAlgorithm:
                 node.serve(name, cls, self._calling(number))
             case ["call", str(name), request]:
                 return node.call(name, request)
-            case ["every", period, int(number)]:
-                node.every(period, self._calling(number))
+            case ["create_timer", period, int(number)]:
+                node.create_timer(period, self._calling(number))
             case _:
                 raise TypeError(f"{asked[0] if asked else ''}: wrong arguments")
         return None

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
+from ...base.exceptions import RemoteError
 from ...base.interrupts import is_user_interrupt
-from ...base.raised import RemoteError
-from ...base.read_parameters import describe_unread_parameters
+from ...base.tracked_parameters import describe_unread_parameters
 from ...benchmark.plugin_checks import parameters_of
 from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError

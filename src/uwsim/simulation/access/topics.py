@@ -97,7 +97,7 @@ class TopicAccess:
             self._published[name] = publish
         self._published[name](message)
 
-    def latest(self, topic: str) -> Any:
+    def latest_message(self, topic: str) -> Any:
         """Return the newest message; None before the first.
 
         Raises:

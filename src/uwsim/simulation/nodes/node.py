@@ -10,12 +10,13 @@ from typing import NoReturn, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
+from ...base.deprecation import deprecated
+from ...base.exceptions import describe_exception
 from ...base.interrupts import is_user_interrupt
 from ...base.message_fields import copy_message
-from ...base.raised import describe_exception
-from ...base.read_parameters import TrackedParameters
 from ...base.record import ExternalValue, Record, wrong_scene_error
 from ...base.terminal import warn
+from ...base.tracked_parameters import TrackedParameters
 from ...bus import Algorithm, Bus
 from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed, UwsimError
 from .calls import Calls, Stopped
@@ -99,7 +100,7 @@ class NodeState(Record):
 
     name: str
     """The name of the algorithm."""
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of the algorithm."""
     timers: list[NodeTimerState] = field(default_factory=list)
     """How far its timers are."""
@@ -138,7 +139,7 @@ class InProcessNode:
         *,
         name: str,
         timestep: float,
-        random: np.random.Generator,
+        rng: np.random.Generator,
         parameters: Mapping[str, float | str],
         raises: bool = False,
         calls: Calls | None = None,
@@ -152,7 +153,7 @@ class InProcessNode:
         self._heard: dict[str, Callable[[], str | None]] = {}
         self._published: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
-        self.state = NodeState(name, random)
+        self.state = NodeState(name, rng)
         """What changes of it."""
         own = {key: value for key, value in parameters.items() if key != "latency_s"}
         self._parameters = TrackedParameters(own)
@@ -184,9 +185,15 @@ class InProcessNode:
         return self._parameters
 
     @property
-    def random(self) -> np.random.Generator:
+    def rng(self) -> np.random.Generator:
         """The algorithm's own random stream."""
-        return self.state.random
+        return self.state.rng
+
+    @property
+    @deprecated("rng")
+    def random(self) -> np.random.Generator:
+        """The old name of `rng`."""
+        return self.rng
 
     def run(self, algorithm: Algorithm) -> None:
         """Start the algorithm; what it raises is kept in `error`.
@@ -204,7 +211,7 @@ class InProcessNode:
             self._broken_by(error)
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
+        """Call ``callback`` with every message on ``topic``."""
         self._check(topic)
 
         def receive(message: M) -> None:
@@ -267,14 +274,19 @@ class InProcessNode:
         self._check()
         return self._bus.services.call(name, request)
 
-    def every(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Call ``callback`` every ``period_s`` of simulation time, from now on."""
         self._check()
         if not 0.0 < period_s < math.inf:
             raise BadSetting(f"A timer's period is {period_s!r}; expected a time > 0 [s].")
         timer = _Timer(self._bus.step, period_s / self._timestep, callback)
         self._timers.append(timer)
         self.state.timers.append(timer.state)
+
+    @deprecated("create_timer")
+    def every(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Call `create_timer`, whose old name this is."""
+        self.create_timer(period_s, callback)
 
     def tick(self) -> None:
         """Call the timers that are due at the current step, in the order they were set."""

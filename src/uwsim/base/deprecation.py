@@ -1,0 +1,49 @@
+"""Old names of the public interface, which still work; `docs/python.md`, "Stability", has the rule.
+
+Both functions make decorators. A decorated function gives a DeprecationWarning to the caller of an
+old name, which states the new one.
+"""
+
+from __future__ import annotations
+
+import functools
+import warnings
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def deprecated(new_name: str) -> Callable[[F], F]:
+    """Return the decorator of a method, or of a property's getter, that has an old name."""
+
+    def decorate(function: F) -> F:
+        @functools.wraps(function)
+        def call_old_name(*args: Any, **kwargs: Any) -> Any:
+            _warn(function.__name__, new_name)
+            return function(*args, **kwargs)
+
+        return cast("F", call_old_name)
+
+    return decorate
+
+
+def renamed_parameter(old_name: str, new_name: str) -> Callable[[F], F]:
+    """Return the decorator of a function that accepts the old keyword of a parameter."""
+
+    def decorate(function: F) -> F:
+        @functools.wraps(function)
+        def call_new_name(*args: Any, **kwargs: Any) -> Any:
+            if old_name in kwargs and new_name not in kwargs:
+                _warn(old_name, new_name)
+                kwargs[new_name] = kwargs.pop(old_name)
+            return function(*args, **kwargs)
+
+        return cast("F", call_new_name)
+
+    return decorate
+
+
+def _warn(old_name: str, new_name: str) -> None:
+    text = f"{old_name!r} is deprecated since uwsim 0.2.0; use {new_name!r}."
+    warnings.warn(text, DeprecationWarning, stacklevel=3)

@@ -1,0 +1,60 @@
+"""Exceptions of third-party programs and the operating system, as text and errors of a run."""
+
+from __future__ import annotations
+
+import sys
+import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from ..errors import RunFailed
+from .interrupts import is_user_interrupt
+
+
+class RemoteError(Exception):
+    """An exception of a third-party program in its own process, as `describe_exception` has it."""
+
+
+def describe_exception(error: BaseException, program: type) -> str:
+    """Return an exception of a third-party program as one line, with the line of its file.
+
+    The file is named without its folders, so that results do not depend on its place. It is the
+    file of the program, or that of the last frame if no frame is in the program.
+    """
+    if isinstance(error, RemoteError):
+        return str(error)
+    frames = traceback.extract_tb(error.__traceback__)[1:]  # the first is that of the caller
+    program_file = getattr(sys.modules.get(program.__module__), "__file__", None)
+    program_frames = [frame for frame in frames if frame.filename == program_file] or frames
+    place = ""
+    if program_frames:
+        place = f"{Path(program_frames[-1].filename).name}:{program_frames[-1].lineno}: "
+    return f"{place}{type(error).__name__}: {_text(error)}"
+
+
+def _text(error: BaseException) -> str:
+    try:
+        return str(error)
+    except BaseException as text_error:  # even str() of a third-party error may raise
+        if is_user_interrupt(text_error):
+            raise
+        return "its text cannot be shown"
+
+
+def system_error_text(error: OSError) -> str:
+    """Return what happened, and to which file."""
+    if error.filename is None:
+        return error.strerror or str(error)
+    return f"{error.strerror}: {error.filename}"
+
+
+@contextmanager
+def convert_to_run_failed() -> Iterator[None]:
+    """Turn system errors in this block into `RunFailed`, because the inputs were checked before."""
+    try:
+        yield
+    except BrokenPipeError:
+        raise  # the reader of the output has closed it
+    except OSError as error:
+        raise RunFailed(system_error_text(error)) from error

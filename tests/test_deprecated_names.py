@@ -1,0 +1,142 @@
+"""Old public names work, and warn with the new name (docs/python.md, "Stability")."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import uwsim
+from tests.results.test_result import make
+from uwsim.base.deprecation import deprecated, renamed_parameter
+from uwsim.messages import CameraInfo
+from uwsim.results.result import RefusedMessages
+from uwsim.runs.own_process.child import ChildNode
+
+PAGE = (Path(__file__).parent.parent / "docs" / "python.md").read_text()
+
+
+class Vehicle:
+    """A class with an old method, an old property and an old parameter."""
+
+    def pose(self) -> int:
+        return 3
+
+    @deprecated("pose")
+    def place(self) -> int:
+        return self.pose()
+
+    @property
+    @deprecated("pose")
+    def site(self) -> int:
+        return self.pose()
+
+    @renamed_parameter("of", "frame")
+    def distance(self, frame: str = "L") -> str:
+        return frame
+
+
+def warned(call: Callable[[], Any], old_name: str, new_name: str) -> Any:
+    """Return the value of a call that warns of an old name, at the line of its caller."""
+    text = re.escape(f"{old_name!r} is deprecated since uwsim 0.2.0; use {new_name!r}.")
+    with pytest.warns(DeprecationWarning, match=text) as warnings:
+        value = call()
+    assert [warning.filename for warning in warnings] == [__file__]
+    return value
+
+
+def test_a_deprecated_method_returns_what_the_new_one_returns() -> None:
+    assert warned(Vehicle().place, "place", "pose") == 3
+    assert Vehicle.place.__name__ == "place"
+
+
+def test_a_deprecated_property_returns_what_the_new_name_returns() -> None:
+    assert warned(lambda: Vehicle().site, "site", "pose") == 3
+
+
+def test_a_renamed_parameter_accepts_its_old_keyword() -> None:
+    vehicle: Any = Vehicle()
+    assert warned(lambda: vehicle.distance(of="W"), "of", "frame") == "W"
+    assert vehicle.distance(frame="W") == vehicle.distance("W") == "W"
+    assert list(inspect.signature(vehicle.distance).parameters) == ["frame"]
+
+
+def test_both_keywords_of_a_renamed_parameter_are_refused() -> None:
+    vehicle: Any = Vehicle()
+    with pytest.raises(TypeError, match="of"):
+        vehicle.distance(of="W", frame="L")
+
+
+class Recorder:
+    """An algorithm that uses its node by old names."""
+
+    def __init__(self) -> None:
+        self.times: list[float] = []
+
+    def start(self, node: Any) -> None:
+        assert warned(lambda: node.random, "random", "rng") is node.rng
+        warned(
+            lambda: node.every(0.1, lambda: self.times.append(node.now)), "every", "create_timer"
+        )
+
+
+def test_old_names_of_a_simulation_and_a_node_work() -> None:
+    with uwsim.load("currents-scene") as loaded:
+        simulation: Any = loaded
+        times: list[float] = []
+        warned(
+            lambda: simulation.watch(look=lambda: times.append(simulation.time)), "look", "callback"
+        )
+        recorder = Recorder()
+        simulation.attach(recorder)
+        topic = "uwsim/camera1_info"
+        loaded.latest_message(topic)
+        loaded.advance(0.25)
+        assert recorder.times == pytest.approx([0.0, 0.1, 0.2])
+        assert times[-1] == loaded.time
+        message = warned(lambda: simulation.latest(topic), "latest", "latest_message")
+        assert isinstance(message, CameraInfo)
+        pose = warned(lambda: simulation.pose("girona500", of="W"), "of", "frame")
+        assert (pose.matrix == loaded.pose("girona500", "W").matrix).all()
+        warned(lambda: simulation.set_pose("girona500", pose, of="W"), "of", "frame")
+        boxes = warned(lambda: simulation.boxes(of="W"), "of", "frame")
+        assert boxes.keys() == loaded.boxes().keys()
+
+
+def test_old_names_of_the_node_of_an_algorithm_in_its_own_process_work() -> None:
+    requests: list[tuple[object, ...]] = []
+    Recorder().start(ChildNode(lambda *request: requests.append(request)))
+    assert requests == [("create_timer", 0.1, 0)]
+
+
+def test_old_names_of_a_result_work() -> None:
+    entry = RefusedMessages(row=0, sender="node", topic_or_service="/cmd", n=2)
+    result = make(refused_messages=(entry,))
+    missing = warned(lambda: result.missing, "missing", "missing_values")
+    assert missing == result.missing_values
+    assert warned(lambda: missing[0].why, "why", "reason") == missing[0].reason
+    assert warned(lambda: result.refused, "refused", "refused_messages") == (entry,)
+    assert warned(lambda: entry.by, "by", "sender") == "node"
+    assert warned(lambda: entry.what, "what", "topic_or_service") == "/cmd"
+    columns = warned(lambda: result.of_kind("score"), "of_kind", "columns_of_kind")
+    assert columns == result.columns_of_kind("score")
+    reason = warned(lambda: result.why(1, "total"), "why", "reason")
+    assert reason == result.reason(1, "total")
+
+
+def test_the_old_name_of_the_trials_of_a_replay_works() -> None:
+    replay = object.__new__(uwsim.Replay)
+    replay.trials_without_motion = (2,)
+    assert warned(lambda: replay.unseen, "unseen", "trials_without_motion") == (2,)
+
+
+def test_the_page_lists_each_deprecated_name_with_the_new_one() -> None:
+    for cls in (uwsim.Simulation, uwsim.Result, uwsim.Replay):
+        for name, member in vars(cls).items():
+            function = member.fget if isinstance(member, property) else member
+            if "call_old_name" in getattr(getattr(function, "__code__", None), "co_name", ""):
+                assert re.search(rf"`{name}` -> `\w+`", PAGE), name
