@@ -99,4 +99,4 @@ def test_a_recording_that_is_not_there_is_one_clean_line(
     capfd: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
     assert main(["play", str(tmp_path / "no.bag")]) == 2
-    assert "no.bag is not there" in capfd.readouterr().err
+    assert "no.bag does not exist" in capfd.readouterr().err

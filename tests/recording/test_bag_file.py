@@ -106,5 +106,5 @@ def test_a_recording_that_was_cut_off_is_one_clean_error(tmp_path: Path, kind: s
 
 
 def test_a_file_that_is_not_there_is_one_clean_error(tmp_path: Path) -> None:
-    with pytest.raises(AssetError, match="is not there"):
+    with pytest.raises(AssetError, match="does not exist"):
         BagReader(tmp_path / "no.bag")

@@ -13,7 +13,7 @@ from uwsim.middleware.recording import BagReader, Recorder
 
 @pytest.mark.parametrize(
     ("begin", "said"),
-    [(b"junk", "it is no .bag file"), (b"\x89MCAP0\r\n", "it is a .mcap file")],
+    [(b"junk", "it is not a .bag file"), (b"\x89MCAP0\r\n", "it is a .mcap file")],
 )
 def test_a_file_that_is_no_bag_of_ros_1_says_what_it_is(
     tmp_path: Path, begin: bytes, said: str

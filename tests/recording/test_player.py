@@ -76,7 +76,7 @@ def test_what_is_played_and_recorded_again_is_the_same(
 def test_a_topic_that_others_publish_is_played_beside_it(tmp_path: Path) -> None:
     path = recorded(tmp_path / "run.mcap")
     with BagReader(path) as reader, open_scene(SceneSpec()) as simulation:
-        player = Player(reader, 0.002, published=["/depth"], left_out=["/odom"])
+        player = Player(reader, 0.002, bus_topics=["/depth"], left_out=["/odom"])
         simulation.attach(player)
         simulation.latest_message("/recorded/depth")
         simulation.advance(0.2)

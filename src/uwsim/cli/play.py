@@ -105,7 +105,7 @@ def player_of(reader: BagReader, simulation: Simulation, obeys: bool) -> Player:
     recorded = frozenset(reader.topics)
     ghosts = () if obeys else odometry_vehicles(simulation, recorded)
     left_out = commanded_topics(simulation, ghosts)
-    player = Player(reader, simulation.timestep, published=published, left_out=left_out)
+    player = Player(reader, simulation.timestep, bus_topics=published, left_out=left_out)
     if ghosts:
         follow_recorded(simulation, player.topics)
     return player

@@ -247,7 +247,9 @@ def run_and_report(
         rates = TopicRates(
             simulation.bus,
             lambda: simulation.time,
-            reads=lambda type: output.hz or (recorder is not None and recorder.reads(type)),
+            is_counted=lambda type: (
+                output.hz or (recorder is not None and recorder.is_recorded(type))
+            ),
         )
         last.push(
             lambda how, *_: report(simulation, spec, rates, output, is_stopped=how is not None)

@@ -238,7 +238,7 @@ def test_of_a_program_that_takes_the_steps_the_first_caller_takes_part() -> None
     assert not first.done()
 
 
-OUTPUTS = (OutputSpec(topic="estimate", follows="depth"), OutputSpec(topic="speed", rate=10.0))
+OUTPUTS = (OutputSpec(topic="estimate", input_topic="depth"), OutputSpec(topic="speed", rate=10.0))
 
 
 def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish() -> None:

@@ -16,7 +16,7 @@ from uwsim.messages import Float64, GTpublish, GTpublishResponse, String
 from uwsim.messages.services import Service
 from uwsim.middleware.bridge import Bridge, TransportTraits
 from uwsim.middleware.lockstep.client import (
-    MAX_TEXT,
+    MAX_LENGTH,
     MAX_WAITING,
     LockStepClient,
     lockstep_clients,
@@ -322,7 +322,7 @@ def test_a_program_is_told_from_another_by_its_id_where_the_transport_cannot_tel
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert len(outside.ticks) == 1
-    assert "client 'a' is another program already; a second one is not heard" in outside.lines[0]
+    assert "client 'a' is another program already; a second one is ignored" in outside.lines[0]
 
 
 def test_a_second_program_that_joined_and_left_before_the_start_changes_nothing() -> None:
@@ -336,7 +336,7 @@ def test_a_second_program_that_joined_and_left_before_the_start_changes_nothing(
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert len(outside.ticks) == 1
-    assert outside.told == [("second", "client 'a' is first already; second is not heard")]
+    assert outside.told == [("second", "client 'a' is first already; second is ignored")]
 
 
 def test_a_flood_of_joins_and_answers_is_bounded_and_a_huge_one_is_told() -> None:
@@ -345,7 +345,7 @@ def test_a_flood_of_joins_and_answers_is_bounded_and_a_huge_one_is_told() -> Non
     def floods(outside: Outside, tick: dict[str, Any]) -> None:
         for n in range(10_000):
             outside.says(ACK, client="a", tick=n)
-        outside.says(ACK, client="a", tick=1, id="x" * MAX_TEXT)
+        outside.says(ACK, client="a", tick=1, id="x" * MAX_LENGTH)
         assert len(client._acks) <= MAX_WAITING
         outside.says(ACK, client="a", tick=tick["tick"])
 
@@ -515,7 +515,7 @@ def test_another_program_of_the_same_name_is_told_and_changes_nothing() -> None:
         bus.publisher("depth", Float64)(Float64(data=1.0))
         step(bus, nodes)
     assert len(outside.ticks) == 2
-    said = "client 'a' is first already; second is not heard"
+    said = "client 'a' is first already; second is ignored"
     assert outside.told == 4 * [("second", said)]
     assert f"uwsim: test: {said}" in outside.lines
 

@@ -18,7 +18,13 @@ from uwsim.middleware.bridge import Bridge
 from uwsim.middleware.connection import ConnectionSpec
 from uwsim.middleware.lockstep import output_client
 from uwsim.middleware.lockstep.output_client import OutputClient
-from uwsim.middleware.lockstep.spec import ClientSpec, OutputSpec, output_of, outputs_of, sync_named
+from uwsim.middleware.lockstep.spec import (
+    ClientSpec,
+    OutputSpec,
+    read_output,
+    read_outputs,
+    read_sync,
+)
 from uwsim.middleware.log import Log
 from uwsim.simulation import InProcessNode
 
@@ -55,8 +61,8 @@ class Outside(Bridge):
 
 @pytest.fixture(autouse=True)
 def _stand_for_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(output_client, "STAND_S", 0.001)
-    monkeypatch.setattr(output_client, "FIRST_S", 0.001)
+    monkeypatch.setattr(output_client, "READY_WAIT_S", 0.001)
+    monkeypatch.setattr(output_client, "FIRST_OUTPUT_WAIT_S", 0.001)
 
 
 class Sea:
@@ -106,7 +112,7 @@ def test_a_timer_of_the_node_is_waited_for_in_the_step_in_which_it_is_due() -> N
 
 
 def test_messages_are_sent_before_the_time_is_told() -> None:
-    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
     sea.outside.said.clear()
     sea.outside.on_message = lambda message: sea.outside.put("cmd", message)
@@ -116,7 +122,7 @@ def test_messages_are_sent_before_the_time_is_told() -> None:
 
 
 def test_each_message_of_an_input_has_its_output_in_the_same_step() -> None:
-    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
     sea.outside.on_message = lambda message: sea.outside.put("cmd", message)
     assert sea.step() == []
@@ -127,7 +133,7 @@ def test_each_message_of_an_input_has_its_output_in_the_same_step() -> None:
 
 def two_outputs(*, limit: float = 60.0) -> Sea:
     """A sea in which a command and a status follow each depth."""
-    outputs = [OutputSpec(topic=topic, follows="depth") for topic in ("cmd", "status")]
+    outputs = [OutputSpec(topic=topic, input_topic="depth") for topic in ("cmd", "status")]
     sea = Sea(limit=limit)
     sea.bus.inbox("status", Float64)
     spec = replace(sea.client._spec, outputs=tuple(outputs))
@@ -199,7 +205,7 @@ def test_an_initialised_node_that_answers_nothing_ends_the_run() -> None:
 
 
 def test_a_node_that_never_answers_ends_the_run() -> None:
-    sea = Sea(OutputSpec(topic="cmd", follows="depth"), limit=0.01)
+    sea = Sea(OutputSpec(topic="cmd", input_topic="depth"), limit=0.01)
     sea.start()
 
     def run_on() -> None:
@@ -212,8 +218,8 @@ def test_a_node_that_never_answers_ends_the_run() -> None:
 
 
 def test_a_slow_first_answer_delays_no_later_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(output_client, "FIRST_S", 0.1)
-    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    monkeypatch.setattr(output_client, "FIRST_OUTPUT_WAIT_S", 0.1)
+    sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
     sea.say(Float64(data=1.0))
     assert sea.step() == []
@@ -230,7 +236,7 @@ def test_a_slow_first_answer_delays_no_later_one(monkeypatch: pytest.MonkeyPatch
 
 
 def test_more_answers_than_inputs_end_the_run() -> None:
-    sea = Sea(OutputSpec(topic="cmd", follows="depth"))
+    sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
     sea.outside.on_message = answer_on(sea, "cmd", "cmd")
     sea.say(Float64(data=1.0))
@@ -288,7 +294,7 @@ def test_a_node_that_does_not_go_by_the_clock_ends_the_run() -> None:
 
 
 def test_who_is_not_there_is_named() -> None:
-    sea = Sea(OutputSpec(topic="cmd", follows="depth"), limit=0.01)
+    sea = Sea(OutputSpec(topic="cmd", input_topic="depth"), limit=0.01)
     sea.outside.fed = False
     with pytest.raises(NeverStarted, match="nobody publishes /cmd; nobody reads /depth"):
         sea.node.run(sea.client)
@@ -298,7 +304,10 @@ def test_who_is_not_there_is_named() -> None:
     ("output", "said"),
     [
         (OutputSpec(topic="cmb", rate=10.0), "has the topic /cmb. Did you mean '/cmd'"),
-        (OutputSpec(topic="cmd", follows="depht"), "has the topic /depht. Did you mean '/depth'"),
+        (
+            OutputSpec(topic="cmd", input_topic="depht"),
+            "has the topic /depht. Did you mean '/depth'",
+        ),
     ],
 )
 def test_a_topic_that_is_not_there_is_an_error(output: OutputSpec, said: str) -> None:
@@ -308,23 +317,23 @@ def test_a_topic_that_is_not_there_is_an_error(output: OutputSpec, said: str) ->
 
 
 def test_outputs_are_read_from_the_command_line() -> None:
-    assert output_of("/cmd=10Hz") == OutputSpec(topic="cmd", rate=10.0)
-    assert output_of("cmd = 2.5 Hz") == OutputSpec(topic="cmd", rate=2.5)
-    assert output_of("/corners=/camera/image") == OutputSpec(
-        topic="corners", follows="camera/image"
+    assert read_output("/cmd=10Hz") == OutputSpec(topic="cmd", rate=10.0)
+    assert read_output("cmd = 2.5 Hz") == OutputSpec(topic="cmd", rate=2.5)
+    assert read_output("/corners=/camera/image") == OutputSpec(
+        topic="corners", input_topic="camera/image"
     )
 
 
 @pytest.mark.parametrize("text", ["", "cmd", "/cmd=", "=10Hz", "cmd=0Hz", "cmd=-1Hz", "cmd=1e9Hz"])
 def test_what_is_no_output_is_an_error(text: str) -> None:
     with pytest.raises(BadSetting, match="--output"):
-        output_of(text)
+        read_output(text)
 
 
 @pytest.mark.parametrize("text", ["10", "1e", "10kHz", "1.1.1Hz", "1e999Hz", "nanHz", "infhz"])
 def test_a_rate_has_its_unit(text: str) -> None:
     with pytest.raises(BadSetting, match="expected a rate"):
-        output_of(f"cmd={text}")
+        read_output(f"cmd={text}")
 
 
 @pytest.mark.parametrize(
@@ -333,12 +342,12 @@ def test_a_rate_has_its_unit(text: str) -> None:
 )
 def test_outputs_that_contradict_are_an_error(texts: list[str], said: str) -> None:
     with pytest.raises(BadSetting, match=said):
-        outputs_of(texts)
+        read_outputs(texts)
 
 
 def test_what_is_waited_for_is_one_of_four() -> None:
     with pytest.raises(BadSetting, match="Did you mean 'output'"):
-        sync_named("outputs")
+        read_sync("outputs")
 
 
 @pytest.mark.parametrize(
@@ -353,5 +362,5 @@ def test_what_is_waited_for_is_one_of_four() -> None:
 def test_the_result_says_what_was_waited_for(
     sync: str, connection: ConnectionSpec, said: str
 ) -> None:
-    spec = ClientSpec(name="n", connection=connection, sync=sync_named(sync))
+    spec = ClientSpec(name="n", connection=connection, sync=read_sync(sync))
     assert spec.participation == said

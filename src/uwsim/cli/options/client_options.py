@@ -116,7 +116,7 @@ class ClientOptions:
 
     def _check_sync(self, wrong: ErrorCollector) -> None:
         """Collect what is wrong about what is waited for."""
-        from ...middleware.lockstep.spec import sync_named
+        from ...middleware.lockstep.spec import read_sync
 
         sync = self.sync or "ack"
         of = {
@@ -133,7 +133,7 @@ class ClientOptions:
             if self.sync is not None and self.client is None:
                 raise BadSetting(f"--sync {sync} is of --client NAME.")
         with wrong.collect():
-            if sync_named(sync) == "output" and not self.output:
+            if read_sync(sync) == "output" and not self.output:
                 raise BadSetting(
                     "--sync output: add what the client publishes, as --output /cmd_vel=10Hz."
                 )
@@ -148,7 +148,7 @@ class ClientOptions:
 
     def client_spec(self) -> ClientSpec | None:
         """Return the program outside; None without one."""
-        from ...middleware.lockstep.spec import SETTLE, ClientSpec, sync_named
+        from ...middleware.lockstep.spec import DEFAULT_SETTLE_TIME, ClientSpec, read_sync
 
         if self.client is None:
             return None
@@ -156,9 +156,9 @@ class ClientOptions:
             name=self.client,
             connection=self._connections.spec(),
             limit=self.client_limit,
-            sync=sync_named(self.sync or "ack"),
+            sync=read_sync(self.sync or "ack"),
             outputs=_outputs(self.output or ()),
-            settle=SETTLE if self.settle is None else self.settle,
+            settle=DEFAULT_SETTLE_TIME if self.settle is None else self.settle,
             speed=1.0 if self.speed is None else self.speed,
             secret=client_secret(self.client_secret_file) if self.sync in (None, "ack") else None,
         )
@@ -183,6 +183,6 @@ class ClientOptions:
 
 def _outputs(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
     """Read every ``--output``; raises BadSetting."""
-    from ...middleware.lockstep.spec import outputs_of
+    from ...middleware.lockstep.spec import read_outputs
 
-    return outputs_of(texts)
+    return read_outputs(texts)

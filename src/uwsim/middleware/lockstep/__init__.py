@@ -1,4 +1,4 @@
-"""Lock-step with programs outside: simulation time waits for them, over whatever transport.
+"""Lock-step with external programs: simulation time waits for them, over any transport.
 
 The contract, on three topics of std_msgs/String with a JSON object as their text:
 
@@ -12,25 +12,25 @@ The contract, on three topics of std_msgs/String with a JSON object as their tex
         {"client": NAME, "tick": 5, "published": {"/cmd": 5}, "next": 0.2}
 
 A tick comes at the end of each step in which a message of one of the client's ``topics`` was
-published, or in which the simulation time ``next`` [s] is reached that the client named last, for
-its timers.
+published. It also comes at the simulation time ``next`` [s] of the client's last answer, for its
+timers.
 
-A join may also say what the client will publish, ``"publishes": {"/cmd": "geometry_msgs/Twist"}``,
-so that a transport reads it before anybody on the bus does: in ROS a message that nobody reads is
-lost. An ack may have ``"calls": ["startBench"]``: services of std_srvs/Empty that are called for a
-client whose transport has none. Ticks have ``run``, which tells simulations apart, and so has an
-invitation, tick 0, that is sent before the join; a join or ack with another ``run`` is not heard.
+A join may also state the client's publications, ``"publishes": {"/cmd": "geometry_msgs/Twist"}``. A
+transport then reads them before the bus has a subscriber: ROS drops messages without subscribers.
+An ack may have ``"calls": ["startBench"]``: services of std_srvs/Empty that are called for a client
+whose transport has none. Ticks, and the invitation (tick 0) before the join, have ``run``, which
+identifies the simulation; a join or ack with another ``run`` is ignored.
 
 ``sent`` counts the messages of each topic since the join: topics are not ordered relative to each
 other in ROS, and a client waits until it has as many. ``published`` counts the client's own in the
 same way, and may be left out where the transport keeps the order of topics (WebSocket does).
 
-Until the ack is there simulation time stands. Calls of services are answered at once, also those
-that the simulation makes of the client; what the client has published is put on the bus after the
-ack, by topic name and then in its order, in the same step. A client that has not acknowledged
+Simulation time does not advance until the ack has come. Calls of services are answered at once,
+also those of the simulation to the client. After the ack, in the same step, the client's messages
+are published on the bus, by topic name and then in their order. A client that has not acknowledged
 within a limit of wall time, or has left, ends the run as invalid. Several clients are ticked one
-after the other, in the order of their names. A trial that begins anew closes the connection: the
-client joins again, as an algorithm that is created for each trial.
+after the other, in the order of their names. A new trial closes the connection: the client joins
+again, as an algorithm that is created for each trial.
 """
 
 from __future__ import annotations

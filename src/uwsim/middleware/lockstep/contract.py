@@ -1,4 +1,4 @@
-"""What a client may say on the topics of lock-step; each field that is another is refused."""
+"""The fields of a client's messages on the topics of lock-step; invalid ones are refused."""
 
 from __future__ import annotations
 
@@ -11,75 +11,75 @@ from ...errors import UwsimError
 from ..types import message_class, service, wire_type
 
 MAX_NAMES = 1000
-"""Topics and services that one client may name in a field."""
-Said = dict[str, Any]
+"""The maximum number of topics and services in one field."""
+Content = dict[str, Any]
 """The JSON object of a join or an answer."""
 
 
-def wrong_in_join(said: Said, bus: Bus) -> str | None:
-    """Return the first field of a join that is not as it should be, and what was expected."""
+def join_error(content: Content, bus: Bus) -> str | None:
+    """Return the first invalid field of a join, and what was expected."""
     return (
-        _first_wrong(said, JOIN_FIELDS, needed="topics")
-        or _wrong_topic(given(said, "publishes"), bus)
-        or _wrong_service(given(said, "services"), bus)
+        _first_error(content, JOIN_FIELDS, required_name="topics")
+        or _topic_error(object_in(content, "publishes"), bus)
+        or _service_error(object_in(content, "services"), bus)
     )
 
 
-def wrong_in_answer(said: Said) -> str | None:
-    """Return the first field of an answer to a tick that is not as it should be."""
-    return _first_wrong(said, ANSWER_FIELDS, needed="tick")
+def answer_error(content: Content) -> str | None:
+    """Return the first invalid field of an answer to a tick."""
+    return _first_error(content, ANSWER_FIELDS, required_name="tick")
 
 
-def wrong_in_reply(said: Said) -> str | None:
-    """Return the first field of an answer to a call that is not as it should be."""
-    return _first_wrong(said, REPLY_FIELDS, needed="call")
+def reply_error(content: Content) -> str | None:
+    """Return the first invalid field of an answer to a call."""
+    return _first_error(content, REPLY_FIELDS, required_name="call")
 
 
-def given(said: Said, field: str) -> dict[str, Any]:
-    """Return an object that may be left out."""
-    return said.get(field) or {}
+def object_in(content: Content, field: str) -> dict[str, Any]:
+    """Return an object; empty if it is missing."""
+    return content.get(field) or {}
 
 
-def names(said: Said, field: str) -> list[str]:
-    """Return a list of names that may be left out, each once."""
-    return list(dict.fromkeys(said.get(field) or ()))
+def names_in(content: Content, field: str) -> list[str]:
+    """Return a list of names, each once; empty if it is missing."""
+    return list(dict.fromkeys(content.get(field) or ()))
 
 
-def _first_wrong(said: Said, fields: Mapping[str, Field], needed: str) -> str | None:
-    for field, (is_right, expected) in fields.items():
-        value = said.get(field)
-        if value is None and field != needed:
+def _first_error(content: Content, fields: Mapping[str, Rule], required_name: str) -> str | None:
+    for field, (is_valid, expected) in fields.items():
+        value = content.get(field)
+        if value is None and field != required_name:
             continue
-        if not is_right(value):
-            shown = _shown(value) if field in said else "missing"
-            return f"{field} is {shown}; expected {expected}"
+        if not is_valid(value):
+            excerpt = _excerpt(value) if field in content else "missing"
+            return f"{field} is {excerpt}; expected {expected}"
     return None
 
 
-def _wrong_topic(publishes: Mapping[str, str], bus: Bus) -> str | None:
-    """Say which topic has a type that does not exist, or another one on the bus."""
-    for topic, kind in publishes.items():
+def _topic_error(published_types: Mapping[str, str], bus: Bus) -> str | None:
+    """Describe the first topic whose type does not exist, or differs from that on the bus."""
+    for topic, kind in published_types.items():
         try:
             cls = message_class(kind)
         except UwsimError as error:
-            return f"publishes, {_shown(topic)}: {error}"
-        known = bus.message_type(topic)
-        if known is not None and known is not cls:
-            wire = wire_type(known)
-            carried = wire.ros2_name if wire is not None else known.__name__
-            return f"publishes, {_shown(topic)} is {_shown(kind)}; expected {carried}"
+            return f"publishes, {_excerpt(topic)}: {error}"
+        bus_type = bus.message_type(topic)
+        if bus_type is not None and bus_type is not cls:
+            wire = wire_type(bus_type)
+            type_name = wire.ros2_name if wire is not None else bus_type.__name__
+            return f"publishes, {_excerpt(topic)} is {_excerpt(kind)}; expected {type_name}"
     return None
 
 
-def _wrong_service(services: Mapping[str, str], bus: Bus) -> str | None:
-    """Say which service has a type that does not exist, or is offered already."""
+def _service_error(services: Mapping[str, str], bus: Bus) -> str | None:
+    """Describe the first service whose type does not exist, or that is offered already."""
     for name, kind in services.items():
         try:
             service(kind)
         except UwsimError as error:
-            return f"services, {_shown(name)}: {error}"
+            return f"services, {_excerpt(name)}: {error}"
         if bus.services.serves(name):
-            return f"services, {_shown(name)} is offered already; expected another"
+            return f"services, {_excerpt(name)} is offered already; expected another"
     return None
 
 
@@ -99,46 +99,49 @@ def _are_names(value: object) -> bool:
     return isinstance(value, list) and len(value) <= MAX_NAMES and all(map(_is_name, value))
 
 
-def _of_names(value: object, is_right: Callable[[object], bool]) -> bool:
-    """Whether it is an object whose values are right."""
+def _is_object_of(value: object, is_valid: Callable[[object], bool]) -> bool:
+    """Return whether a value is an object whose names and values are valid."""
     if not isinstance(value, dict) or len(value) > MAX_NAMES:
         return False
-    return all(_is_name(name) and is_right(each) for name, each in value.items())
+    return all(_is_name(name) and is_valid(element) for name, element in value.items())
 
 
-def _shown(value: object) -> str:
+def _excerpt(value: object) -> str:
     text = json.dumps(value)
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-Field = tuple[Callable[[object], bool], str]
-"""Whether a value is right, and what is expected."""
-TIME: Field = (_is_time, "a time >= 0 [s], or null for none")
-NAMES: Field = (_are_names, f"a list of at most {MAX_NAMES} names")
-TYPES: Field = (lambda value: _of_names(value, _is_name), "an object with a type for each name")
-COUNTS: Field = (
-    lambda value: _of_names(value, _is_count),
+Rule = tuple[Callable[[object], bool], str]
+"""A test of a value, and a text of what is expected."""
+TIME_RULE: Rule = (_is_time, "a time >= 0 [s], or null for none")
+NAMES_RULE: Rule = (_are_names, f"a list of at most {MAX_NAMES} names")
+TYPES_RULE: Rule = (
+    lambda value: _is_object_of(value, _is_name),
+    "an object with a type for each name",
+)
+COUNTS_RULE: Rule = (
+    lambda value: _is_object_of(value, _is_count),
     "an object with a whole number >= 0 for each topic",
 )
-ID: Field = (_is_name, "a text")
+ID_RULE: Rule = (_is_name, "a text")
 JOIN_FIELDS = {
-    "id": ID,
-    "secret": ID,
-    "topics": NAMES,
-    "next": TIME,
-    "own": NAMES,
-    "publishes": TYPES,
-    "services": TYPES,
+    "id": ID_RULE,
+    "secret": ID_RULE,
+    "topics": NAMES_RULE,
+    "next": TIME_RULE,
+    "own": NAMES_RULE,
+    "publishes": TYPES_RULE,
+    "services": TYPES_RULE,
 }
-ANSWER_FIELDS: Mapping[str, Field] = {
+ANSWER_FIELDS: Mapping[str, Rule] = {
     "tick": (_is_count, "the whole number of the tick"),
-    "next": TIME,
-    "published": COUNTS,
-    "calls": NAMES,
+    "next": TIME_RULE,
+    "published": COUNTS_RULE,
+    "calls": NAMES_RULE,
 }
-REPLY_FIELDS: Mapping[str, Field] = {
+REPLY_FIELDS: Mapping[str, Rule] = {
     "call": (_is_count, "the whole number of the call"),
     "values": (lambda value: isinstance(value, dict), "an object"),
-    "published": COUNTS,
-    "calls": NAMES,
+    "published": COUNTS_RULE,
+    "calls": NAMES_RULE,
 }

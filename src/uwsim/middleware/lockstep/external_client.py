@@ -1,4 +1,4 @@
-"""Making the live client of a program outside, and admitting it alone to the run."""
+"""The algorithm that represents an external program, and the rule that admits it to the run."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from .step_client import SERVICE, StepClient
 def make_external_client(
     spec: ClientSpec, bridges: Sequence[Bridge], *, timestep: float
 ) -> Algorithm:
-    """Return what stands for the program in the simulation; attach it.
+    """Make the algorithm that represents the program in the simulation; attach it.
 
     Args:
         spec: the program, and what is waited for.
-        bridges: the open connection by which it comes; one.
-        timestep: of the simulation [s].
+        bridges: the open connections; exactly one, which it uses.
+        timestep: the step of the simulation [s].
 
     Raises:
         BadSetting: there is no transport, or more than one.
     """
     for bridge in bridges:
-        bridge.admission = admission_of(spec, partial(report, bridge))
+        bridge.admission = make_admission(spec, partial(report_refusal, bridge))
     if spec.sync == "ack":
         (client,) = lockstep_clients(
             bridges, [spec.name], timestep=timestep, limit=spec.limit, secret=spec.secret
@@ -43,17 +43,17 @@ def make_external_client(
     return FreeClient(bridge, spec)
 
 
-def admission_of(spec: ClientSpec, report: Report) -> Admission:
-    """Return who may publish and call in the run of a program."""
+def make_admission(spec: ClientSpec, report: Report) -> Admission:
+    """Return the rule that decides who may publish and call in the run of a program."""
     if spec.sync == "ack":
         return SingleProgram(report)
     if spec.sync == "step":
         return FirstCaller(SERVICE, report)
     is_free = spec.sync == "none"
-    return TopicOwners(None if is_free else (each.topic for each in spec.outputs), report)
+    return TopicOwners(None if is_free else (output.topic for output in spec.outputs), report)
 
 
-def report(bridge: Bridge, sender: str, text: str) -> None:
-    """Report what is refused to the log, and to who sent it."""
+def report_refusal(bridge: Bridge, sender: str, text: str) -> None:
+    """Report a refusal to the log and to its sender."""
     bridge.log.report(text, kind="refused: does not take part")
     bridge.report_error(sender, text)

@@ -1,4 +1,4 @@
-"""What the live clients of a program outside share."""
+"""The base class of algorithms that represent an external program."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from .spec import ClientSpec
 
 
 class ExternalProgram:
-    """Stands for a program outside, as an algorithm of the simulation.
+    """An algorithm of the simulation that represents an external program.
 
     Args:
-        bridge: to the transport by which it comes.
+        bridge: the bridge of its transport.
         spec: the program, and what is waited for.
     """
 
@@ -20,15 +20,15 @@ class ExternalProgram:
 
     @property
     def name(self) -> str:
-        """Its name in the result."""
+        """The name of the program in the result."""
         return self._spec.name
 
     @property
     def parameters(self) -> dict[str, float | str]:
-        """Those of the program are its own."""
+        """The parameters, which are empty: the program has its own."""
         return {}
 
     def take_refusals(self) -> tuple[Refusal, ...]:
-        """Return what was refused since the last call of programs that do not take part."""
+        """Return the refusals since the last call, of programs that do not take part."""
         admission = self._bridge.admission
         return () if admission is None else admission.take_refusals()

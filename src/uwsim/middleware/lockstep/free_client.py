@@ -1,4 +1,4 @@
-"""Programs that are not waited for: simulation time goes with the clock on the wall."""
+"""Programs that are not waited for: simulation time follows wall time."""
 
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from .external_program import ExternalProgram
 
 
 class FreeClient(ExternalProgram):
-    """Whatever is connected; an algorithm in the sense of `uwsim.bus.Algorithm`.
+    """The programs that are connected; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
-    Its messages and calls take effect at the end of the step in which they have come, so that two
-    runs are not the same.
+    Messages and calls take effect at the end of the step in which they arrive, so that two runs
+    differ.
     """
 
     def start(self, node: Node) -> None:
-        """Show the outside what there is; nobody is waited for."""
+        """Advertise topics and services; wait for no program."""
         self._bridge.step()

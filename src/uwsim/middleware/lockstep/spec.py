@@ -1,4 +1,4 @@
-"""A program outside that is the algorithm of a simulation: how it comes, and what is waited for."""
+"""The specification of an external program that is the algorithm of a simulation."""
 
 from __future__ import annotations
 
@@ -11,116 +11,116 @@ from ...errors import BadSetting, did_you_mean
 from ..connection import ConnectionSpec
 
 Sync = Literal["ack", "step", "output", "none"]
-"""What simulation time waits for: an acknowledgement of each tick; a call of ``step_simulation``;
-the outputs of a node that knows nothing of lock-step; nothing, it is real time."""
-SETTLE = 0.005
-"""Default of how long a node of ROS may take to have what was sent to it [s of wall time]."""
-ORDERED = ("web",)
-"""Transports that keep the order of all that they carry."""
-LOCK_STEP, FREE = "lock-step", "free-running"
-"""How a program outside takes part, as a result says it."""
+"""The synchronization: simulation time waits for an acknowledgement of each tick, a call of
+``step_simulation``, the outputs of a node without lock-step, or nothing (real time)."""
+DEFAULT_SETTLE_TIME = 0.005
+"""The default time for a node of ROS to receive what was sent to it [s of wall time]."""
+ORDERED_TRANSPORTS = ("web",)
+"""The transports that keep the order of messages on all topics."""
+LOCK_STEP, FREE_RUNNING = "lock-step", "free-running"
+"""The two kinds of participation in a result."""
 GRADES = {"ack": "(a)", "step": "(b)", "output": "(c)"}
-"""What its answers are paired with what it is given by (docs/lock-step.md)."""
+"""The rule that pairs answers with inputs, as in docs/lock-step.md."""
 RATE = re.compile(r"([0-9.eE+-]+) ?Hz", re.ASCII)
 
 
 @dataclass(frozen=True, kw_only=True)
 class OutputSpec:
-    """A topic that a node publishes, and when a message of it is due."""
+    """A topic that a node publishes, and the schedule of its messages."""
 
     topic: str
-    """Without a leading slash."""
+    """The topic, without a leading slash."""
     rate: float | None = None
-    """That of the node's timer, on the clock of the simulation [Hz]."""
-    follows: str | None = None
-    """Topic for each message of which the node publishes one; without a leading slash."""
+    """The rate of the node's timer, on the clock of the simulation [Hz]."""
+    input_topic: str | None = None
+    """The topic for each message of which the node publishes one; without a leading slash."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ClientSpec:
-    """A program outside that is the algorithm."""
+    """An external program that is the algorithm."""
 
     name: str
-    """Under which it joins, or is known in the result."""
+    """The name under which it joins, or in the result."""
     connection: ConnectionSpec
-    """The one by which it comes."""
+    """The connection that it uses."""
     limit: float = 60.0
-    """How long it may take to join, and to answer [s of wall time]."""
+    """The time limit for joining, and for each answer [s of wall time]."""
     sync: Sync = "ack"
-    """What simulation time waits for."""
+    """The synchronization of simulation time."""
     outputs: tuple[OutputSpec, ...] = ()
-    """Of ``output``: those that are waited for."""
-    settle: float = SETTLE
-    """Of ``step`` and ``output``, over ROS: how long what was sent may be on its way [s of wall
-    time]."""
+    """The outputs that are waited for (``output`` only)."""
+    settle: float = DEFAULT_SETTLE_TIME
+    """The time for messages to arrive over ROS (``step`` and ``output`` only) [s of wall time]."""
     speed: float = 1.0
-    """Of ``none``: simulation time per real time."""
+    """The simulation time per real time (``none`` only)."""
     secret: str | None = field(default=None, repr=False)
-    """Of ``ack``: what the join has to have, so that no other program joins under the name."""
+    """The secret that the join must have, so that no other program joins under the name (``ack``
+    only)."""
 
     @property
     def transport(self) -> str:
-        """Name of that by which it comes: ros1, ros2, web."""
+        """The name of the transport: ros1, ros2, web."""
         return self.connection.names[0]
 
     @property
     def keeps_order(self) -> bool:
-        """Whether what is sent arrives in the order in which it was sent, on all topics."""
-        return self.transport in ORDERED
+        """A flag: messages arrive in the order in which they were sent, on all topics."""
+        return self.transport in ORDERED_TRANSPORTS
 
     @property
-    def settling(self) -> float:
-        """How long to wait for what is on its way [s of wall time]."""
+    def settle_time(self) -> float:
+        """The time to wait for messages to arrive [s of wall time]."""
         return 0.0 if self.keeps_order else self.settle
 
     @property
     def participation(self) -> str:
-        """How it takes part, as a result says it: ``lock-step, ros1, grade (a)``."""
+        """The kind of participation in a result: ``lock-step, ros1, grade (a)``."""
         if self.sync == "none":
-            return f"{FREE}, {self.transport}, not repeatable"
-        said = f"{LOCK_STEP}, {self.transport}, grade {GRADES[self.sync]}"
+            return f"{FREE_RUNNING}, {self.transport}, not repeatable"
+        text = f"{LOCK_STEP}, {self.transport}, grade {GRADES[self.sync]}"
         is_certain = self.sync == "ack" or self.keeps_order
-        return said if is_certain else f"{said}, not guaranteed"
+        return text if is_certain else f"{text}, not guaranteed"
 
 
-def sync_named(text: str) -> Sync:
-    """Return what ``--sync`` names; raises BadSetting."""
-    for known in get_args(Sync):
-        if text == known:
-            found: Sync = known
-            return found
+def read_sync(text: str) -> Sync:
+    """Read ``--sync``; raise BadSetting."""
+    for name in get_args(Sync):
+        if text == name:
+            sync: Sync = name
+            return sync
     raise BadSetting(
         f"--sync {text}: expected {', '.join(get_args(Sync))}.{did_you_mean(text, get_args(Sync))}"
     )
 
 
-def outputs_of(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
-    """Read every ``--output``; raises BadSetting."""
-    found: dict[str, OutputSpec] = {}
+def read_outputs(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
+    """Read every ``--output``; raise BadSetting."""
+    outputs: dict[str, OutputSpec] = {}
     for text in texts:
-        output = output_of(text)
-        if output.topic in found:
+        output = read_output(text)
+        if output.topic in outputs:
             raise BadSetting(f"--output {text}: /{output.topic} is given twice.")
-        found[output.topic] = output
-    return tuple(found.values())
+        outputs[output.topic] = output
+    return tuple(outputs.values())
 
 
-def output_of(text: str) -> OutputSpec:
-    """Read ``TOPIC=10Hz`` or ``TOPIC=INPUT``; raises BadSetting."""
-    topic, _, due = (part.strip() for part in text.partition("="))
-    name, follows = topic.lstrip("/"), due.lstrip("/")
-    if not name or not follows:
+def read_output(text: str) -> OutputSpec:
+    """Read ``TOPIC=10Hz`` or ``TOPIC=INPUT``; raise BadSetting."""
+    topic, _, schedule = (part.strip() for part in text.partition("="))
+    name, input_topic = topic.lstrip("/"), schedule.lstrip("/")
+    if not name or not input_topic:
         raise BadSetting(
             f"--output {text}: expected TOPIC=RATE or TOPIC=INPUT, as /cmd_vel=10Hz or "
             "/corners=/camera/image."
         )
-    if name == follows:
+    if name == input_topic:
         raise BadSetting(f"--output {text}: a topic does not follow itself.")
-    if due[0] not in "+-.0123456789" and not due.lower().endswith("hz"):
-        return OutputSpec(topic=name, follows=follows)
-    found = RATE.fullmatch(due)
+    if schedule[0] not in "+-.0123456789" and not schedule.lower().endswith("hz"):
+        return OutputSpec(topic=name, input_topic=input_topic)
+    match = RATE.fullmatch(schedule)
     try:
-        rate = float(found[1]) if found else float("nan")
+        rate = float(match[1]) if match else float("nan")
     except ValueError:
         rate = float("nan")
     if not 0.0 < rate <= 1e4:

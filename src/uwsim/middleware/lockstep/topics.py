@@ -1,8 +1,8 @@
 """Names of the topics of lock-step."""
 
 JOIN = "uwsim/lockstep/join"
-"""From the client: it takes part; from the bridge, when it has left."""
+"""The topic on which the client joins, and on which the bridge reports that it has left."""
 TICK = "uwsim/lockstep/tick"
-"""To the client."""
+"""The topic to the client."""
 ACK = "uwsim/lockstep/ack"
-"""From the client."""
+"""The topic from the client."""

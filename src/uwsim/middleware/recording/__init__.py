@@ -1,4 +1,4 @@
-"""Messages of a running scene on disk, and how often they come.
+"""Recordings of the messages of a running scene, and the rates of its topics.
 
 .. code-block:: python
 

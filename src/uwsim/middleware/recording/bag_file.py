@@ -1,6 +1,6 @@
 """A bag of ROS 1, with the definition of each type inside; read by rosbag, rqt_bag, rosbags.
 
-Its chunks are not compressed. It is written next to its place and put there by `BagFile.close`.
+Its chunks are not compressed. It has a temporary name until `BagFile.close`.
 """
 
 from __future__ import annotations
@@ -20,10 +20,10 @@ SUFFIX = ".bag"
 
 
 class BagFile:
-    """Writes messages into one bag of ROS 1.
+    """A bag of ROS 1 that is written message by message.
 
     Args:
-        path: the file; it is there after `close`.
+        path: the path of the file, which exists after `close`.
 
     Raises:
         OSError: its folder cannot be written.
@@ -32,26 +32,26 @@ class BagFile:
     def __init__(self, path: Path) -> None:
         self._path = path
         path.parent.mkdir(parents=True, exist_ok=True)
-        self._partial = path.with_name(f".{path.name}.partial")
-        self._partial.unlink(missing_ok=True)
-        self._writer = Writer(self._partial)
+        self._partial_path = path.with_name(f".{path.name}.partial")
+        self._partial_path.unlink(missing_ok=True)
+        self._writer = Writer(self._partial_path)
         self._writer.open()
         self._connections: dict[str, Any] = {}
         self._n_written: dict[str, int] = {}
 
     @staticmethod
-    def has(kind: WireType) -> bool:
-        """Whether ROS 1 has such a type."""
+    def has_type(kind: WireType) -> bool:
+        """Return whether ROS 1 has a type."""
         return bool(kind.md5)
 
     def write(self, topic: str, kind: WireType, time: int, message: object) -> None:
         """Append a message.
 
         Args:
-            topic: its topic.
-            kind: its type.
-            time: when it was delivered, since the simulation began [ns].
-            message: of that type.
+            topic: the topic of the message.
+            kind: the type of the message.
+            time: the simulation time of its delivery [ns].
+            message: the message.
         """
         seq = self._n_written.get(topic, 0)
         data = bytes(to_ros1(message, seq=seq))
@@ -67,13 +67,13 @@ class BagFile:
             self._n_written[topic] = seq + 1
 
     def discard(self) -> None:
-        """Leave nothing, where the file cannot be finished."""
-        self._partial.unlink(missing_ok=True)
+        """Delete the file, which cannot be finished."""
+        self._partial_path.unlink(missing_ok=True)
         with suppress(Exception):
             self._writer.close()
 
     def close(self) -> None:
-        """Write the index and put the file in its place."""
+        """Write the index and move the file to its path."""
         with block_interrupts():
             self._writer.close()
-            self._partial.replace(self._path)
+            self._partial_path.replace(self._path)

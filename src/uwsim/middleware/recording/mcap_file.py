@@ -1,9 +1,9 @@
 """An MCAP file of ROS 2 messages: CDR, with the definition of each type inside.
 
-It is written by rosbags, which writes a folder (a rosbag2); its one file is what is kept. The
-folder lies next to the file until `McapFile.close`, so that a run that is killed loses no disk.
-The channel of a topic has the quality of service that the simulator offers over ROS 2, where
-``ros2 bag play`` looks for it: latched topics are replayed latched.
+rosbags writes a folder (a rosbag2), of which one file is kept. The folder lies next to the file
+until `McapFile.close`; the next run deletes the folder of a killed one. The channel of a topic has
+the quality of service that the simulator offers over ROS 2, which ``ros2 bag play`` reads: latched
+topics are replayed latched.
 """
 
 from __future__ import annotations
@@ -30,9 +30,9 @@ from ..types import WireType, ros2_store
 
 SUFFIX = ".mcap"
 BAG = "recording"
-"""Name of the rosbag2 inside; the same for every file, so that equal runs give equal bytes."""
-FOREVER = QosTime(9223372036, 854775807)
-"""What ROS 2 writes for an infinite time."""
+"""The name of the rosbag2 inside; the same for every file, so that equal runs give equal bytes."""
+INFINITE_TIME = QosTime(9223372036, 854775807)
+"""The infinite time, as ROS 2 writes it."""
 
 
 def quality_of(topic: str) -> Qos:
@@ -43,19 +43,19 @@ def quality_of(topic: str) -> Qos:
         depth=LATCHED_DEPTH if is_latched else DEPTH,
         reliability=QosReliability.RELIABLE,
         durability=QosDurability.TRANSIENT_LOCAL if is_latched else QosDurability.VOLATILE,
-        deadline=FOREVER,
-        lifespan=FOREVER,
+        deadline=INFINITE_TIME,
+        lifespan=INFINITE_TIME,
         liveliness=QosLiveliness.AUTOMATIC,
-        liveliness_lease_duration=FOREVER,
+        liveliness_lease_duration=INFINITE_TIME,
         avoid_ros_namespace_conventions=False,
     )
 
 
 class McapFile:
-    """Writes messages into one MCAP file, compressed by zstd.
+    """An MCAP file, compressed by zstd, that is written message by message.
 
     Args:
-        path: the file; it is there after `close`.
+        path: the path of the file, which exists after `close`.
 
     Raises:
         OSError: its folder cannot be written.
@@ -65,7 +65,7 @@ class McapFile:
         self._path = path
         path.parent.mkdir(parents=True, exist_ok=True)
         self._folder = path.with_name(f".{path.name}.partial")
-        shutil.rmtree(self._folder, ignore_errors=True)  # of a run that was killed
+        shutil.rmtree(self._folder, ignore_errors=True)  # a killed run may have left it
         self._folder.mkdir()
         self._writer = Writer(
             self._folder / BAG, version=Writer.VERSION_LATEST, storage_plugin=StoragePlugin.MCAP
@@ -75,18 +75,18 @@ class McapFile:
         self._channels: dict[str, Any] = {}
 
     @staticmethod
-    def has(kind: WireType) -> bool:
-        """Whether ROS 2 has such a type."""
+    def has_type(kind: WireType) -> bool:
+        """Return whether ROS 2 has a type."""
         return bool(kind.type_hash)
 
     def write(self, topic: str, kind: WireType, time: int, message: object) -> None:
         """Append a message.
 
         Args:
-            topic: its topic.
-            kind: its type.
-            time: when it was delivered, since the simulation began [ns].
-            message: of that type.
+            topic: the topic of the message.
+            kind: the type of the message.
+            time: the simulation time of its delivery [ns].
+            message: the message.
         """
         data = to_cdr(message)
         with block_interrupts():
@@ -100,14 +100,14 @@ class McapFile:
             self._writer.write(self._channels[topic], time, data)
 
     def discard(self) -> None:
-        """Leave nothing, where the file cannot be finished."""
+        """Delete the file, which cannot be finished."""
         shutil.rmtree(self._folder, ignore_errors=True)
         with suppress(Exception):
             self._writer.close()
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def close(self) -> None:
-        """Write the index and put the file in its place."""
+        """Write the index and move the file to its path."""
         with block_interrupts():
             self._writer.close()
             (self._folder / BAG / f"{BAG}{SUFFIX}").replace(self._path)

@@ -1,4 +1,4 @@
-"""Puts a recording onto a bus, each message at its time."""
+"""Playback of a recording on a bus, each message at its time."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from ...bus import Node
 from .bag_reader import BagReader
 
 PREFIX = "/recorded"
-"""In front of topics that something else publishes, too."""
+"""The prefix of recorded topics that the simulation publishes, too."""
 
 
 class Player:
-    """Publishes the messages of a recording, as an algorithm that is attached to a simulation.
+    """An algorithm that publishes the messages of a recording.
 
     A message is delivered at the first step at or after its time; those of one step in the order
-    of `BagReader.messages`. A recording of a simulation with the same step is so played at the same
-    steps.
+    of `BagReader.messages`. A recording of a simulation with the same step is thus played at the
+    same steps.
 
     Args:
         reader: the recording.
-        timestep: of the simulation [s].
-        published: topics, with a leading slash, that others publish: the recorded messages go to
-            ``/recorded/TOPIC``.
+        timestep: the step of the simulation [s].
+        bus_topics: the topics, with a leading slash, that others publish: the recorded messages
+            are published on ``/recorded/TOPIC``.
         left_out: topics that are not played.
     """
 
@@ -32,19 +32,19 @@ class Player:
         reader: BagReader,
         timestep: float,
         *,
-        published: Collection[str] = (),
+        bus_topics: Collection[str] = (),
         left_out: Collection[str] = (),
     ) -> None:
         self._timestep = timestep
         self._messages = reader.messages()
-        self._next = next(self._messages, None)
+        self._next_message = next(self._messages, None)
         self._publishers: dict[str, Callable[[object], None]] = {}
         self.topics: Mapping[str, str] = {
-            topic: f"{PREFIX}{topic}" if topic in published else topic
+            topic: f"{PREFIX}{topic}" if topic in bus_topics else topic
             for topic in reader.topics
             if topic not in left_out
         }
-        """Topic in the recording -> topic on the bus."""
+        """The topics in the recording -> the topics on the bus."""
         self._types = reader.topics
 
     def start(self, node: Node) -> None:
@@ -56,15 +56,15 @@ class Player:
 
     @property
     def is_over(self) -> bool:
-        """Whether all is played."""
-        return self._next is None
+        """A flag: all messages are published."""
+        return self._next_message is None
 
     def _play(self) -> None:
         step = round(self._node.now / self._timestep)
-        while self._next is not None:
-            time, topic, message = self._next
+        while self._next_message is not None:
+            time, topic, message = self._next_message
             if math.ceil(time / self._timestep - 1e-6) > step:
                 return
             if topic in self._publishers:
                 self._publishers[topic](message)
-            self._next = next(self._messages, None)
+            self._next_message = next(self._messages, None)

@@ -17,27 +17,27 @@ from .bag_file import BagFile
 from .mcap_file import McapFile
 
 FILES: dict[str, type[McapFile] | type[BagFile]] = {".mcap": McapFile, ".bag": BagFile}
-"""Ending of a recording's name -> what writes it: ROS 2 in MCAP, a bag of ROS 1."""
+"""The classes of recordings by suffix: ROS 2 in MCAP, a bag of ROS 1."""
 ImageStorage = Literal["raw", "png", "none"]
-"""How images are kept: as they are, as ``TOPIC/compressed`` without loss, or not at all."""
-DRAWN = (Image, PointCloud2)
-"""Messages that are drawn only where somebody reads them."""
+"""The storage of images: as they are, as ``TOPIC/compressed`` without loss, or not at all."""
+RENDERED_TYPES = (Image, PointCloud2)
+"""The messages that are rendered for subscribers only."""
 PNG_ENCODINGS = ("rgb8", "mono8")
-"""Encodings of images that PNG holds as they are; others are kept raw."""
+"""The encodings of images that PNG stores without conversion; others are stored raw."""
 
 
 def image_storage(text: str) -> ImageStorage:
-    """Return how images are kept, as ``--images`` names it; raises BadSetting."""
-    known: tuple[ImageStorage, ...] = get_args(ImageStorage)
-    for each in known:
-        if text == each:
-            return each
-    near = did_you_mean(text, known)
-    raise BadSetting(f"--images {text!r}: expected one of {', '.join(known)}.{near}")
+    """Read ``--images``; raise BadSetting."""
+    names: tuple[ImageStorage, ...] = get_args(ImageStorage)
+    for name in names:
+        if text == name:
+            return name
+    near = did_you_mean(text, names)
+    raise BadSetting(f"--images {text!r}: expected one of {', '.join(names)}.{near}")
 
 
 def check_path(path: Path, *, overwrite: bool) -> None:
-    """Refuse a path to which nothing can be recorded; raises BadSetting."""
+    """Raise BadSetting if nothing can be recorded to a path."""
     if path.suffix.lower() not in FILES:
         raise BadSetting(f"--record {path}: only {' and '.join(FILES)} files are written.")
     if path.is_dir():
@@ -49,15 +49,15 @@ def check_path(path: Path, *, overwrite: bool) -> None:
 
 
 class Recorder:
-    """Writes every message that a bus delivers, from `start` on.
+    """A recording of every message that a bus delivers, from `start` on.
 
     Args:
-        bus: what is recorded, topics that come later included.
+        bus: the bus to record, including topics that are created later.
         path: the ``.mcap`` or ``.bag`` file.
-        images: how images are kept.
+        images: the storage of images.
 
     Raises:
-        BadSetting: it cannot be written there.
+        BadSetting: the file cannot be written.
     """
 
     def __init__(self, bus: Bus, path: Path, *, images: ImageStorage = "raw") -> None:
@@ -70,81 +70,81 @@ class Recorder:
         except OSError as error:
             raise BadSetting(f"--record {path}: cannot be written: {error.strerror}.") from None
         self.n_messages = 0
-        """Messages recorded so far."""
+        """The number of messages recorded so far."""
         self.left_out: dict[str, str] = {}
-        """Topic -> name of its type, of topics whose type has no definition."""
+        """The topics whose type has no definition -> the name of the type."""
 
     def start(self, clock: Callable[[], float], *, is_unnoticed: bool = False) -> None:
         """Subscribe to every topic.
 
         Args:
             clock: returns the simulation time [s].
-            is_unnoticed: whether nothing else may differ for it: images and point clouds are
-                recorded where others read them, and what programs publish on topics of their own
-                is none the more checked. Begin before programs are attached.
+            is_unnoticed: a flag: the recording does not affect the run. Images and point clouds
+                are recorded only if they have other subscribers, and messages on topics of
+                programs are not checked for it. Call `start` before programs are attached.
         """
         self._clock = clock
         is_before = True
 
-        def appeared(topic: str, type: type) -> None:
-            if not self.reads(type):
+        def on_topic(topic: str, type: type) -> None:
+            if not self.is_recorded(type):
                 return
             kind = wire_type(type)
-            if kind is None or not self._file.has(kind):
+            if kind is None or not self._file.has_type(kind):
                 self.left_out[topic] = getattr(type, "__name__", str(type))
                 return
 
             def receive(message: object) -> None:
-                self._keep(f"/{topic}", kind, round(clock() * NANOSECONDS), message)
+                self._write(f"/{topic}", kind, round(clock() * NANOSECONDS), message)
 
-            counts = not is_unnoticed or (is_before and type not in DRAWN)
+            counts = not is_unnoticed or (is_before and type not in RENDERED_TYPES)
             stop = self._bus.subscribe(topic, type, receive, owner=OBSERVER, counts=counts)
             self._stops.append(stop)
 
-        self._stops.append(self._bus.observe(appeared))
+        self._stops.append(self._bus.observe(on_topic))
         is_before = False
 
-    def reads(self, type: type) -> bool:
-        """Whether topics of that message type are recorded, if it has a definition."""
+    def is_recorded(self, type: type) -> bool:
+        """Return whether to record topics of a message type, if it has a definition."""
         return type is not Image or self._images != "none"
 
-    def _keep(self, topic: str, kind: WireType, time: int, message: object) -> None:
+    def _write(self, topic: str, kind: WireType, time: int, message: object) -> None:
         if (
             self._images == "png"
             and isinstance(message, Image)
             and message.encoding in PNG_ENCODINGS
         ):
             topic, message = f"{topic}/compressed", as_png(message)
-            packed = wire_type(CompressedImage)
-            assert packed is not None
-            kind = packed
+            png_type = wire_type(CompressedImage)
+            assert png_type is not None
+            kind = png_type
         if self._failure:
             return
         try:
             self._file.write(topic, kind, time, message)
-        except OSError as error:  # not here: an algorithm may be publishing
+        except OSError as error:  # not raised here, as an algorithm may be publishing
             self._failure = f"{error.strerror}: {self._path}"
             self._file.discard()
             return
         self.n_messages += 1
 
     def check(self) -> None:
-        """Raise RunFailed if the file cannot be written any more; nothing is left of it then."""
+        """Raise RunFailed if the file cannot be written any more; it is deleted then."""
         if self._failure:
             raise RunFailed(f"{self._failure} (the recording; nothing of it is kept)")
 
     def keep(self, topic: str, message: object) -> None:
         """Record a message that is not on the bus; after `start`."""
-        own: type = type(message)
-        kind = wire_type(own)
-        if kind is not None and self._file.has(kind):
-            self._keep(topic, kind, round(self._clock() * NANOSECONDS), message)
+        message_type: type = type(message)
+        kind = wire_type(message_type)
+        if kind is not None and self._file.has_type(kind):
+            self._write(topic, kind, round(self._clock() * NANOSECONDS), message)
 
     def close(self) -> None:
         """Stop, and finish the file.
 
         Raises:
-            RunFailed: it could not be written.
+            RunFailed: the file could not be written.
         """
         for stop in self._stops:
             stop()

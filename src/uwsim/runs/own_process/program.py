@@ -10,7 +10,7 @@ from ...bus import Algorithm
 from ...middleware.lockstep.client import LockStepClient
 from ...middleware.lockstep.external_client import make_external_client
 from ...middleware.lockstep.external_program import ExternalProgram
-from ...middleware.lockstep.spec import FREE, LOCK_STEP, ClientSpec
+from ...middleware.lockstep.spec import FREE_RUNNING, LOCK_STEP, ClientSpec
 from ...middleware.pacing import Pace
 from ...simulation import Simulation
 from ..planning.plan import Plan
@@ -86,4 +86,4 @@ def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
 
 def is_outside(how: str) -> bool:
     """Whether an entry of `clients_of` is of a program outside, which only its owner can run."""
-    return how.startswith((LOCK_STEP, FREE))
+    return how.startswith((LOCK_STEP, FREE_RUNNING))
