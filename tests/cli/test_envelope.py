@@ -217,7 +217,7 @@ def test_runs_that_another_search_writes_are_not_overwritten(
         (["--to", "1e300"], "--to is 1e+300; no quantity is beyond 1e+09."),
         (["--confidence", "95"], "--confidence is 95; expected"),
         (["--level", "fog=1"], "--level fog: this benchmark sweeps load."),
-        (["--level", "load=1"], "--level load: that is what is searched over."),
+        (["--level", "load=1"], "--level load: the search varies this parameter itself."),
         (["--resume", "--overwrite"], "--resume and --overwrite exclude each other."),
     ],
 )

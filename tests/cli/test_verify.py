@@ -26,8 +26,8 @@ from uwsim.runs.prepare import hash_inputs
 from uwsim.runs.run import Run
 from uwsim.simulation import Simulation
 from uwsim.verify.derived import contradictions
-from uwsim.verify.differences import of_row, of_text
-from uwsim.verify.verify import Verification, choose
+from uwsim.verify.differences import row_differences, text_difference
+from uwsim.verify.verify import Verification, choose_trials
 
 BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="tank.xml" u:algorithm="esm"
     u:mode="independent">
@@ -163,9 +163,7 @@ def test_a_result_json_that_says_other_than_its_units_is_found_without_a_replay(
     status, said = verify(capsys, "--sample", "1")
     assert status == 3
     assert 'result.json: row 0, column status: "lost" there, "ok" by units/' in said
-    assert (
-        "Every replayed trial gave what it stored; other parts of the result were changed" in said
-    )
+    assert "Every replayed trial gave its stored values; other parts of the result differ" in said
     assert "1 of 2 trials replayed" in said
 
 
@@ -311,7 +309,7 @@ def test_a_changed_scene_is_refused_and_the_right_one_may_be_called_otherwise(
     status, said = verify(capsys, "--scene", "elsewhere.xml", "--sample", "1")
     assert status == 0
     assert "renderer: made with NVIDIA " in said
-    assert "promised is the motion of whatever no image steers" in said
+    assert "guaranteed is the motion of all that no image steers" in said
     assert "processor: made with abacus, replayed with" in said
 
 
@@ -321,7 +319,7 @@ def test_a_benchmark_that_is_nowhere_is_asked_for(
     (folder / "b.xml").unlink()
     status, said = verify(capsys)
     assert status == 2
-    assert "was not found; give it with --benchmark" in said
+    assert "is not found; name it with --benchmark" in said
 
 
 @pytest.mark.parametrize(
@@ -386,26 +384,30 @@ def test_a_forged_total_or_value_is_found_though_units_and_result_agree(
 
 def test_a_sample_is_chosen_by_its_seed_and_keeps_the_order() -> None:
     trials: list[Any] = list(range(50))
-    samples = {choose(trials, 3, seed) for seed in range(20)}
+    samples = {choose_trials(trials, 3, seed) for seed in range(20)}
     assert len(samples) > 15
     assert all(list(sample) == sorted(set(sample)) for sample in samples)
-    assert choose(trials, 3, 4) == choose(trials, 3, 4)
-    assert choose(trials, None, 0) == choose(trials, 60, 0) == tuple(trials)
+    assert choose_trials(trials, 3, 4) == choose_trials(trials, 3, 4)
+    assert choose_trials(trials, None, 0) == choose_trials(trials, 60, 0) == tuple(trials)
 
 
 def test_leaves_are_compared_as_text() -> None:
     assert leaves({"a": [0.0, {"b": None}], "c": []}) == {
         ("a", 0): "0.0", ("a", 1, "b"): "null", ("c",): "[]",
     }  # fmt: skip
-    assert of_row({"total": 0.0}, {"total": -0.0}) == ["column total: stored 0.0, replayed -0.0"]
-    assert of_row({"logs": 7}, {"logs": {"a": [[0.0, 1.0]]}}) != []
+    assert row_differences({"total": 0.0}, {"total": -0.0}) == [
+        "column total: stored 0.0, replayed -0.0"
+    ]
+    assert row_differences({"logs": 7}, {"logs": {"a": [[0.0, 1.0]]}}) != []
 
 
 def test_tables_are_compared_by_line_and_column() -> None:
-    assert of_text("a,b\n1,2\n", "a,b\n1,2\n") is None
-    assert of_text("a,b\n1,2\n", "a,b\n1,3\n") == "line 2, column b: '2' there, '3' expected"
-    assert of_text("a,b\n1,2\n", "a,b\n") == "line 2: '1,2' there, '' expected"
-    assert of_text("a,b", "a,b\n") == "1 lines there, 2 expected"
+    assert text_difference("a,b\n1,2\n", "a,b\n1,2\n") is None
+    assert (
+        text_difference("a,b\n1,2\n", "a,b\n1,3\n") == "line 2, column b: '2' there, '3' expected"
+    )
+    assert text_difference("a,b\n1,2\n", "a,b\n") == "line 2: '1,2' there, '' expected"
+    assert text_difference("a,b", "a,b\n") == "1 lines there, 2 expected"
 
 
 @pytest.mark.parametrize("harm", ["gone", "junk"])
@@ -414,14 +416,14 @@ def test_a_unit_that_is_gone_or_junk_is_named_and_nothing_is_held_against_the_ot
 ) -> None:
     file = folder / "out" / "units" / "00000.jsonl"
     file.unlink() if harm == "gone" else file.write_bytes(b"\xff\x00 no unit\n")
-    what = "is not there" if harm == "gone" else "0 rows can be read"
+    what = "is absent" if harm == "gone" else "0 rows can be read"
     status, said = verify(capsys)
     assert status == 3
     assert said.splitlines()[2:] == [
         f"units/00000.jsonl: trial 0 (seed 3): {what}; result.json has 1 of it",
         "not compared: result.json and the files next to it: units/ is incomplete",
-        "DIFFERS: all of 1 trial replayed, 1 level. Every replayed trial gave what it stored; "
-        "other parts of the result were changed.",
+        "DIFFERS: all of 1 trial replayed, 1 level. Every replayed trial gave its stored values; "
+        "other parts of the result differ.",
     ]
 
 
@@ -444,7 +446,7 @@ def test_a_motion_track_that_is_gone_is_not_compared(
     (folder / "out" / "units" / "00001.motion").unlink()
     status, said = verify(capsys, "--sample", "1")
     assert status == 0
-    assert "not compared: units/00001.motion: is not there" in said
+    assert "not compared: units/00001.motion: is absent" in said
 
 
 @pytest.mark.slow

@@ -21,7 +21,7 @@ def row(status: str = "ok", total: float | None = 2.0, **measures: float | None)
 def judge(text: str, **given: Any) -> tuple[bool, str]:
     names = [name for name in given if name not in ("status", "total")]
     judged = parse_criterion(text, names).judge(row(**given))
-    return judged.is_broken, judged.why
+    return judged.is_broken, judged.reason
 
 
 def test_a_run_is_broken_where_the_criterion_is_not_zero() -> None:
@@ -59,8 +59,8 @@ def test_a_measure_of_that_name_comes_first() -> None:
     [
         ("corner > 5", "no measure is called 'corner'. Did you mean 'corners'?"),
         ("corners >", "the expression ends too early\n  corners >\n           ^"),
-        ("1 > 0", "uses nothing that is measured: corners, total, status"),
-        ("lost", "uses nothing that is measured"),
+        ("1 > 0", "uses no measure; expected one of corners, total, status"),
+        ("lost", "uses no measure"),
     ],
 )
 def test_a_criterion_that_cannot_be_meant_is_refused(text: str, wrong: str) -> None:
@@ -71,5 +71,5 @@ def test_a_criterion_that_cannot_be_meant_is_refused(text: str, wrong: str) -> N
 
 def test_reasons_are_counted_the_most_frequent_first() -> None:
     whys = ["lost", "corners > 5", "corners > 5", ""]
-    judged = [Judgement(is_broken=bool(why), why=why) for why in whys]
+    judged = [Judgement(is_broken=bool(why), reason=why) for why in whys]
     assert list(reasons(judged).items()) == [("corners > 5", 2), ("lost", 1)]

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from tests.support.stored_rows import stored_row
-from uwsim.envelope import Asked, Envelope, Evaluation, Range, parse_criterion, search
+from uwsim.envelope import Envelope, Evaluation, Range, SearchSettings, parse_criterion, search
 from uwsim.envelope.plot import draw
 from uwsim.results.inputs import Inputs
 from uwsim.results.run_info import RunInfo
@@ -40,11 +40,11 @@ def envelope(
     where = Range(start=start, stop=stop, tolerance=0.02)
     found = search(range(n), where, ask)
     return Envelope(
-        asked=Asked(
-            over="fog", unit="1/m", until=CRITERION.text, fixed={}, where=where,
+        settings=SearchSettings(
+            parameter="fog", unit="1/m", criterion=CRITERION.text, fixed={}, bounds=where,
             seeds=tuple(range(n)), confidence=0.95,
         ),
-        found=found,
+        search=found,
         evaluations=tuple(made[key] for key in sorted(made, key=lambda k: k[::-1])),
         inputs=Inputs(benchmark=("b.xml", "sha256:0")),
         run=RunInfo(algorithm="esm"),
@@ -96,7 +96,7 @@ def test_a_finding_is_one_line(found: Envelope, sentence: str) -> None:
     ],
 )
 def test_a_finding_has_a_verdict(law: Law, verdict: str) -> None:
-    assert envelope(law).plain()["verdict"] == verdict
+    assert envelope(law).as_dict()["verdict"] == verdict
 
 
 def test_a_criterion_that_goes_back_and_errors_of_an_algorithm_are_warned_of() -> None:

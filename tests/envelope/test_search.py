@@ -35,8 +35,8 @@ def found(breaks: Callable[[int, float], bool], n: int = 10, where: Range = WHER
 def brackets(result: Search) -> list[tuple[float, float]]:
     return [
         (
-            -math.inf if one.held is None else one.held,
-            math.inf if one.broken is None else one.broken,
+            -math.inf if one.hold_level is None else one.hold_level,
+            math.inf if one.break_level is None else one.break_level,
         )
         for one in result.thresholds
     ]
@@ -47,7 +47,7 @@ def test_a_sharp_point_lies_in_the_bracket_of_every_seed(point: float) -> None:
     runs = Runs(lambda seed, level: level >= point)
     result = search(range(10), WHERE, runs.ask)
     assert all(low < point <= high <= low + 0.0101 for low, high in brackets(result))
-    assert len(runs.made) <= 9 + 10 * (WHERE.most_cuts() + 1)
+    assert len(runs.made) <= 9 + 10 * (WHERE.max_cuts() + 1)
     assert all(0.0 <= level <= 1.3 and round(level, 3) == level for _, level in runs.made)
     assert result.fold is None
 
@@ -61,8 +61,8 @@ def test_each_seed_has_a_point_of_its_own() -> None:
 def test_a_range_may_fall() -> None:
     where = Range(start=1.0, stop=0.2, tolerance=0.02)
     result = found(lambda seed, level: level < 0.43, 3, where)
-    assert all(one.broken < 0.43 <= one.held for one in result.thresholds)
-    assert all(one.held - one.broken <= 0.0201 for one in result.thresholds)
+    assert all(one.break_level < 0.43 <= one.hold_level for one in result.thresholds)
+    assert all(one.hold_level - one.break_level <= 0.0201 for one in result.thresholds)
 
 
 def test_what_never_breaks_costs_a_run_a_seed_and_is_open_above() -> None:
@@ -86,8 +86,8 @@ def test_seeds_that_never_break_stand_beside_those_that_do() -> None:
 def test_a_criterion_that_goes_back_is_warned_of_and_its_first_point_found() -> None:
     result = found(lambda seed, level: 0.4 < level < 0.9 or level > 1.2)
     assert result.fold is not None
-    assert (result.fold.broken, result.fold.holds) == (0.488, 1.137)
-    assert (result.fold.n, result.fold.n_broken, result.fold.n_holding) == (10, 10, 10)
+    assert (result.fold.break_level, result.fold.hold_level) == (0.488, 1.137)
+    assert (result.fold.n, result.fold.n_broken, result.fold.n_held) == (10, 10, 10)
     assert all(low <= 0.4 < high for low, high in brackets(result))
 
 

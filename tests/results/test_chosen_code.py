@@ -25,7 +25,7 @@ from uwsim.results.provenance import (
     save_provenance,
 )
 from uwsim.results.run_info import RunInfo
-from uwsim.verify.environment import made_otherwise
+from uwsim.verify.environment import environment_differences
 
 OLD = {"numpy": ["OLD_X86"], "OpenBLAS": ["Katmai"]}
 ELSEWHERE = "OpenBLAS Katmai there, "
@@ -113,12 +113,12 @@ def test_verify_names_what_was_chosen_otherwise_and_nothing_where_it_was_the_sam
     result = made("esm", {0.0: [1.0]})
     run = RunInfo(version="0.1.0")
     save_provenance({**machine(), "cpu": "abacus"}, tmp_path)
-    assert made_otherwise(result, tmp_path, run) == {}
-    said = made_otherwise(result, begun_elsewhere(tmp_path), run)
+    assert environment_differences(result, tmp_path, run) == {}
+    said = environment_differences(result, begun_elsewhere(tmp_path), run)
     assert list(said) == ["code"]
     assert ELSEWHERE in said["code"]
     save_beginning([], tmp_path)
-    assert ELSEWHERE in made_otherwise(result, tmp_path, run)["code"]
+    assert ELSEWHERE in environment_differences(result, tmp_path, run)["code"]
 
 
 def test_a_report_shows_what_was_chosen_shortly(tmp_path: Path) -> None:

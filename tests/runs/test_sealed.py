@@ -61,7 +61,7 @@ def test_rows_are_sealed_until_the_run_has_ended(tmp_path: Path) -> None:
     during = b"".join(Looks.seen)
     assert b'"sealed"' in during
     assert b'"row"' not in during
-    rows = run.stored(run.plan.trials()[0])
+    rows = run.read_trial(run.plan.trials()[0])
     assert len(rows.rows) == 2
     assert rows.end is not None
     assert load_track(run.out / "units" / "00000.motion").n_frames > 5
@@ -74,7 +74,7 @@ def test_without_the_seal_rows_would_be_read(
     monkeypatch.setattr("uwsim.runs.sealed.is_foreign", lambda plan: False)
     run = played(tmp_path)
     assert b'"row"' in b"".join(Looks.seen)
-    assert len(run.stored(run.plan.trials()[0]).rows) == 2
+    assert len(run.read_trial(run.plan.trials()[0]).rows) == 2
 
 
 def test_a_failed_run_leaves_its_rows_open(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

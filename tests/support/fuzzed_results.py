@@ -25,9 +25,9 @@ from uwsim.results.provenance import machine, save_provenance
 from uwsim.results.result_file import load
 from uwsim.runs.executors.executor import run_all
 from uwsim.runs.run import Run
-from uwsim.verify.environment import made_otherwise
+from uwsim.verify.environment import environment_differences
 from uwsim.verify.recorded_plan import FileOverrides, check_inputs, plan_of
-from uwsim.verify.verify import finished, verify
+from uwsim.verify.verify import complete_trials, verify
 
 FILES = ("result.json", "units/00000.jsonl", "units/00001.jsonl", "provenance.json")
 """What is damaged."""
@@ -150,10 +150,10 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
     )
     check_inputs(stored.inputs, sound.bench.inputs)
     bench = Run(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
-    trials = finished(directory, plan, stored)
+    trials = complete_trials(directory, plan, stored)
     clean_text(head(stored, directory, len(trials), len(plan.trials())))
     if trials:
-        made_otherwise(stored, directory, bench.info)
+        environment_differences(stored, directory, bench.info)
         verify(directory, stored, bench, trials, executor=Copies(sound))
 
 

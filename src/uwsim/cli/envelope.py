@@ -10,7 +10,7 @@ import typer
 
 from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import clean_text
-from ..envelope.directory import check_out, prepared
+from ..envelope.directory import check_directory, prepare_directory
 from ..envelope.search_request import SearchRequest, search_request
 from ..errors import BadSetting, ErrorCollector
 from ..runs.planning.plan_request import PlanRequest
@@ -180,7 +180,7 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
         check_numbers(search.confidence, options.repeat)
     chosen = read_levels(search.level, wrong)
     with wrong.collect():
-        check_out(options.directory, resume=options.resume, overwrite=options.overwrite)
+        check_directory(options.directory, resume=options.resume, overwrite=options.overwrite)
     for plan in plans:
         ends = (search.start, search.stop, search.tolerance)
         request = search_request(plan, search.over, search.until, ends, chosen, wrong)
@@ -209,14 +209,16 @@ def search_and_write(
     execution: Execution, request: SearchRequest, options: EnvelopeOptions
 ) -> None:
     """Search, write and print the result."""
-    from ..envelope.find import find, most_runs
+    from ..envelope.find import find, max_runs
     from ..envelope.plot import draw
     from ..runs.execute import begun
 
     [run], directory = execution.runs, options.directory
-    asked = request.asked(options.seeds, options.search.confidence)
-    with begun(execution, prepared(directory, resume=options.resume, overwrite=options.overwrite)):
-        title, most = f"{execution.title}, at most", most_runs(asked)
+    asked = request.settings(options.seeds, options.search.confidence)
+    with begun(
+        execution, prepare_directory(directory, resume=options.resume, overwrite=options.overwrite)
+    ):
+        title, most = f"{execution.title}, at most", max_runs(asked)
         with progress(title, most, of="runs", at_once=options.by.at_once) as on_run:
             envelope = find(run, request, asked, execution.executor, on_run)
         envelope.save(directory)
@@ -233,7 +235,7 @@ def tell(envelope: Envelope, directory: Path) -> None:
     by = reasons(e.judgement for e in envelope.evaluations)
     n_broken = sum(by.values())
     why = f": {', '.join(f'{name} {n}' for name, n in by.items())}" if by else ""
-    n_seeds = len(envelope.asked.seeds)
+    n_seeds = len(envelope.settings.seeds)
     seeds = "1 seed" if n_seeds == 1 else f"{n_seeds} seeds"
     lines.append(f"{seeds}, {len(envelope.evaluations)} runs, {n_broken} broken{why}")
     lines += [f"warning: {warning}" for warning in envelope.warnings]

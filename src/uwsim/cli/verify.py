@@ -74,15 +74,15 @@ class SampleOptions:
             ResultError: none is finished.
         """
         from ..results.interrupted import resume_command
-        from ..verify.verify import choose, finished
+        from ..verify.verify import choose_trials, complete_trials
 
-        whole = finished(run.out, run.plan, stored)
+        whole = complete_trials(run.out, run.plan, stored)
         if not whole:
             command = resume_command(run.out)
             how = f" Resume with: {command}" if command else ""
             raise ResultError(f"{run.out}: no trial of it is finished: nothing to verify.{how}")
         drawn = secrets.randbelow(SEEDS) if self.sample_seed is None else self.sample_seed
-        trials = choose(whole, None if self.whole else self.sample, drawn)
+        trials = choose_trials(whole, None if self.whole else self.sample, drawn)
         typer.echo(head(stored, run.out, len(whole), len(run.plan.trials())))
         if len(trials) < len(whole):
             which = f"{len(trials)} of {count(len(whole), 'trial')}"
@@ -157,7 +157,7 @@ def verify(
     2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..results.result_file import file_of, load
-    from ..verify.environment import made_otherwise
+    from ..verify.environment import environment_differences
     from ..verify.verify import verify as compare
 
     executor = by.executor()
@@ -165,7 +165,7 @@ def verify(
     run = replayed_run(stored, directory, places.overrides())
     n_whole, trials = sample.choose(run, stored, context.obj)
     n_levels = sum(len(trial.levels) for trial in trials)
-    others = made_otherwise(stored, directory, run.info)
+    others = environment_differences(stored, directory, run.info)
     for line in others.values():
         typer.echo(clean_text(line))
     raise_on_interrupt()
@@ -217,7 +217,7 @@ def head(stored: Result, directory: Path, n_whole: int, n_trials: int) -> str:
 
 def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[str]:
     """Return the lines of the outcome, the verdict last."""
-    from ..verify.environment import blame
+    from ..verify.environment import likely_cause
 
     messages = [str(difference) for difference in found.differences[:SHOWN]]
     if len(found.differences) > SHOWN:
@@ -228,7 +228,7 @@ def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[s
     played = f"{which} replayed, {count(sum(len(trial.levels) for trial in found.trials), 'level')}"
     if not found.differences:
         return [*messages, f"the same, byte for byte: {played}"]
-    return [*messages, f"DIFFERS: {played}. {blame(found, others)}"]
+    return [*messages, f"DIFFERS: {played}. {likely_cause(found, others)}"]
 
 
 def count(number: int, what: str) -> str:

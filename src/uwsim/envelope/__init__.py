@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from .criterion import Criterion, Judgement, parse_criterion
-from .envelope import Asked, Envelope
+from .envelope import Envelope, SearchSettings
 from .evaluate import Evaluation, Evaluations, plan_for
 from .search import Range, Search, Threshold, search, strategy
 
 __all__ = [
-    "Asked",
     "Criterion",
     "Envelope",
     "Evaluation",
@@ -16,6 +15,7 @@ __all__ = [
     "Judgement",
     "Range",
     "Search",
+    "SearchSettings",
     "Threshold",
     "parse_criterion",
     "plan_for",

@@ -4,10 +4,10 @@
 
     corners > 5         corners > 5 || centroid > 3         status == lost         total > 2*corners
 
-The language is that of scores; anything but 0 is broken. A run whose status is not ``ok`` counts as
-broken too, for what was lost has no error: unless the expression asks for the status itself, as a
-number with the names ``ok`` (0), ``lost``, ``timeout``, ``collision`` and ``error``. A run in which
-a measure of the expression has no value is broken, with that reason.
+The language is that of scores; any value but 0 is broken. A run whose status is not ``ok`` counts
+as broken, too, as a lost track has no error. The exception is an expression with the status
+itself, a number with the names ``ok`` (0), ``lost``, ``timeout``, ``collision`` and ``error``. A
+run without a value for a measure of the expression is broken, with that reason.
 """
 
 from __future__ import annotations
@@ -31,9 +31,9 @@ STATUSES = {
     "dropped": 8.0,
     "simulation error": 9.0,
 }
-"""Status of a row -> its number."""
+"""The number of each status of a row."""
 NAMES = {"ok": 0.0, "lost": 1.0, "timeout": 2.0, "collision": 3.0, "error": 4.0}
-"""What they are called in an expression."""
+"""The numbers of statuses by their names in an expression."""
 STATUS, TOTAL = "status", "total"
 
 
@@ -42,9 +42,9 @@ class Judgement:
     """The evaluation of a run by a criterion."""
 
     is_broken: bool
-    """Whether it counts as broken."""
-    why: str
-    """Why: the criterion, a status, ``no value``; empty for a run that holds."""
+    """The judgement itself: true for a broken run."""
+    reason: str
+    """The reason: the criterion, a status, ``no value``; empty for a run that holds."""
 
 
 @dataclass(frozen=True)
@@ -52,50 +52,50 @@ class Criterion:
     """A parsed criterion."""
 
     expression: expressions.Expression
-    """In the language of scores."""
+    """The expression in the language of scores."""
     measures: tuple[str, ...]
     """The measures in it, in the order of appearance."""
-    asks_status: bool
-    """Whether it decides by itself what a status means."""
+    uses_status: bool
+    """A flag: the expression uses the status."""
 
     @property
     def text(self) -> str:
-        """As it was written."""
+        """The text of the criterion as written."""
         return self.expression.text
 
     def judge(self, row: StoredRow) -> Judgement:
         """Evaluate a run from its stored row."""
         status = row.status
-        if status != "ok" and not self.asks_status:
-            return Judgement(is_broken=True, why=status)
+        if status != "ok" and not self.uses_status:
+            return Judgement(is_broken=True, reason=status)
         values: dict[str, float | None] = dict(NAMES)
         values |= {STATUS: STATUSES[status], TOTAL: row.total}
         values |= {name: value for name, (value, _) in row.measures.items()}
-        found = self.expression.score(values)
-        if found.value is None:
-            return Judgement(is_broken=True, why="no value")
-        is_broken = found.value != 0.0
-        return Judgement(is_broken=is_broken, why=self.text if is_broken else "")
+        score = self.expression.score(values)
+        if score.value is None:
+            return Judgement(is_broken=True, reason="no value")
+        is_broken = score.value != 0.0
+        return Judgement(is_broken=is_broken, reason=self.text if is_broken else "")
 
 
 def parse_criterion(text: str, measures: Collection[str]) -> Criterion:
     """Parse a criterion over measures of these names; a measure called ``lost`` is that measure.
 
     Raises:
-        ScoreError: it cannot be parsed, or uses no measure or status.
+        ScoreError: the text cannot be parsed, or uses no measure or status.
     """
     expression = expressions.parse(text, [*measures, TOTAL, STATUS, *NAMES])
-    own = tuple(name for name in expression.names if name in measures)
-    asks_status = STATUS in expression.names and STATUS not in measures
-    if not own and not asks_status and TOTAL not in expression.names:
-        known = ", ".join([*measures, TOTAL, STATUS])
+    used_measures = tuple(name for name in expression.names if name in measures)
+    uses_status = STATUS in expression.names and STATUS not in measures
+    if not used_measures and not uses_status and TOTAL not in expression.names:
+        names = ", ".join([*measures, TOTAL, STATUS])
         raise expressions.ScoreError(
-            text.strip(), 0, f"the criterion uses nothing that is measured: {known}"
+            text.strip(), 0, f"the criterion uses no measure; expected one of {names}"
         )
-    return Criterion(expression, own, asks_status)
+    return Criterion(expression, used_measures, uses_status)
 
 
 def reasons(judgements: Iterable[Judgement]) -> Mapping[str, int]:
-    """Count why runs are broken, the most frequent reason first."""
-    counted = Counter(judged.why for judged in judgements if judged.is_broken)
-    return dict(sorted(counted.items(), key=lambda item: (-item[1], item[0])))
+    """Count the reasons of broken runs, the most frequent one first."""
+    counts = Counter(judgement.reason for judgement in judgements if judgement.is_broken)
+    return dict(sorted(counts.items(), key=lambda item: (-item[1], item[0])))

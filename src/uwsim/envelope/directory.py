@@ -10,33 +10,33 @@ from pathlib import Path
 from ..errors import BadSetting
 from ..results.directory import check_output, check_resume, discard_drafts, empty, lock_directory
 
-OURS = re.compile(
+FILE_NAMES = re.compile(
     r"""(?x)
     envelope\.(json|png) | provenance\.json | units/\d+\.(jsonl|motion|inputs|part)
   | pictures/\d+-[^/]+\.png(\.part)?
     """
 )
-"""Files of an envelope."""
+"""The files of an envelope."""
 FOLDERS = ("units", "pictures")
 
 
-def check_out(directory: Path, *, resume: bool, overwrite: bool) -> None:
-    """Refuse a directory that may not be written into; raises BadSetting."""
+def check_directory(directory: Path, *, resume: bool, overwrite: bool) -> None:
+    """Refuse a directory that may not be written into; raise BadSetting."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     if resume:
-        check_resume(directory, pattern=OURS, folders=FOLDERS)
+        check_resume(directory, pattern=FILE_NAMES, folders=FOLDERS)
     else:
-        hint = "Use --resume to use its runs, or --overwrite to start anew."
-        check_output(directory, overwrite=overwrite, pattern=OURS, folders=FOLDERS, hint=hint)
+        hint = "Use --resume to reuse its runs, or --overwrite to start anew."
+        check_output(directory, overwrite=overwrite, pattern=FILE_NAMES, folders=FOLDERS, hint=hint)
 
 
 @contextmanager
-def prepared(directory: Path, *, resume: bool, overwrite: bool) -> Iterator[None]:
+def prepare_directory(directory: Path, *, resume: bool, overwrite: bool) -> Iterator[None]:
     """Lock the directory and remove an earlier envelope unless its runs are reused."""
     with lock_directory(directory):
-        check_out(directory, resume=resume, overwrite=overwrite)
+        check_directory(directory, resume=resume, overwrite=overwrite)
         if not resume:
             empty(directory)
-        discard_drafts(directory, OURS, FOLDERS)
+        discard_drafts(directory, FILE_NAMES, FOLDERS)
         yield

@@ -29,32 +29,32 @@ METHOD = (
 
 
 @dataclass(frozen=True, kw_only=True)
-class Asked:
-    """What was searched for."""
+class SearchSettings:
+    """The parameters of a search."""
 
-    over: str
+    parameter: str
     """The swept parameter that grew."""
     unit: str
-    """Its unit; ``1`` for none."""
-    until: str
+    """The unit of the parameter; ``1`` for none."""
+    criterion: str
     """The criterion."""
     fixed: Mapping[str, float]
-    """The swept parameters that stayed, and where."""
-    where: Range
-    """The range."""
+    """The values of the other swept parameters."""
+    bounds: Range
+    """The searched range."""
     seeds: tuple[int, ...]
-    """One a repeat."""
+    """The seeds, one a repeat."""
     confidence: float
-    """How surely the limits shall hold the breaking point."""
+    """The confidence level of the limits."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Envelope:
-    """What was found."""
+    """The result of a search for the breaking point."""
 
-    asked: Asked
-    """What was searched for."""
-    found: Search
+    settings: SearchSettings
+    """The parameters of the search."""
+    search: Search
     """The breaking point of each seed."""
     evaluations: tuple[Evaluation, ...]
     """Every run, by level and seed."""
@@ -66,41 +66,41 @@ class Envelope:
     @property
     def median(self) -> Median:
         """The breaking point and its limits, along the range from near to far."""
-        where = self.asked.where
-        sign = 1.0 if where.stop >= where.start else -1.0
+        bounds = self.settings.bounds
+        sign = 1.0 if bounds.stop >= bounds.start else -1.0
         brackets = [
             (
-                -math.inf if one.held is None else sign * one.held,
-                math.inf if one.broken is None else sign * one.broken,
+                -math.inf if threshold.hold_level is None else sign * threshold.hold_level,
+                math.inf if threshold.break_level is None else sign * threshold.break_level,
             )
-            for one in self.found.thresholds
+            for threshold in self.search.thresholds
         ]
-        found = median_interval(brackets, confidence=self.asked.confidence)
+        median = median_interval(brackets, confidence=self.settings.confidence)
         if sign > 0:
-            return found
-        turned = [None if v is None else -v for v in (found.value, found.high, found.low)]
+            return median
+        values = [None if v is None else -v for v in (median.value, median.high, median.low)]
         return Median(
-            n=found.n,
-            value=turned[0],
-            low=turned[1],
-            high=turned[2],
-            confidence=found.confidence,
+            n=median.n,
+            value=values[0],
+            low=values[1],
+            high=values[2],
+            confidence=median.confidence,
         )
 
     @property
     def n_unbroken(self) -> int:
-        """How many seeds do not break at the far end."""
-        return sum(one.broken is None for one in self.found.thresholds)
+        """The number of seeds that do not break at the far end."""
+        return sum(threshold.break_level is None for threshold in self.search.thresholds)
 
     @property
     def n_broken_at_once(self) -> int:
-        """How many seeds are broken at the near end."""
-        return sum(one.held is None for one in self.found.thresholds)
+        """The number of seeds that are broken at the near end."""
+        return sum(threshold.hold_level is None for threshold in self.search.thresholds)
 
     @property
     def verdict(self) -> str:
         """``breaks``, ``does not break``, ``broken from the start`` or ``undecided``."""
-        n = len(self.found.thresholds)
+        n = len(self.search.thresholds)
         if self.median.value is not None:
             return "breaks"
         if 2 * self.n_unbroken > n:
@@ -109,80 +109,82 @@ class Envelope:
 
     @property
     def sentence(self) -> str:
-        """The finding in one line: a number with its unit and its bound."""
-        asked, median = self.asked, self.median
-        unit = "" if asked.unit == "1" else f" {asked.unit}"
-        start, stop = (f"{self._number(v)}{unit}" for v in (asked.where.start, self.found.stop))
-        n = len(self.found.thresholds)
+        """The result in one line: a number with its unit and its bound."""
+        settings, median = self.settings, self.median
+        name, unit = settings.parameter, "" if settings.unit == "1" else f" {settings.unit}"
+        start, stop = (
+            f"{self._number(v)}{unit}" for v in (settings.bounds.start, self.search.stop)
+        )
+        n = len(self.search.thresholds)
         if self.n_unbroken == n:
-            return f"{asked.over}: does not break up to {stop} ({self._share(0, 'break')} there)"
+            return f"{name}: does not break up to {stop} ({self._share(0, 'break')} there)"
         if self.n_broken_at_once == n:
-            return f"{asked.over}: broken already at {start} ({self._share(n, 'break')} there)"
+            return f"{name}: broken already at {start} ({self._share(n, 'break')} there)"
         if median.value is None:
             summary = f"{n - self.n_unbroken} of {n} seeds break up to {stop}"
             if self.n_broken_at_once:
                 summary += f", {self.n_broken_at_once} of them already at {start}"
-            return f"{asked.over}: {summary}{self._limits()}"
-        return f"{asked.over} {self._number(median.value)}{unit}{self._limits()}"
+            return f"{name}: {summary}{self._limits()}"
+        return f"{name} {self._number(median.value)}{unit}{self._limits()}"
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Caveats of the result."""
         messages = []
-        asked, fold = self.asked, self.found.fold
+        settings, fold = self.settings, self.search.fold
         if fold is not None:
             messages.append(
-                f"not monotone: at {asked.over} {self._number(fold.broken)} "
-                f"{fold.n_broken} of {fold.n} seeds break, at {self._number(fold.holds)} "
-                f"{fold.n_holding} of {fold.n} hold again; the first breaking point was searched"
+                f"not monotone: at {settings.parameter} {self._number(fold.break_level)} "
+                f"{fold.n_broken} of {fold.n} seeds break, at {self._number(fold.hold_level)} "
+                f"{fold.n_held} of {fold.n} hold again; the first breaking point was searched"
             )
         counts = reasons(e.judgement for e in self.evaluations)
-        if untrue := counts.get("simulation error", 0):
+        if n_failures := counts.get("simulation error", 0):
             messages.append(
-                f"{untrue} runs ended with a simulation error: no limit of the algorithm"
+                f"{n_failures} runs ended with a simulation error: no limit of the algorithm"
             )
-        if failed := counts.get("algorithm error", 0):
+        if n_errors := counts.get("algorithm error", 0):
             messages.append(
-                f"{failed} runs ended with an algorithm error: a bug rather than a limit?"
+                f"{n_errors} runs ended with an algorithm error: a bug rather than a limit?"
             )
         return tuple(messages)
 
-    def plain(self) -> dict[str, object]:
-        """Return everything as it is stored."""
-        asked, median = self.asked, self.median
+    def as_dict(self) -> dict[str, object]:
+        """Return the content of ``envelope.json``."""
+        settings, median = self.settings, self.median
         return {
             "format": FORMAT,
             "inputs": self.inputs.as_dict(),
             "run": self.run.as_dict(),
-            "over": asked.over,
-            "unit": None if asked.unit == "1" else asked.unit,
-            "until": asked.until,
-            "fixed": dict(asked.fixed),
-            "from": asked.where.start,
-            "to": asked.where.stop,
-            "tolerance": asked.where.tolerance,
-            "seeds": list(asked.seeds),
+            "over": settings.parameter,
+            "unit": None if settings.unit == "1" else settings.unit,
+            "until": settings.criterion,
+            "fixed": dict(settings.fixed),
+            "from": settings.bounds.start,
+            "to": settings.bounds.stop,
+            "tolerance": settings.bounds.tolerance,
+            "seeds": list(settings.seeds),
             "method": METHOD,
             "verdict": self.verdict,
             "value": median.value,
-            "low": _finite(median.low),
-            "high": _finite(median.high),
-            "confidence": asked.confidence,
+            "low": _finite_or_none(median.low),
+            "high": _finite_or_none(median.high),
+            "confidence": settings.confidence,
             "confidence_of_limits": median.confidence,
             "sentence": self.sentence,
             "warnings": list(self.warnings),
             "broken_by": dict(reasons(e.judgement for e in self.evaluations)),
             "thresholds": [
-                {"seed": one.seed, "held": one.held, "broken": one.broken}
-                for one in self.found.thresholds
+                {"seed": point.seed, "held": point.hold_level, "broken": point.break_level}
+                for point in self.search.thresholds
             ],
             "evaluations": [_evaluation_record(e) for e in self.evaluations],
         }
 
     def save(self, directory: Path) -> Path:
-        """Write ``envelope.json``, whole or not at all."""
+        """Write ``envelope.json`` atomically."""
         entries = []
-        for key, value in self.plain().items():
+        for key, value in self.as_dict().items():
             if isinstance(value, list) and value and isinstance(value[0], dict):
                 lines = ",\n    ".join(_text(entry) for entry in value)
                 entries.append(f"{_text(key)}: [\n    {lines}\n  ]")
@@ -193,40 +195,40 @@ class Envelope:
         return path
 
     def _number(self, value: float) -> str:
-        """A level with the digits that the tolerance justifies."""
+        """Return a level with the digits that the tolerance justifies."""
         return f"{value:.{self._decimals}f}"
 
     @property
     def _decimals(self) -> int:
-        return max(0, math.ceil(-math.log10(self.asked.where.tolerance) - 1e-9))
+        return max(0, math.ceil(-math.log10(self.settings.bounds.tolerance) - 1e-9))
 
     def _limits(self) -> str:
-        median, asked = self.median, self.asked
+        median, settings = self.median, self.settings
         if median.confidence is None or median.low is None or median.high is None:
-            fewest = fewest_for_median(asked.confidence)
-            n = len(self.found.thresholds)
+            n_needed = fewest_for_median(settings.confidence)
+            n = len(self.search.thresholds)
             seeds = "1 seed" if n == 1 else f"{n} seeds"
-            return f" ({seeds}; a bound of {asked.confidence * 100:.3g} % needs {fewest})"
-        low, high = self._outward(median.low, math.floor), self._outward(median.high, math.ceil)
-        return f" ({asked.confidence * 100:.3g} %: {low} .. {high})"
+            return f" ({seeds}; a bound of {settings.confidence * 100:.3g} % needs {n_needed})"
+        low, high = (self._widen(median.low, math.floor), self._widen(median.high, math.ceil))
+        return f" ({settings.confidence * 100:.3g} %: {low} .. {high})"
 
-    def _outward(self, limit: float, turn: Callable[[float], int]) -> str:
-        """A confidence limit, rounded outwards."""
+    def _widen(self, limit: float, rounding: Callable[[float], int]) -> str:
+        """Return a confidence limit, rounded outwards."""
         if not math.isfinite(limit):
             return "outside the range"
         scale = 10.0**self._decimals
-        return self._number(turn(round(limit * scale, 6)) / scale)
+        return self._number(rounding(round(limit * scale, 6)) / scale)
 
-    def _share(self, n_broken: int, what: str) -> str:
-        n = len(self.found.thresholds)
-        share = rate(n_broken, n, confidence=self.asked.confidence)
+    def _share(self, n_broken: int, verb: str) -> str:
+        n = len(self.search.thresholds)
+        share = rate(n_broken, n, confidence=self.settings.confidence)
         assert share is not None
         limit = f"at most {share.high:.0%}" if n_broken == 0 else f"at least {share.low:.0%}"
-        percent = f"{self.asked.confidence * 100:.3g} %"
-        return f"{n_broken} of {n} seeds; with {percent} confidence {limit} of all runs {what}"
+        percent = f"{self.settings.confidence * 100:.3g} %"
+        return f"{n_broken} of {n} seeds; with {percent} confidence {limit} of all runs {verb}"
 
 
-def _finite(value: float | None) -> float | None:
+def _finite_or_none(value: float | None) -> float | None:
     return value if value is not None and math.isfinite(value) else None
 
 
@@ -236,7 +238,7 @@ def _evaluation_record(evaluation: Evaluation) -> dict[str, object]:
         "seed": evaluation.seed,
         "level": evaluation.level,
         "broken": evaluation.judgement.is_broken,
-        "why": evaluation.judgement.why,
+        "why": evaluation.judgement.reason,
         "status": row.status,
         "total": row.total,
         "measures": {name: value for name, (value, _) in row.measures.items()},

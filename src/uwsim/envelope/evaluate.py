@@ -1,8 +1,8 @@
-"""Running single levels with single seeds, each once: stored runs are reused.
+"""The execution of single levels with single seeds, each once: stored runs are reused.
 
-Each is a trial of the independent mode: the algorithm settles at the updaters'
-initial values, then the level is ramped in. The images and the noise of a level depend on the
-seed and on the level's values, never on earlier runs.
+Each is a trial of the independent mode: the algorithm settles at the updaters' initial values,
+then the level is ramped in. The images and the noise of a level depend on the seed and on the
+level's values, never on earlier runs.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .criterion import Criterion, Judgement
 from .search import Search, SeedSearch, Strategy
 
 STRIDE = 10_000
-"""Numbers of trial files that a seed has for itself."""
+"""The count of trial files that a seed reserves."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,13 +30,13 @@ class Evaluation:
     """One run."""
 
     seed: int
-    """Seed of every random stream."""
+    """The seed of every random stream."""
     level: float
-    """Value of the updater that is searched over."""
+    """The value of the parameter that the search varies."""
     judgement: Judgement
-    """Whether it is broken, and why."""
+    """The judgement of the run, with its reason."""
     row: StoredRow
-    """As it is stored."""
+    """The stored row."""
 
 
 def plan_for(plan: Plan) -> Plan:
@@ -45,33 +45,35 @@ def plan_for(plan: Plan) -> Plan:
 
 
 class Evaluations:
-    """Runs of the search, from disk or executed now.
+    """The runs of the search, read from disk or executed.
 
     Args:
-        run: where they are kept; its plan is one of `plan_for`.
-        at: the levels of all updaters, outermost first; that of ``over`` is replaced.
-        over: the swept parameter that is searched over.
-        criterion: what counts as broken.
+        main_run: the run that stores them; its plan is one of `plan_for`.
+        level: the values of all swept parameters, outermost first; the search varies one.
+        parameter: the swept parameter of the search.
+        criterion: the criterion of a broken run.
     """
 
-    def __init__(self, main_run: Run, *, at: Level, over: str, criterion: Criterion) -> None:
+    def __init__(
+        self, main_run: Run, *, level: Level, parameter: str, criterion: Criterion
+    ) -> None:
         self.main_run = main_run
-        """Where they are kept."""
-        self._at, self._criterion = at, criterion
-        self.over = over
-        """The column of the value that is searched."""
+        """The run that stores them."""
+        self._level, self._criterion = level, criterion
+        self.parameter = parameter
+        """The swept parameter of the search."""
         self._trials: dict[tuple[int, tuple[float, ...]], Trial] = {}
-        self._taken: set[int] = set()  # indices of trial files
-        self.made: dict[tuple[int, float], Evaluation] = {}
-        """Every run that was asked for."""
+        self._used_indices: set[int] = set()  # indices of trial files
+        self.results: dict[tuple[int, float], Evaluation] = {}
+        """The evaluation of every requested run, by seed and value."""
         for path in sorted((main_run.out / journal.FOLDER).glob("*.jsonl")):
-            self._remember(int(path.stem), journal.head_of(path))
+            self._register(int(path.stem), journal.head_of(path))
 
     def run(self, strategy: Strategy, executor: Executor, on_run: OnLevel = lambda: None) -> Search:
-        """Execute a strategy to its end, running what is not on disk.
+        """Execute a strategy to its end, with the runs that are not on disk.
 
         Raises:
-            ResultError: what is stored belongs to another run.
+            ResultError: a stored trial belongs to another run.
             UwsimError: a run could not be executed.
         """
         queue = _JobQueue(self, strategy, on_run)
@@ -79,102 +81,102 @@ class Evaluations:
             executor.execute(queue)
         if queue.failure is not None:
             raise queue.failure
-        assert queue.found is not None
-        return queue.found
+        assert queue.search is not None
+        return queue.search
 
-    def stored(self, seed: int, value: float) -> bool | None:
-        """Return whether a run is broken; None if it was not run yet."""
-        if (seed, value) not in self.made:
+    def is_broken(self, seed: int, value: float) -> bool | None:
+        """Return whether a run is broken; None if it was not executed yet."""
+        if (seed, value) not in self.results:
             trial = self.trial(seed, value)
-            stored = self.main_run.stored(trial)
-            if stored.end is None or not stored.rows:
+            content = self.main_run.read_trial(trial)
+            if content.end is None or not content.rows:
                 return None
-            row = stored.rows[0]
-            self.made[seed, value] = Evaluation(
+            row = content.rows[0]
+            self.results[seed, value] = Evaluation(
                 seed=seed, level=value, judgement=self._criterion.judge(row), row=row
             )
-        return self.made[seed, value].judgement.is_broken
+        return self.results[seed, value].judgement.is_broken
 
     def trial(self, seed: int, value: float) -> Trial:
-        """Return the trial of a run. Its number follows from its seed and its level."""
+        """Return the trial of a run, whose number follows from its seed and its level."""
         level = Level(
-            tuple((name, value if name == self.over else v) for name, v in self._at.values)
+            tuple((name, value if name == self.parameter else v) for name, v in self._level.values)
         )
         key = (seed, tuple(v for _, v in level.values))
         if key not in self._trials:
-            index = next(i for i in itertools.count(seed * STRIDE) if i not in self._taken)
+            index = next(i for i in itertools.count(seed * STRIDE) if i not in self._used_indices)
             self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
         return self._trials[key]
 
     def _add(self, trial: Trial) -> None:
-        self._taken.add(trial.index)
+        self._used_indices.add(trial.index)
         self._trials[trial.seed, tuple(v for _, v in trial.levels[0].values)] = trial
 
-    def _remember(self, index: int, head: Record | None) -> None:
+    def _register(self, index: int, head: Record | None) -> None:
         """Register a stored run by its seed and its level."""
-        self._taken.add(index)
+        self._used_indices.add(index)
+        names = [name for name, _ in self._level.values]
         match head:
-            case {"seed": int(seed), "levels": [[*values]]} if len(values) == len(self._at.values):
-                names = [name for name, _ in self._at.values]
+            case {"seed": int(seed), "levels": [[*values]]} if len(values) == len(names):
                 level = Level(tuple(zip(names, values, strict=True)))
                 self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
 
 
 class _JobQueue(JobQueue):
-    """Runs that a strategy requests; each finished one may lead to others."""
+    """The runs that a strategy requests; each finished one may lead to others."""
 
     def __init__(self, runs: Evaluations, strategy: Strategy, on_run: OnLevel) -> None:
         super().__init__([], on_run)
         self._runs, self._strategy = runs, strategy
         self._tasks: list[SeedSearch[Any]] = []
         self._results: dict[int, Any] = {}
-        self._awaited: dict[tuple[int, float], list[int]] = {}
-        self.found: Search | None = None
-        """What the strategy found in the end."""
-        self._begin(next(strategy))
+        self._waiting_tasks: dict[tuple[int, float], list[int]] = {}
+        self.search: Search | None = None
+        """The result of the strategy; None until it ends."""
+        self._start_tasks(next(strategy))
 
     def done(self, job: Job) -> None:
         """Resume the task that waits for the run."""
         super().done(job)
         values = dict(job.trial.levels[0].values)
-        key = (job.trial.seed, values[self._runs.over])
-        answer = self._runs.stored(*key)
+        key = (job.trial.seed, values[self._runs.parameter])
+        answer = self._runs.is_broken(*key)
         assert answer is not None
-        for task in self._awaited.pop(key):
-            self._go_on(task, answer)
-        self._end_if_done()
+        for task in self._waiting_tasks.pop(key):
+            self._advance(task, answer)
+        self._end_when_finished()
 
-    def _begin(self, tasks: list[SeedSearch[Any]]) -> None:
+    def _start_tasks(self, tasks: list[SeedSearch[Any]]) -> None:
         self._tasks, self._results = tasks, {}
         for i in range(len(tasks)):
-            self._go_on(i, None)
-        self._end_if_done()
+            self._advance(i, None)
+        self._end_when_finished()
 
-    def _go_on(self, i: int, answer: bool | None) -> None:
-        """Advance a task until it has to wait for a run."""
+    def _advance(self, i: int, answer: bool | None) -> None:
+        """Advance a task until it needs a run that is not executed."""
         task = self._tasks[i]
         try:
             while True:
                 # None begins a generator
-                level = task.questions.send(answer)  # type: ignore[arg-type]
-                answer = self._runs.stored(task.seed, level)
+                level = task.requests.send(answer)  # type: ignore[arg-type]
+                answer = self._runs.is_broken(task.seed, level)
                 if answer is None:
-                    self._await(i, (task.seed, level))
+                    self._request_run(i, (task.seed, level))
                     return
         except StopIteration as end:
             self._results[i] = end.value
 
-    def _await(self, i: int, key: tuple[int, float]) -> None:
-        waiting = self._awaited.setdefault(key, [])
-        waiting.append(i)
-        if len(waiting) == 1 and self.failure is None:
+    def _request_run(self, i: int, key: tuple[int, float]) -> None:
+        tasks = self._waiting_tasks.setdefault(key, [])
+        tasks.append(i)
+        if len(tasks) == 1 and self.failure is None:
             self.add(Job(self._runs.main_run, self._runs.trial(*key)))
 
-    def _end_if_done(self) -> None:
-        if self.found is None and len(self._results) == len(self._tasks):
+    def _end_when_finished(self) -> None:
+        if self.search is None and len(self._results) == len(self._tasks):
             try:
                 tasks = self._strategy.send([self._results[i] for i in range(len(self._tasks))])
             except StopIteration as end:
-                self.found = end.value
+                self.search = end.value
             else:
-                self._begin(tasks)
+                self._start_tasks(tasks)

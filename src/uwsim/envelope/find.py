@@ -1,4 +1,4 @@
-"""Finding an envelope: executes the search and collects its runs."""
+"""The search for an envelope and the collection of its runs."""
 
 from __future__ import annotations
 
@@ -6,35 +6,37 @@ from dataclasses import replace
 
 from ..runs.executors.executor import Executor, OnLevel
 from ..runs.run import Run
-from .envelope import Asked, Envelope
+from .envelope import Envelope, SearchSettings
 from .evaluate import Evaluations
 from .search import strategy
 from .search_request import SearchRequest
 
 
-def most_runs(asked: Asked) -> int:
-    """Return how many runs a search takes at most."""
-    return 9 + len(asked.seeds) * (asked.where.most_cuts() + 1)
+def max_runs(settings: SearchSettings) -> int:
+    """Return the greatest number of runs of a search."""
+    return 9 + len(settings.seeds) * (settings.bounds.max_cuts() + 1)
 
 
 def find(
-    run: Run, request: SearchRequest, asked: Asked, executor: Executor, on_run: OnLevel
+    run: Run, request: SearchRequest, settings: SearchSettings, executor: Executor, on_run: OnLevel
 ) -> Envelope:
     """Search for the breaking point of every seed.
 
     Args:
-        run: its plan is one of `plan_for`.
-        request: what is searched for.
-        asked: the same, with the seeds.
-        executor: who executes the runs that are not on disk.
+        run: the run; its plan is one of `plan_for`.
+        request: the request of the search.
+        settings: the same, with the seeds.
+        executor: the executor of the runs that are not on disk.
         on_run: called for each of these.
     """
-    runs = Evaluations(run, at=request.at, over=request.over, criterion=request.criterion)
-    found = runs.run(strategy(asked.seeds, asked.where), executor, on_run)
+    runs = Evaluations(
+        run, level=request.level, parameter=request.parameter, criterion=request.criterion
+    )
+    search = runs.run(strategy(settings.seeds, settings.bounds), executor, on_run)
     return Envelope(
-        asked=asked,
-        found=found,
-        evaluations=tuple(runs.made[key] for key in sorted(runs.made, key=lambda k: k[::-1])),
+        settings=settings,
+        search=search,
+        evaluations=tuple(runs.results[key] for key in sorted(runs.results, key=lambda k: k[::-1])),
         inputs=run.inputs,
         run=replace(run.info, seed=None, repeats=None, levels=None),
     )

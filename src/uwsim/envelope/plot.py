@@ -23,26 +23,26 @@ from .envelope import Envelope
 from .evaluate import Evaluation
 
 FILE = "envelope.png"
-HOLDS, BROKEN = PALETTE[0], PALETTE[1]
+INTACT_COLOUR, BROKEN_COLOUR = PALETTE[0], PALETTE[1]
 SIZE = (5.4, 4.2)  # [inch]
 
 
 def draw(envelope: Envelope, directory: Path) -> Path:
     """Draw ``envelope.png``."""
-    asked = envelope.asked
+    settings = envelope.settings
     path = directory / FILE
     with styled_figure() as figure:
         figure.set_size_inches(*SIZE)
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
-        _draw_measure(above, envelope)
-        _draw_seeds(below, envelope)
-        for axes in (above, below):
-            _draw_found(axes, envelope)
-        unit = "" if asked.unit == "1" else f" [{written_unit(asked.unit)}]"
-        below.set_xlabel(f"{LEVEL_WORDS.get(asked.over) or asked.over}{unit}")
-        span = abs(asked.where.stop - asked.where.start)
-        ends = sorted((asked.where.start, asked.where.stop))
-        below.set_xlim(ends[0] - 0.02 * span, ends[1] + 0.02 * span)
+        measure_axes, seed_axes = figure.subplots(2, 1, sharex=True, height_ratios=(3, 2))
+        _draw_measure(measure_axes, envelope)
+        _draw_seeds(seed_axes, envelope)
+        for axes in (measure_axes, seed_axes):
+            _draw_result(axes, envelope)
+        unit = "" if settings.unit == "1" else f" [{written_unit(settings.unit)}]"
+        seed_axes.set_xlabel(f"{LEVEL_WORDS.get(settings.parameter) or settings.parameter}{unit}")
+        span = abs(settings.bounds.stop - settings.bounds.start)
+        ends = sorted((settings.bounds.start, settings.bounds.stop))
+        seed_axes.set_xlim(ends[0] - 0.02 * span, ends[1] + 0.02 * span)
         return save_plot(figure, path)
 
 
@@ -50,25 +50,25 @@ def _draw_measure(axes: Axes, envelope: Envelope) -> None:
     """Draw the criterion's first measure over the level; runs without a value are at the top."""
     rows = [e.row for e in envelope.evaluations]
     names = list(rows[0].measures) if rows else []
-    criterion = parse_criterion(envelope.asked.until, names)
+    criterion = parse_criterion(envelope.settings.criterion, names)
     name = (criterion.measures or ("total",))[0]
     units = {m: unit for row in rows for m, (_, unit) in row.measures.items()}
     unit = units.get(name, "1")
     for is_broken, colour, marker, word in (
-        (False, HOLDS, "o", "holds"),
-        (True, BROKEN, "X", "broken"),
+        (False, INTACT_COLOUR, "o", "holds"),
+        (True, BROKEN_COLOUR, "X", "broken"),
     ):
-        here = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
-        known = [(e.level, v) for e in here if (v := _value(e, name)) is not None]
-        _dots(axes, [x for x, _ in known], [y for _, y in known], marker, colour, word)
-        lost = [e.level for e in here if _value(e, name) is None]
+        evaluations = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
+        points = [(e.level, v) for e in evaluations if (v := _value(e, name)) is not None]
+        _dots(axes, [x for x, _ in points], [y for _, y in points], marker, colour, word)
+        lost = [e.level for e in evaluations if _value(e, name) is None]
         top = axes.get_xaxis_transform()
         _dots(axes, lost, [0.95] * len(lost), "x", colour, f"{word}, no value", transform=top)
-    limit = _limit(envelope.asked.until, name, names)
+    limit = _limit(envelope.settings.criterion, name, names)
     if limit is not None:
         axes.axhline(limit, color=FAINT, linewidth=0.8, linestyle=":")
     low, high = axes.get_ylim()
-    axes.set_ylim(low, high + 0.12 * (high - low))  # room for those without a value
+    axes.set_ylim(low, high + 0.12 * (high - low))  # space for the runs without a value
     axes.set_ylabel(name if unit == "1" else f"{name} [{written_unit(unit)}]")
     axes.plot([], [], color=INK, linewidth=1.0, label=envelope.sentence)
     axes.legend(loc="best")
@@ -93,35 +93,35 @@ def _dots(
 
 def _draw_seeds(axes: Axes, envelope: Envelope) -> None:
     """Draw each seed's runs on a line of its own, and its breaking point."""
-    lines = {seed: i for i, seed in enumerate(envelope.asked.seeds)}
-    for is_broken, colour, marker in ((False, HOLDS, "o"), (True, BROKEN, "X")):
-        here = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
+    lines = {seed: i for i, seed in enumerate(envelope.settings.seeds)}
+    for is_broken, colour, marker in ((False, INTACT_COLOUR, "o"), (True, BROKEN_COLOUR, "X")):
+        runs = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
         axes.plot(
-            [e.level for e in here], [lines[e.seed] for e in here], marker, color=colour,
+            [e.level for e in runs], [lines[e.seed] for e in runs], marker, color=colour,
             markersize=2.6, alpha=0.7, markeredgewidth=0,
         )  # fmt: skip
-    for one in envelope.found.thresholds:
-        if one.held is not None and one.broken is not None:
-            middle = (one.held + one.broken) / 2
-            axes.plot([middle], [lines[one.seed]], "|", color=INK, markersize=9)
+    for threshold in envelope.search.thresholds:
+        if threshold.hold_level is not None and threshold.break_level is not None:
+            middle = (threshold.hold_level + threshold.break_level) / 2
+            axes.plot([middle], [lines[threshold.seed]], "|", color=INK, markersize=9)
     axes.set_ylabel("seed")
     axes.yaxis.set_major_locator(MaxNLocator(integer=True, nbins=6))
     axes.yaxis.set_major_formatter(
-        lambda y, _: str(envelope.asked.seeds[int(y)]) if 0 <= y < len(lines) else ""
+        lambda y, _: str(envelope.settings.seeds[int(y)]) if 0 <= y < len(lines) else ""
     )
     axes.set_ylim(-0.7, max(len(lines) - 0.3, 0.7))
 
 
-def _draw_found(axes: Axes, envelope: Envelope) -> None:
-    median, where = envelope.median, envelope.asked.where
-    ends = sorted((where.start, where.stop))
+def _draw_result(axes: Axes, envelope: Envelope) -> None:
+    median, bounds = envelope.median, envelope.settings.bounds
+    ends = sorted((bounds.start, bounds.stop))
     if median.low is not None and median.high is not None:
         axes.axvspan(max(median.low, ends[0]), min(median.high, ends[1]), color="#e9e9e9", zorder=0)
     if median.value is not None:
         axes.axvline(median.value, color=INK, linewidth=1.0)
-    fold = envelope.found.fold
+    fold = envelope.search.fold
     if fold is not None:
-        axes.axvline(fold.holds, color=BROKEN, linewidth=0.8, linestyle="--")
+        axes.axvline(fold.hold_level, color=BROKEN_COLOUR, linewidth=0.8, linestyle="--")
 
 
 def _value(evaluation: Evaluation, name: str) -> float | None:
@@ -130,9 +130,9 @@ def _value(evaluation: Evaluation, name: str) -> float | None:
     return None if value is None or not math.isfinite(value) else float(value)
 
 
-def _limit(until: str, name: str, names: list[str]) -> float | None:
+def _limit(criterion: str, name: str, names: list[str]) -> float | None:
     """The number in ``name > number``; None where the criterion is anything else."""
-    steps = parse_criterion(until, names).expression.steps
+    steps = parse_criterion(criterion, names).expression.steps
     if len(steps) == 3 and steps[0].name == name and steps[1].constant is not None:
         return steps[1].constant
     return None

@@ -11,37 +11,37 @@ from ..errors import BadSetting, ErrorCollector, UwsimError, did_you_mean
 if TYPE_CHECKING:
     from ..benchmark.updaters import Level, SceneUpdaterSpec
     from ..runs.planning.plan import Plan
-    from . import Asked, Criterion, Range
+    from . import Criterion, Range, SearchSettings
 
 MAX_CUTS = 30
-"""A range is not cut finer than 2 to the power of minus this."""
+"""The greatest power of 2 by which a tolerance divides the range."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SearchRequest:
-    """What is searched for."""
+    """The request of a search."""
 
-    over: str
+    parameter: str
     """The swept parameter that grows."""
     spec: SceneUpdaterSpec
-    """Its updater."""
+    """The updater of the parameter."""
     criterion: Criterion
-    """When a run counts as broken."""
-    where: Range
-    """From where to where, and how finely."""
-    at: Level
-    """Where the other swept parameters stay."""
+    """The criterion of a broken run."""
+    bounds: Range
+    """The searched range and its tolerance."""
+    level: Level
+    """The values of all swept parameters outside the search."""
 
-    def asked(self, seeds: tuple[int, ...], confidence: float) -> Asked:
-        """Return the same as the envelope stores it."""
-        from . import Asked
+    def settings(self, seeds: tuple[int, ...], confidence: float) -> SearchSettings:
+        """Return the parameters of the search as the envelope stores them."""
+        from . import SearchSettings
 
-        return Asked(
-            over=self.over,
+        return SearchSettings(
+            parameter=self.parameter,
             unit=self.spec.parameter_unit,
-            until=self.criterion.text,
-            fixed={name: value for name, value in self.at.values if name != self.over},
-            where=self.where,
+            criterion=self.criterion.text,
+            fixed={name: value for name, value in self.level.values if name != self.parameter},
+            bounds=self.bounds,
             seeds=seeds,
             confidence=confidence,
         )
@@ -49,64 +49,66 @@ class SearchRequest:
 
 def search_request(
     plan: Plan,
-    over: str,
-    until: str,
+    parameter: str,
+    criterion_text: str,
     ends: tuple[float | None, float | None, float | None],
-    chosen: list[tuple[str, float]],
-    wrong: ErrorCollector,
+    fixed_values: list[tuple[str, float]],
+    errors: ErrorCollector,
 ) -> SearchRequest | None:
-    """Make the request; None with collected errors if it is invalid.
+    """Return the request; None with collected errors if it is invalid.
 
     Args:
         plan: the benchmark to run.
-        over: the swept parameter that grows.
-        until: the criterion.
-        ends: near end, far end and tolerance, as far as they were given.
-        chosen: where other swept parameters stay.
-        wrong: keeps what is wrong.
+        parameter: the swept parameter that grows.
+        criterion_text: the criterion.
+        ends: near end, far end and tolerance; None where not set.
+        fixed_values: the values of other swept parameters.
+        errors: the collection of errors.
     """
     from . import parse_criterion
 
-    spec = where = at = criterion = None
-    with wrong.collect():
-        spec = updater_of(plan, over)
-        where = range_of(spec, over, *ends)
-    with wrong.collect():
+    spec = bounds = level = criterion = None
+    with errors.collect():
+        spec = updater_of(plan, parameter)
+        bounds = range_of(spec, parameter, *ends)
+    with errors.collect():
         if spec is not None:
-            at = fixed_levels(plan, over, chosen)
-    with wrong.collect():
+            level = fixed_levels(plan, parameter, fixed_values)
+    with errors.collect():
         try:
-            criterion = parse_criterion(until, [m.name for m in plan.benchmark.measures])
+            criterion = parse_criterion(criterion_text, [m.name for m in plan.benchmark.measures])
         except UwsimError as error:
             raise BadSetting(f"--until: {error}") from None
-    if spec is None or where is None or at is None or criterion is None:
+    if spec is None or bounds is None or level is None or criterion is None:
         return None
-    return SearchRequest(over=over, spec=spec, criterion=criterion, where=where, at=at)
+    return SearchRequest(
+        parameter=parameter, spec=spec, criterion=criterion, bounds=bounds, level=level
+    )
 
 
-def updater_of(plan: Plan, over: str) -> SceneUpdaterSpec:
-    """Find the updater that is searched over.
+def updater_of(plan: Plan, parameter: str) -> SceneUpdaterSpec:
+    """Return the updater of the searched parameter.
 
     Raises:
-        BadSetting: the benchmark does not sweep it, or there is nothing between its values.
+        BadSetting: the benchmark does not sweep it, or it has no values between two levels.
     """
     from ..benchmark.updaters import chain, swept_parameters
 
     names = swept_parameters(plan.benchmark.scene_updater)
-    if over not in names:
-        swept = ", ".join(name for name in names if name != "none") or "nothing"
+    if parameter not in names:
+        sweep = ", ".join(name for name in names if name != "none") or "nothing"
         raise BadSetting(
-            f"--over {over}: this benchmark sweeps {swept}.{did_you_mean(over, names)}"
+            f"--over {parameter}: this benchmark sweeps {sweep}.{did_you_mean(parameter, names)}"
         )
-    spec = chain(plan.benchmark.scene_updater)[names.index(over)]
+    spec = chain(plan.benchmark.scene_updater)[names.index(parameter)]
     if spec.name == "none" or spec.blend(spec.initial + 1.0, 0.5) == spec.initial + 1.0:
-        raise BadSetting(f"--over {over}: there is nothing between two values of it.")
+        raise BadSetting(f"--over {parameter}: the parameter has no values between two levels.")
     return spec
 
 
 def range_of(
     spec: SceneUpdaterSpec,
-    over: str,
+    parameter: str,
     start: float | None,
     stop: float | None,
     tolerance: float | None,
@@ -114,7 +116,7 @@ def range_of(
     """Return the range.
 
     Raises:
-        BadSetting: it is empty, too fine, or reaches where the updater cannot go.
+        BadSetting: it is empty, too fine, or has values that the updater does not allow.
     """
     from ..schema import MAX_NUMBER
     from . import Range
@@ -127,12 +129,12 @@ def range_of(
             raise BadSetting(f"{option} is {value}; expected a number.")
         if abs(value) > MAX_NUMBER:
             raise BadSetting(f"{option} is {value:g}; no quantity is beyond {MAX_NUMBER:g}.")
-        if limit := beyond(spec, value):
-            raise BadSetting(f"{option} {value:g}: {over} must be {limit}.")
+        if limit := violated_limit(spec, value):
+            raise BadSetting(f"{option} {value:g}: {parameter} must be {limit}.")
     near, far = ends.values()
     width = abs(far - near)
     if width == 0.0:
-        raise BadSetting(f"--from and --to are both {near:g}: there is nothing to search.")
+        raise BadSetting(f"--from and --to are both {near:g}; expected different values.")
     step = round_down(width / 100) if tolerance is None else tolerance
     if not 0.0 < step < width:
         raise BadSetting(f"--tolerance is {step:g}; expected more than 0 and less than {width:g}.")
@@ -141,8 +143,8 @@ def range_of(
     return Range(start=near, stop=far, tolerance=step)
 
 
-def beyond(spec: SceneUpdaterSpec, value: float) -> str | None:
-    """Return the expected values of the updater, if a value is beyond them."""
+def violated_limit(spec: SceneUpdaterSpec, value: float) -> str | None:
+    """Return the allowed values of the updater if a value is outside them, else None."""
     from ..schema import fields_of
 
     field = {field.name: field for field in fields_of(type(spec))}.get("initial_value")
@@ -153,38 +155,38 @@ def beyond(spec: SceneUpdaterSpec, value: float) -> str | None:
 
 
 def round_down(width: float) -> float:
-    """Return the nearest 1, 2 or 5 of a power of ten that is not larger."""
+    """Return the greatest 1, 2 or 5 times a power of ten that is not larger."""
     power = 10.0 ** math.floor(math.log10(width))
     digit = next(d for d in (5.0, 2.0, 1.0) if d * power <= width * (1 + 1e-9))
     return float(f"{digit * power:.1g}")
 
 
-def fixed_levels(plan: Plan, over: str, chosen: list[tuple[str, float]]) -> Level:
-    """Return the value of every swept parameter but the one that is searched over.
+def fixed_levels(plan: Plan, parameter: str, fixed_values: list[tuple[str, float]]) -> Level:
+    """Return the value of every swept parameter except the searched one.
 
     Raises:
-        BadSetting: a parameter is not in the sweep, or has several values and none was chosen.
+        BadSetting: a parameter is not in the sweep, or has several values and none is chosen.
     """
     from ..benchmark.updaters import Level, chain, swept_parameters
 
     names = swept_parameters(plan.benchmark.scene_updater)
-    for name, _ in chosen:
-        if name == over:
-            raise BadSetting(f"--level {name}: that is what is searched over.")
+    for name, _ in fixed_values:
+        if name == parameter:
+            raise BadSetting(f"--level {name}: the search varies this parameter itself.")
         if name not in names:
             near = did_you_mean(name, names)
             raise BadSetting(f"--level {name}: this benchmark sweeps {', '.join(names)}.{near}")
     values = []
     for name, spec in zip(names, chain(plan.benchmark.scene_updater), strict=True):
-        given = [value for wanted, value in chosen if wanted == name]
-        if len(given) > 1:
+        choices = [value for chosen_name, value in fixed_values if chosen_name == name]
+        if len(choices) > 1:
             raise BadSetting(f"--level {name} is given twice; a search uses one value.")
-        if name != over and not given and len(spec.values()) > 1:
+        if name != parameter and not choices and len(spec.values()) > 1:
             raise BadSetting(
                 f"The benchmark also sweeps {name} ({len(spec.values())} levels); choose one, as "
                 f"--level {name}={spec.values()[0]:g}."
             )
-        if given and (limit := beyond(spec, given[0])):
-            raise BadSetting(f"--level {name}={given[0]:g}: {name} must be {limit}.")
-        values.append((name, given[0] if given else spec.initial))
+        if choices and (limit := violated_limit(spec, choices[0])):
+            raise BadSetting(f"--level {name}={choices[0]:g}: {name} must be {limit}.")
+        values.append((name, choices[0] if choices else spec.initial))
     return Level(tuple(values))

@@ -83,7 +83,7 @@ class Run:
         """
         name = self.plan.algorithm.name
         for trial in self.plan.trials():
-            stored = self.stored(trial)
+            stored = self.read_trial(trial)
             is_to_go = ended_its_process if stored.end is not None else was_stopped
             for n, row in enumerate(stored.rows):
                 if is_to_go(name, row.missing.get("total")):
@@ -100,7 +100,7 @@ class Run:
         is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
         is_free = plan.algorithm.client is not None and plan.algorithm.client.sync == "none"
         for trial in plan.trials():
-            stored = self.stored(trial)
+            stored = self.read_trial(trial)
             if stored.end is None or _has_motion(self.out, trial):
                 continue
             whys = [row.missing.get("total") for row in stored.rows]
@@ -120,7 +120,7 @@ class Run:
 
     def unfinished(self) -> list[Trial]:
         """Return the trials whose end is not on disk."""
-        return [trial for trial in self.plan.trials() if self.stored(trial).end is None]
+        return [trial for trial in self.plan.trials() if self.read_trial(trial).end is None]
 
     def n_finished(self) -> int:
         """Count the levels that are on disk."""
@@ -128,7 +128,7 @@ class Run:
 
     def n_rows(self, trial: Trial) -> int:
         """Count the levels of one trial that are on disk."""
-        return len(self.stored(trial).rows)
+        return len(self.read_trial(trial).rows)
 
     def head(self, trial: Trial) -> Record:
         """Return the identity of a trial: equal heads mean that its rows must be equal."""
@@ -141,7 +141,7 @@ class Run:
 
     def write(self) -> Result:
         """Collect the rows on disk and write result, summary of repeats and logs."""
-        stored = [(trial, self.stored(trial)) for trial in self.plan.trials()]
+        stored = [(trial, self.read_trial(trial)) for trial in self.plan.trials()]
         result, logs, self.simulated_s = collect(self.plan, self.inputs, self.info, stored)
         save(result, self.out)
         save_dat(
@@ -160,7 +160,7 @@ class Run:
             save_data(log, measures[log.measure], self.out, files[log.measure])
         return result
 
-    def stored(self, trial: Trial) -> journal.StoredTrial:
+    def read_trial(self, trial: Trial) -> journal.StoredTrial:
         """Return the stored rows of a trial.
 
         Raises:

@@ -1,6 +1,6 @@
 """Redundant values of a row: its total from the values, and a value from its detail.
 
-Both can be computed without running anything, so whoever changes one has to change the other.
+Both can be computed without a run, so a change of one requires a change of the other.
 """
 
 from __future__ import annotations
@@ -16,37 +16,37 @@ from .differences import Difference
 
 
 def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Difference]:
-    """Recompute totals and derived values; yields those that differ.
+    """Recompute totals and derived values; yield those that differ.
 
     Args:
-        result: as it was read.
-        benchmark: what was run.
+        result: the result as read.
+        benchmark: the benchmark that was run.
     """
     columns = [column.name for column in result.columns]
-    chosen = {spec.name: f"{spec.name}.{spec.value}" for spec in benchmark.measures}
-    expression = parse(benchmark.function.text, list(chosen))
+    details = {spec.name: f"{spec.name}.{spec.value}" for spec in benchmark.measures}
+    expression = parse(benchmark.function.text, list(details))
     for number, cells in enumerate(result.rows):
         row = dict(zip(columns, cells, strict=True))
         if set(expression.names) <= set(row) and "total" in row:
-            worked_out = _total(expression, row)
-            if leaves(row["total"]) != leaves(worked_out):
+            computed_total = _total(expression, row)
+            if leaves(row["total"]) != leaves(computed_total):
                 yield Difference(
-                    where="result.json",
-                    what=f"row {number}, column total: {row['total']!r} there, {worked_out!r} "
-                    f"by {expression.text!r} of the row's values",
+                    location="result.json",
+                    description=f"row {number}, column total: {row['total']!r} there, "
+                    f"{computed_total!r} by {expression.text!r} of the row's values",
                 )
-        for name, detail in chosen.items():
-            value, same = row.get(name), row.get(detail)
-            if value is not None and same is not None and value != same:
+        for name, detail in details.items():
+            value, detail_value = row.get(name), row.get(detail)
+            if value is not None and detail_value is not None and value != detail_value:
                 yield Difference(
-                    where="result.json",
-                    what=f"row {number}, column {name}: {value!r} there, {same!r} by {detail}, "
-                    "which it is",
+                    location="result.json",
+                    description=f"row {number}, column {name}: {value!r} there, "
+                    f"{detail_value!r} by {detail}, which it is",
                 )
 
 
 def _total(expression: Expression, row: dict[str, Cell]) -> float | None:
-    """The total of a row; None unless its status is ok."""
+    """Return the total of a row; None unless its status is ok."""
     if row.get("status") != "ok":
         return None
     values = {

@@ -1,7 +1,7 @@
 """Differences between two executions of one trial: cells, first log sample, first step.
 
-What is stored as JSON is taken apart into its leaves, each with its path, and compared leaf by leaf
-as text: -0.0 is not 0.0, and a record that was tampered with is compared like any other.
+Stored JSON is split into its leaves, each with its path, which are compared as text: -0.0 is not
+0.0, and a record that was tampered with is compared like any other.
 """
 
 from __future__ import annotations
@@ -22,40 +22,42 @@ from ..runs.trial.fingerprint import Checkpoints, divergence
 class Difference:
     """A difference."""
 
-    where: str
-    """File, or trial and level."""
-    what: str
-    """Column, sample, topic or steps; what is stored, what came out."""
+    location: str
+    """The file, or the trial and level."""
+    description: str
+    """The column, sample, topic or steps, with the stored and the new value."""
 
     def __str__(self) -> str:
-        return f"{self.where}: {self.what}"
+        return f"{self.location}: {self.description}"
 
 
-def apart(stored: Any, again: Any) -> Iterator[tuple[tuple[str | int, ...], str, str]]:
+def differing_leaves(
+    old_value: Any, new_value: Any
+) -> Iterator[tuple[tuple[str | int, ...], str, str]]:
     """Yield path, stored text and new text of every leaf that differs; ``nothing`` for none."""
-    one, other = leaves(stored), leaves(again)
-    for path in dict.fromkeys([*one, *other]):
-        before, after = one.get(path, "nothing"), other.get(path, "nothing")
-        if before != after:
-            yield path, before, after
+    old_leaves, new_leaves = leaves(old_value), leaves(new_value)
+    for path in dict.fromkeys([*old_leaves, *new_leaves]):
+        old_text, new_text = old_leaves.get(path, "nothing"), new_leaves.get(path, "nothing")
+        if old_text != new_text:
+            yield path, old_text, new_text
 
 
-def of_row(stored: Record, again: Record) -> list[str]:
+def row_differences(old_row: Record, new_row: Record) -> list[str]:
     """Return the differences in the record of a level, a line for each column and log."""
     messages: dict[str, str] = {}
-    for path, before, after in apart(stored, again):
-        name = _name(path, stored, again)
+    for path, old_text, new_text in differing_leaves(old_row, new_row):
+        name = _name(path, old_row, new_row)
         if name is not None:
             group = " ".join(map(str, path[:2])) if path[0] == "logs" else name
-            messages.setdefault(group, f"{name}: stored {before}, replayed {after}")
+            messages.setdefault(group, f"{name}: stored {old_text}, replayed {new_text}")
     return list(messages.values())
 
 
-def _name(path: tuple[str | int, ...], stored: Record, again: Record) -> str | None:
-    """The name of a leaf of a record in the result."""
+def _name(path: tuple[str | int, ...], old_row: Record, new_row: Record) -> str | None:
+    """Return the name in the result of a leaf of a record; None for the fingerprint."""
     match path:
         case ("fingerprint",):
-            return None  # the trace says more
+            return None  # the trace has more detail
         case ("measures" | "details", name, 0, *_):
             return f"column {name}"
         case ("measures" | "details", name, *_):
@@ -65,9 +67,9 @@ def _name(path: tuple[str | int, ...], stored: Record, again: Record) -> str | N
         case ("total" | "status" | "ended_at" as name, *_):
             return f"column {name}"
         case ("logs", name, int(sample), *_):
-            n_before, n_after = (len(_log(record, name)) for record in (stored, again))
+            n_before, n_after = (len(_log(record, name)) for record in (old_row, new_row))
             lengths = "" if n_before == n_after else f" ({n_before} samples stored, {n_after} now)"
-            return f"log of {name}, first at sample {sample}{_time(again, name, sample)}{lengths}"
+            return f"log of {name}, first at sample {sample}{_time(new_row, name, sample)}{lengths}"
     return " ".join(map(str, path[:2]))
 
 
@@ -79,27 +81,27 @@ def _log(record: Record, name: str | int) -> list[Any]:
 
 def _time(record: Record, name: str | int, sample: int) -> str:
     log = _log(record, name)
-    taken = log[sample] if sample < len(log) else None
-    return f" ({taken[0]:g} s)" if isinstance(taken, list) and taken else ""
+    entry = log[sample] if sample < len(log) else None
+    return f" ({entry[0]:g} s)" if isinstance(entry, list) and entry else ""
 
 
-def of_end(stored: Record, again: Record) -> list[str]:
+def end_differences(old_end: Record, new_end: Record) -> list[str]:
     """Return the differences in the end of a trial: images, constants, parameters; no trace."""
     messages: dict[str, str] = {}
-    for path, before, after in apart(_without_checkpoints(stored), _without_checkpoints(again)):
+    for path, old_text, new_text in differing_leaves(_drop_trace(old_end), _drop_trace(new_end)):
         name = " ".join(map(str, path[:2]))
         if path[0] == "streams" and isinstance(path[-1], int):
-            topics = [s[0] for s in again.get("streams", []) if isinstance(s, list) and s]
+            topics = [s[0] for s in new_end.get("streams", []) if isinstance(s, list) and s]
             number = int(path[1]) if len(path) > 1 else 0
             topic = topics[number] if number < len(topics) else number
             name = f"images on {topic}"
             if path[-1] == 1:
-                before, after = f"{before} frames", f"{after} frames"
-        messages.setdefault(name, f"{name}: stored {before}, replayed {after}")
+                old_text, new_text = f"{old_text} frames", f"{new_text} frames"
+        messages.setdefault(name, f"{name}: stored {old_text}, replayed {new_text}")
     return list(messages.values())
 
 
-def _without_checkpoints(end: Record) -> Record:
+def _drop_trace(end: Record) -> Record:
     return {key: value for key, value in end.items() if key != "trace"}
 
 
@@ -108,56 +110,57 @@ class FingerprintComparison:
     """The comparison of the fingerprints of a trial."""
 
     message: str | None
-    """Where two runs part, in words; None if they do not."""
+    """The steps at which two runs diverge, in words; None if they do not."""
     parts: tuple[str, ...] = ()
-    """What differs first."""
+    """The parts that differ first."""
     is_known: bool = True
-    """Whether both have fingerprints."""
+    """A flag: both runs have fingerprints."""
 
 
-def of_checkpoints(
-    stored: StoredTrial, again: StoredTrial, timestep: float
+def compare_checkpoints(
+    old_trial: StoredTrial, new_trial: StoredTrial, timestep: float
 ) -> FingerprintComparison:
     """Compare the fingerprints of two executions of one trial."""
-    traces = [None if each.end is None else each.end.trace for each in (stored, again)]
-    one, other = (Checkpoints.of(trace) for trace in traces)
-    if one is None or other is None:
+    traces = [None if trial.end is None else trial.end.trace for trial in (old_trial, new_trial)]
+    old_marks, new_marks = (Checkpoints.of(trace) for trace in traces)
+    if old_marks is None or new_marks is None:
         return FingerprintComparison(message=None, is_known=False)
-    found = divergence(one, other)
-    if found is None:
-        fingerprints = [[row.fingerprint for row in each.rows] for each in (stored, again)]
-        differs = [
+    split = divergence(old_marks, new_marks)
+    if split is None:
+        fingerprints = [[row.fingerprint for row in trial.rows] for trial in (old_trial, new_trial)]
+        levels = [
             n for n, pair in enumerate(zip(*fingerprints, strict=False)) if pair[0] != pair[1]
         ]
-        if not differs:
+        if not levels:
             return FingerprintComparison(message=None)
         return FingerprintComparison(
-            message=f"the fingerprint of its level {differs[0]} differs, no mark does"
+            message=f"the fingerprint of its level {levels[0]} differs, no mark does"
         )
     span = (
-        f"the same up to step {found.after} ({found.after * timestep:g} s), "
-        f"no more at step {found.until} ({found.until * timestep:g} s)"
+        f"the same up to step {split.after} ({split.after * timestep:g} s), "
+        f"no more at step {split.until} ({split.until * timestep:g} s)"
     )
-    what = f"; first differs: {', '.join(found.parts)}" if found.parts else ""
-    return FingerprintComparison(message=f"motion and images are {span}{what}", parts=found.parts)
+    suffix = f"; first differs: {', '.join(split.parts)}" if split.parts else ""
+    return FingerprintComparison(message=f"motion and images are {span}{suffix}", parts=split.parts)
 
 
-def of_text(stored: str, again: str) -> str | None:
+def text_difference(old_text: str, new_text: str) -> str | None:
     """Return where two tables of text first differ, by line and column; None if they are equal."""
-    if stored == again:
+    if old_text == new_text:
         return None
-    before, after = stored.split("\n"), again.split("\n")
-    separator = "\t" if "\t" in after[0] else ","
-    header = after[0].split(separator)
-    for number, (one, other) in enumerate(zip(before, after, strict=False), start=1):
-        if one == other:
+    old_lines, new_lines = old_text.split("\n"), new_text.split("\n")
+    separator = "\t" if "\t" in new_lines[0] else ","
+    header = new_lines[0].split(separator)
+    for number, (old_line, new_line) in enumerate(zip(old_lines, new_lines, strict=False), start=1):
+        if old_line == new_line:
             continue
         cells = [
-            next(csv.reader(io.StringIO(line), delimiter=separator), []) for line in (one, other)
+            next(csv.reader(io.StringIO(line), delimiter=separator), [])
+            for line in (old_line, new_line)
         ]
         for i, (a, b) in enumerate(zip(*cells, strict=False)):
             if a != b:
                 column = f", column {header[i]}" if i < len(header) and number > 1 else ""
                 return f"line {number}{column}: {a!r} there, {b!r} expected"
-        return f"line {number}: {one[:80]!r} there, {other[:80]!r} expected"
-    return f"{len(before)} lines there, {len(after)} expected"
+        return f"line {number}: {old_line[:80]!r} there, {new_line[:80]!r} expected"
+    return f"{len(old_lines)} lines there, {len(new_lines)} expected"

@@ -11,7 +11,7 @@ from ..results.result import Result
 from ..results.run_info import RunInfo
 from .verify import ENVIRONMENT, Verification
 
-MEANS = {
+PART_NAMES = {
     "version": "uwsim",
     "physics": "physics",
     "renderer": "renderer",
@@ -21,58 +21,58 @@ MEANS = {
     "system": "system",
     "python": "Python",
 }
-"""What a result was made with, in words."""
-PROMISES = {
-    "version": "between versions of uwsim nothing is promised",
-    "physics": "between versions of MuJoCo nothing is promised",
-    "renderer": "another renderer draws single grey levels otherwise: promised is the motion of "
-    "whatever no image steers, not images nor what is found in them",
+"""The names of the parts of the environment."""
+GUARANTEES = {
+    "version": "results of other versions of uwsim may differ",
+    "physics": "results of other versions of MuJoCo may differ",
+    "renderer": "another renderer draws single grey levels otherwise: guaranteed is the motion of "
+    "all that no image steers, not images nor values computed from them",
     "numpy": "between versions of numpy random numbers and sums may differ",
     "cpu": "another processor may round otherwise: its kernels are compiled for it",
-    "code": "what is bundled gives the same bytes all the same; an algorithm or a measure of one's "
-    "own may not",
+    "code": "bundled code gives the same bytes; your own algorithms and measures may not",
     "system": "another system has other libraries of mathematics",
     "python": "between versions of Python nothing is expected to differ",
 }
-"""What holds where that differs."""
+"""The guarantee where a part of the environment differs."""
 
 
-def made_otherwise(stored: Result, directory: Path, run: RunInfo) -> dict[str, str]:
+def environment_differences(result: Result, directory: Path, run: RunInfo) -> dict[str, str]:
     """Return the differences between the recorded environment and that of the replay."""
-    pairs = {name: (getattr(stored.run, name), getattr(run, name)) for name in ENVIRONMENT}
-    recorded, here = load_provenance(directory), machine()
-    for name in ("system", "python", *(["cpu"] if "code" not in recorded else [])):
-        if name in recorded:
-            pairs[name] = (recorded[name], here[name])
+    pairs = {name: (getattr(result.run, name), getattr(run, name)) for name in ENVIRONMENT}
+    provenance, current_machine = load_provenance(directory), machine()
+    for name in ("system", "python", *(["cpu"] if "code" not in provenance else [])):
+        if name in provenance:
+            pairs[name] = (provenance[name], current_machine[name])
     messages = {
-        name: f"{MEANS[name]}: made with {before}, replayed with {now}; {PROMISES[name]}"
-        for name, (before, now) in pairs.items()
-        if before != now
+        name: f"{PART_NAMES[name]}: made with {old_value}, replayed with {new_value}; "
+        f"{GUARANTEES[name]}"
+        for name, (old_value, new_value) in pairs.items()
+        if old_value != new_value
     }
-    if codes := [text for code in codes_of(recorded) if (text := code_differences(code))]:
-        messages["code"] = f"{MEANS['code']}: {'; '.join(codes)}; {PROMISES['code']}"
+    if codes := [text for code in codes_of(provenance) if (text := code_differences(code))]:
+        messages["code"] = f"{PART_NAMES['code']}: {'; '.join(codes)}; {GUARANTEES['code']}"
     return messages
 
 
-def blame(found: Verification, others: Mapping[str, str]) -> str:
+def likely_cause(report: Verification, changes: Mapping[str, str]) -> str:
     """Return the part of the program that the differences point to."""
-    bodies = [part for part in found.parts if not part.startswith("/")]
+    bodies = [part for part in report.parts if not part.startswith("/")]
     if bodies:
-        where = f"It begins in the physics: {', '.join(bodies)} moved otherwise."
-        return where + _because(others, ("version", "physics", "numpy", "cpu", "code", "system"))
-    if found.parts:
-        where = f"Every body moved the same; the images on {', '.join(found.parts)} are others."
-        return where + _because(others, ("version", "renderer", "numpy", "cpu", "code", "system"))
-    if found.is_replayed:
-        return "Every replayed trial gave what it stored; other parts of the result were changed."
-    if not found.is_steady:
+        message = f"It begins in the physics: {', '.join(bodies)} moved otherwise."
+        return message + _causes(changes, ("version", "physics", "numpy", "cpu", "code", "system"))
+    if report.parts:
+        message = f"Every body moved the same; the images on {', '.join(report.parts)} differ."
+        return message + _causes(changes, ("version", "renderer", "numpy", "cpu", "code", "system"))
+    if report.is_replayed:
+        return "Every replayed trial gave its stored values; other parts of the result differ."
+    if not report.is_steady:
         return "Its stored fingerprints are not those of a replay."
     return (
-        "Every body moved and every image was the same: what is stored was changed, or the "
-        "algorithm or a measure is not repeatable (its own chance, a clock, threads)."
+        "Every motion and every image was the same. Either the stored values were changed, or the "
+        "algorithm or a measure is not repeatable (own random numbers, a clock, threads)."
     )
 
 
-def _because(others: Mapping[str, str], names: tuple[str, ...]) -> str:
-    known = [MEANS[name] for name in names if name in others]
-    return f" Made otherwise: {', '.join(known)}." if known else ""
+def _causes(changes: Mapping[str, str], names: tuple[str, ...]) -> str:
+    part_names = [PART_NAMES[name] for name in names if name in changes]
+    return f" Made otherwise: {', '.join(part_names)}." if part_names else ""

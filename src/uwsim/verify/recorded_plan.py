@@ -23,12 +23,12 @@ if TYPE_CHECKING:
     from ..runs.planning.plan import Plan
 
 NOT_DRAWN = "none"
-"""The renderer of a control, which looks at no image."""
+"""The renderer of a control, which uses no image."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FileOverrides:
-    """Paths of files given by the user."""
+    """The paths of files that the user names."""
 
     benchmark: Path | None = None
     """The benchmark."""
@@ -39,50 +39,50 @@ class FileOverrides:
     data_path: tuple[Path, ...] = ()
     """Folders in which files are looked for."""
     no_code: bool = False
-    """Whether code that the files name is refused."""
+    """The folders in which files are searched."""
 
 
 def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     """Rebuild the plan of a result.
 
     Raises:
-        ResultError: the result does not say, or a file is not the one that was run.
-        AssetNotFound: a file is nowhere.
+        ResultError: the result lacks a value, or a file is not the one that was run.
+        AssetNotFound: a file is not found.
     """
     run = result.run
-    for client, how in run.clients or ():
-        if is_outside(how):
+    for client, participation in run.clients or ():
+        if is_outside(participation):
             raise ResultError(
-                f"The result was made with the program {client!r} outside ({how}): run the "
-                "benchmark with it again and compare."
+                f"The result was made with the external program {client!r} ({participation}). Run "
+                "the benchmark with it again and compare."
             )
-    typed = typed_words(directory)
+    words = typed_words(directory)
     benchmark = find_input(
         "benchmark",
         named_input(result, "benchmark"),
         overrides.benchmark,
         directory,
         overrides,
-        typed,
+        words,
     )
-    typed += [str(benchmark.parent / name) for name in scene_named_by(benchmark)]
+    words += [str(benchmark.parent / name) for name in scene_named_by(benchmark)]
     scene = find_input(
-        "scene", named_input(result, "scene"), overrides.scene, directory, overrides, typed
+        "scene", named_input(result, "scene"), overrides.scene, directory, overrides, words
     )
-    is_blind = _needed(run, "renderer") == NOT_DRAWN
+    is_blind = _value_of(run, "renderer") == NOT_DRAWN
     settings = [f"{name}={value}" for name, value in run.settings or ()]
     request = PlanRequest(
         benchmark=str(benchmark),
         scene=str(scene),
-        algorithm=f"{PREFIX}{directory}" if run.algorithm == PILOT else _needed(run, "algorithm"),
-        seed=_needed(run, "seed"),
-        repeat=_needed(run, "repeats"),
-        mode=_needed(run, "mode"),
+        algorithm=f"{PREFIX}{directory}" if run.algorithm == PILOT else _value_of(run, "algorithm"),
+        seed=_value_of(run, "seed"),
+        repeat=_value_of(run, "repeats"),
+        mode=_value_of(run, "mode"),
         levels=run.levels or (),
         settings=[s for s in settings if not (is_blind and s.startswith("algorithm."))],
         compat=run.compatibility or (),
         data_path=overrides.data_path,
-        plugins=_plugins(result, overrides.plugins, [*typed, *_beside(result, benchmark)]),
+        plugins=_plugins(result, overrides.plugins, [*words, *_plugin_paths(result, benchmark)]),
         no_code=overrides.no_code,
         in_process=IN_PROCESS in dict(run.clients or ()).values(),
         algorithm_is_from=str(directory),
@@ -90,132 +90,131 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
     return replace(make_plan(request), is_blind=is_blind)
 
 
-def check_inputs(recorded: Inputs, found: Inputs) -> None:
+def check_inputs(recorded_inputs: Inputs, current_inputs: Inputs) -> None:
     """Refuse assets or an algorithm that differ from the recorded ones.
 
     Benchmark, scene and plugins are found by their hashes.
 
     Raises:
-        ResultError: names each that differs.
+        ResultError: with each file that differs.
     """
-    before, now = (
-        Inputs(assets=each.assets, algorithm=each.algorithm) for each in (recorded, found)
+    old_inputs, new_inputs = (
+        Inputs(assets=inputs.assets, algorithm=inputs.algorithm)
+        for inputs in (recorded_inputs, current_inputs)
     )
-    if wrong := input_differences(before, now):
+    if messages := input_differences(old_inputs, new_inputs):
         raise ResultError(
-            f"The result was made with other files: {'; '.join(wrong)}. "
-            "Give the folder with those files with --data-path, and that of an algorithm with "
+            f"The result was made with other files: {'; '.join(messages)}. "
+            "Name the folder of those files with --data-path, and that of an algorithm with "
             "PYTHONPATH."
         )
 
 
 def find_input(
     kind: str,
-    recorded: tuple[str, str],
-    chosen: Path | None,
+    recorded_file: tuple[str, str],
+    choice: Path | None,
     directory: Path,
     overrides: FileOverrides,
-    typed: Sequence[str] = (),
+    words: Sequence[str] = (),
 ) -> Path:
     """Find a file by its name and its hash.
 
     Args:
         kind: benchmark or scene: the option that names it.
-        recorded: name and hash.
-        chosen: the file that the user gave, if any; no other is looked at.
-        directory: the result's; its folder and those above it are searched.
-        overrides: folders to search.
-        typed: words among which may be the file, as it was named then.
+        recorded_file: the recorded name and hash.
+        choice: the file that the user names, if any; no other is read.
+        directory: the directory of the result; its folder and those above it are searched.
+        overrides: the folders to search.
+        words: words of the recorded command, among which the file may be named.
 
     Raises:
         ResultError: there are files of that name, but with other hashes.
-        AssetNotFound: there is none.
+        AssetNotFound: there is no such file.
     """
     from ..assets.find import candidates, searched_folders
 
-    name, wanted = recorded
-    if chosen is not None:
-        files = (
-            [bundled_files(f"{kind}s").get(str(chosen), chosen)]
-            if not chosen.is_file()
-            else [chosen]
-        )
+    name, digest = recorded_file
+    if choice is not None:
+        files = [bundled_files(f"{kind}s").get(str(choice), choice)] if not choice.is_file() else [choice]
     else:
-        names = [*(word for word in typed if Path(word).name == name), name]
-        above = (directory.absolute(), *directory.absolute().parents)
-        files = list(candidates(names, data_path=(*above, *overrides.data_path)))
+        names = [*(word for word in words if Path(word).name == name), name]
+        parents = (directory.absolute(), *directory.absolute().parents)
+        files = list(candidates(names, data_path=(*parents, *overrides.data_path)))
         files += [path for path in bundled_files(f"{kind}s").values() if path.name == name]
-    others = []
+    candidates_text = []
     for file in dict.fromkeys(path.resolve() if path.exists() else path for path in files):
-        found = _sha256(file)
-        if found == wanted:
+        file_digest = _sha256(file)
+        if file_digest == digest:
             return file
-        others.append(f"{file} ({_shortened(found)})")
-    if others:
+        candidates_text.append(f"{file} ({_short_hash(file_digest)})")
+    if candidates_text:
         raise ResultError(
-            f"The {kind} is not the one that was run, {name} ({_shortened(wanted)}): "
-            f"{', '.join(others)}. Give the right one with --{kind}."
+            f"The {kind} is not the one that was run, {name} ({_short_hash(digest)}): "
+            f"{', '.join(candidates_text)}. Name the right one with --{kind}."
         )
-    searched = searched_folders(named_by=directory.absolute(), data_path=overrides.data_path)
-    folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
+    search_folders = searched_folders(named_by=directory.absolute(), data_path=overrides.data_path)
+    folders = ", ".join(str(folder) for folder in search_folders if folder.is_dir())
     raise AssetNotFound(
-        f"The {kind} {name!r} ({_shortened(wanted)}) was not found; give it with --{kind}. "
+        f"The {kind} {name!r} ({_short_hash(digest)}) is not found; name it with --{kind}. "
         f"Folders searched: {folders}."
     )
 
 
 def typed_words(directory: Path) -> list[str]:
-    """Return the words of the command that a result was made with; of a control, of its result."""
+    """Return the words of the command that made a result; for a control, of its result."""
     from ..results.directory import CONTROL
     from ..results.provenance import load_provenance
 
     place = directory.absolute()
-    typed = load_provenance(place.parent if place.name == CONTROL else place).get("command")
-    words = [str(word) for word in typed] if isinstance(typed, list) else []
+    command = load_provenance(place.parent if place.name == CONTROL else place).get("command")
+    words = [str(word) for word in command] if isinstance(command, list) else []
     return [word.partition("=")[2] if word.startswith("--") else word for word in words]
 
 
 def scene_named_by(benchmark: Path) -> list[str]:
-    """Return the scene that a benchmark file names (u:scene), if it does."""
+    """Return the scene that a benchmark file names (u:scene), if there is one."""
     from ..schema import NAMESPACE, parse
 
-    named = parse(benchmark).root.get(f"{{{NAMESPACE}}}scene")
-    return [] if named is None else [str(named).strip()]
+    scene = parse(benchmark).root.get(f"{{{NAMESPACE}}}scene")
+    return [] if scene is None else [str(scene).strip()]
 
 
-def _beside(result: Result, benchmark: Path) -> list[str]:
-    """Return where the plugins are that the benchmark names, or that are in its folder."""
+def _plugin_paths(result: Result, benchmark: Path) -> list[str]:
+    """Return the paths of the plugins that the benchmark names, or that are in its folder."""
     names = [*plugin_names(benchmark), *(name for name, _ in result.inputs.plugins or ())]
     return [str(benchmark.parent / name) for name in names]
 
 
-def _plugins(result: Result, overrides: Sequence[Path], typed: Sequence[str]) -> list[Path]:
-    """Return the plugins that were used, in the order in which they were.
+def _plugins(result: Result, overrides: Sequence[Path], words: Sequence[str]) -> list[Path]:
+    """Return the plugins that were used, in their order.
 
-    Those that are not given are those of the same hash that were given then, or that are in the
-    benchmark's folder. The file of an algorithm ``FILE.py:Class`` is where its name says, unless it
-    has changed.
+    Plugins that the user does not name are files with the recorded hash, in the recorded command or
+    in the benchmark's folder. The file of an algorithm ``FILE.py:Class`` is at the path of its
+    name, unless it has changed.
     """
     names = [name for name, _ in result.inputs.plugins or ()]
-    known = [Path(word) for word in typed if Path(word).name in names and Path(word).is_file()]
-    hashes = {path: _sha256(path) for path in (*overrides, *known)}
+    candidates = [Path(word) for word in words if Path(word).name in names and Path(word).is_file()]
+    hashes = {path: _sha256(path) for path in (*overrides, *candidates)}
     program = Path((result.run.algorithm or "").partition(":")[0])
-    found = []
-    for name, wanted in result.inputs.plugins or ():
-        if program.name == name and program.is_file() and _sha256(program) == wanted:
+    plugins = []
+    for name, sha256 in result.inputs.plugins or ():
+        if program.name == name and program.is_file() and _sha256(program) == sha256:
             continue
-        right = [path for path, digest in hashes.items() if digest == wanted]
+        right = [path for path, digest in hashes.items() if digest == sha256]
         if not right:
-            alike = [str(path) for path in overrides if path.name == name]
-            what = f"{alike[0]} is another file" if alike else "it is not in the benchmark's folder"
-            raise ResultError(
-                f"The result was made with the plugin {name} ({_shortened(wanted)}); {what}. Give "
-                "its path with --plugin."
+            paths = [str(path) for path in overrides if path.name == name]
+            reason = (
+                f"{paths[0]} is another file" if paths else "it is not in the benchmark's folder"
             )
-        found.append(right[0])
-    if extra := [str(path) for path in overrides if path not in found]:
-        raise ResultError(f"The result was made without the plugin {', '.join(extra)}.")
-    return found
+            raise ResultError(
+                f"The result was made with the plugin {name} ({_short_hash(sha256)}); {reason}. "
+                "Name its path with --plugin."
+            )
+        plugins.append(right[0])
+    if unused_paths := [str(path) for path in overrides if path not in plugins]:
+        raise ResultError(f"The result was made without the plugin {', '.join(unused_paths)}.")
+    return plugins
 
 
 def _sha256(path: Path) -> str:
@@ -223,20 +222,20 @@ def _sha256(path: Path) -> str:
 
 
 def named_input(result: Result, kind: str) -> tuple[str, str]:
-    """Return name and hash of the benchmark or the scene of a result; ResultError if not there."""
+    """Return name and hash of a result's benchmark or scene; raise ResultError without it."""
     file: tuple[str, str] | None = getattr(result.inputs, kind)
     if file is None:
         raise ResultError(f'The result does not name its {kind}: "inputs" lacks it.')
     return file
 
 
-def _shortened(digest: str) -> str:
+def _short_hash(digest: str) -> str:
     return digest[: len("sha256:") + 12]
 
 
-def _needed(run: RunInfo, name: str) -> Any:
-    """Return what ``run`` says; ResultError where it does not."""
+def _value_of(run: RunInfo, name: str) -> Any:
+    """Return a value of ``run``; raise ResultError where it is absent."""
     value = getattr(run, name)
     if value is None:
-        raise ResultError(f'The result cannot be replayed: "run" does not say its {name}.')
+        raise ResultError(f'The result cannot be replayed: "run" lacks its {name}.')
     return value

@@ -1,10 +1,10 @@
 """Verifying a result: consistency of its files, and replays of trials.
 
-First, without running anything, every total is computed from its row, and every file of the
-result is written again from the journals of its trials and compared. Then whole trials are replayed
-from the recorded inputs and compared with what is stored: every cell, every sample, every image,
-byte for byte; where they differ, the fingerprints (`runs.trial.fingerprint`) say from which step on
-and in which body or image.
+First, without a run, every total is computed from its row, and every file of the result is written
+again from the journals of its trials and compared. Then whole trials are replayed from the recorded
+inputs and compared with the stored ones: every cell, every sample, every image, byte for byte.
+Where they differ, the fingerprints (`runs.trial.fingerprint`) identify the step and the body or
+image.
 """
 
 from __future__ import annotations
@@ -32,48 +32,48 @@ from .derived import contradictions
 from .differences import Difference
 
 ENVIRONMENT = ("version", "physics", "renderer", "numpy")
-"""Of ``run``: what a result was made with."""
+"""The keys of ``run`` for the environment of a result."""
 
 
 @dataclass(kw_only=True)
 class Verification:
-    """What came out."""
+    """The result of a verification."""
 
     differences: list[Difference] = field(default_factory=list)
-    """Everything that is not the same."""
+    """The differences found."""
     parts: list[str] = field(default_factory=list)
-    """Bodies and topics in which replays part from what is stored."""
+    """The bodies and topics in which replays diverge from the stored runs."""
     is_steady: bool = True
-    """Whether every replay moved, and saw, what the stored run did."""
+    """A flag: every replay had the motion and images of the stored run."""
     is_replayed: bool = True
-    """Whether every replay gave what its trial stored."""
+    """A flag: every replay gave the stored values of its trial."""
     not_compared: list[str] = field(default_factory=list)
-    """What is not there to be compared."""
+    """The files that are absent and therefore not compared."""
     trials: tuple[Trial, ...] = ()
-    """Trials that were replayed."""
+    """The trials that were replayed."""
 
-    def add(self, where: str, what: str) -> None:
+    def add(self, location: str, description: str) -> None:
         """Record a difference."""
-        self.differences.append(Difference(where=where, what=what))
+        self.differences.append(Difference(location=location, description=description))
 
 
-def finished(directory: Path, plan: Plan, result: Result) -> list[Trial]:
-    """Return the trials that are whole: by their files or, without those, by their rows."""
+def complete_trials(directory: Path, plan: Plan, result: Result) -> list[Trial]:
+    """Return the complete trials: by their files or, without those, by their rows."""
     trials = plan.trials()
     if _has_journals(directory):
         files = [journal.path_of(directory, trial.index) for trial in trials]
-        stored = [journal.read_any(file)[1] for file in files]
-        return [trial for trial, found in zip(trials, stored, strict=True) if found.end is not None]
+        ends = [journal.read_any(file)[1].end for file in files]
+        return [trial for trial, end in zip(trials, ends, strict=True) if end is not None]
     rows = _rows_by_level(result, plan)
     return [trial for trial in trials if all(key in rows for key in _keys(trial))]
 
 
-def choose(trials: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
-    """Choose ``sample`` trials by chance (None: all), in their order."""
+def choose_trials(trials: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
+    """Choose ``sample`` random trials (None: all), in their order."""
     if sample is None or sample >= len(trials):
         return tuple(trials)
-    picked = stream(seed, "verify").choice(len(trials), size=sample, replace=False)
-    return tuple(trials[i] for i in sorted(picked.tolist()))
+    indices = stream(seed, "verify").choice(len(trials), size=sample, replace=False)
+    return tuple(trials[i] for i in sorted(indices.tolist()))
 
 
 def verify(
@@ -88,234 +88,236 @@ def verify(
     """Check the consistency of a stored result and replay trials.
 
     Args:
-        directory: the result's.
-        result: as it was read.
+        directory: the directory of the result.
+        result: the result as read.
         run: the same run anew, from the recorded inputs; its directory is not used.
-        trials: what to replay.
-        executor: who executes the trials; without one, this process.
+        trials: the trials to replay.
+        executor: the executor of the trials; None for this process.
         on_level: called for every level executed.
 
     Raises:
         UwsimError: a replay could not be executed.
     """
-    found = Verification(trials=tuple(trials))
-    found.differences += contradictions(result, run.plan.benchmark)
+    report = Verification(trials=tuple(trials))
+    report.differences += contradictions(result, run.plan.benchmark)
     with scratch_folder("uwsim-verify-") as scratch:
         if _has_journals(directory):
-            _check_files(found, directory, result, replace(run, out=scratch / "stored"))
-            _check_tracks(found, directory, run.plan)
+            _check_files(report, directory, result, replace(run, out=scratch / "stored"))
+            _check_tracks(report, directory, run.plan)
         else:
-            found.not_compared.append("units/: rows are compared with result.json alone")
-        again = replace(run, out=scratch / "replayed")
-        again.out.mkdir()
-        queue = JobQueue([Job(again, trial) for trial in trials], on_level)
+            report.not_compared.append("units/: rows are compared with result.json alone")
+        replay = replace(run, out=scratch / "replayed")
+        replay.out.mkdir()
+        queue = JobQueue([Job(replay, trial) for trial in trials], on_level)
         (executor or SerialExecutor()).execute(queue)
         if queue.failure is not None:
             raise queue.failure
         if _has_journals(directory):
             for trial in trials:
-                _check_trial(found, directory, again, trial)
+                _check_trial(report, directory, replay, trial)
         else:
-            _check_rows(found, result, again)
-        _check_images(found, directory, again.out)
-    return found
+            _check_rows(report, result, replay)
+        _check_images(report, directory, replay.out)
+    return report
 
 
 def _has_journals(directory: Path) -> bool:
     return (directory / journal.FOLDER).is_dir()
 
 
-def _check_files(found: Verification, directory: Path, result: Result, run: Run) -> None:
-    """Write every file again from the stored trials, if all are there, and compare."""
-    gone = _gone(directory, result, run.plan)
-    for trial, what in gone.items():
+def _check_files(report: Verification, directory: Path, result: Result, run: Run) -> None:
+    """Write every file again from the stored trials, if all exist, and compare."""
+    lost = _lost_trials(directory, result, run.plan)
+    for trial, reason in lost.items():
         name = journal.path_of(directory, trial.index).name
-        found.add(f"{journal.FOLDER}/{name}", what)
-    if gone:
-        found.not_compared.append("result.json and the files next to it: units/ is incomplete")
+        report.add(f"{journal.FOLDER}/{name}", reason)
+    if lost:
+        report.not_compared.append("result.json and the files next to it: units/ is incomplete")
     expected_names = {journal.path_of(directory, trial.index).name for trial in run.plan.trials()}
     for path in sorted((directory / journal.FOLDER).glob("*.jsonl")):
         if path.name not in expected_names:
-            found.add(f"{journal.FOLDER}/{path.name}", "this run has no such trial")
+            report.add(f"{journal.FOLDER}/{path.name}", "this run has no such trial")
     for trial in run.plan.trials():
         path = journal.path_of(directory, trial.index)
-        head, stored = journal.read_any(path)
-        if head is None or trial in gone:
+        head, content = journal.read_any(path)
+        if head is None or trial in lost:
             continue
         expected = _head(result, run.head(trial))
-        _check_head(found, f"{journal.FOLDER}/{path.name}", head, expected)
+        _check_head(report, f"{journal.FOLDER}/{path.name}", head, expected)
         file = journal.Journal(run.out, trial.index, run.head(trial))
-        for row in stored.rows:
+        for row in content.rows:
             file.add(row)
-        if stored.end is not None:
-            file.finish(stored.end)
+        if content.end is not None:
+            file.finish(content.end)
         file.close()
-    if gone:
+    if lost:
         return
     try:
-        made = run.write()
+        written_result = run.write()
     except Exception as error:
-        found.add(journal.FOLDER, f"what is stored makes no result: {error}")
+        report.add(journal.FOLDER, f"the stored trials give no result: {error}")
         return
     for path in sorted(run.out.glob("*.*")):
-        there = directory / path.name
+        stored_path = directory / path.name
         if path.name == "result.json":
-            _check_result(found, result, made)
-        elif not there.is_file():
-            found.not_compared.append(f"{path.name}: is not there")
+            _check_result(report, result, written_result)
+        elif not stored_path.is_file():
+            report.not_compared.append(f"{path.name}: is absent")
         else:
-            text = there.read_text(encoding="utf-8", errors="replace")
-            if difference := differences.of_text(text, path.read_text(encoding="utf-8")):
-                found.add(path.name, f"{difference} by units/")
+            text = stored_path.read_text(encoding="utf-8", errors="replace")
+            if difference := differences.text_difference(text, path.read_text(encoding="utf-8")):
+                report.add(path.name, f"{difference} by units/")
 
 
-def _check_tracks(found: Verification, directory: Path, plan: Plan) -> None:
-    """Read the motion track of every trial: replays and films are drawn from it."""
+def _check_tracks(report: Verification, directory: Path, plan: Plan) -> None:
+    """Read the motion track of every trial; replays and films are drawn from it."""
     for trial in plan.trials():
         path = journal.track_path(directory, trial.index)
         name = f"{journal.FOLDER}/{path.name}"
         if not path.is_file():
-            found.not_compared.append(f"{name}: is not there, so that the trial cannot be seen")
+            report.not_compared.append(f"{name}: is absent, so the trial has no replay")
             continue
         try:
             load_track(path)
         except ResultError as error:
-            found.add(name, str(error).removeprefix(f"{path}: ").removesuffix("."))
+            report.add(name, str(error).removeprefix(f"{path}: ").removesuffix("."))
 
 
-def _gone(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
-    """Trials whose rows are in the result but not in their journals, with the reason."""
+def _lost_trials(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
+    """Return the trials whose rows are in the result but not in their journals, with the reason."""
     rows = _rows_by_level(result, plan)
-    gone = {}
+    lost_trials = {}
     for trial in plan.trials():
         file = journal.path_of(directory, trial.index)
         n_stored = len(journal.read_any(file)[1].rows) if file.is_file() else 0
-        n_told = sum(key in rows for key in _keys(trial))
-        if n_stored < n_told:
+        n_rows = sum(key in rows for key in _keys(trial))
+        if n_stored < n_rows:
             name = f"trial {trial.index} (seed {trial.seed})"
-            what = f"{n_stored} rows can be read" if file.exists() else "is not there"
-            gone[trial] = f"{name}: {what}; result.json has {n_told} of it"
-    return gone
+            reason = f"{n_stored} rows can be read" if file.exists() else "is absent"
+            lost_trials[trial] = f"{name}: {reason}; result.json has {n_rows} of it"
+    return lost_trials
 
 
-def _head(result: Result, replayed: Record) -> Record:
-    """The head that a trial should have, according to result.json.
+def _head(result: Result, replayed_head: Record) -> Record:
+    """Return the head that a trial should have, according to result.json.
 
-    The parameters of a head are those given; result.json says those that the algorithm ran with.
+    The head has the parameters of the command; result.json has those that the algorithm ran with.
     """
-    stored = json.loads(json.dumps(result.run.as_dict()))
+    stored_run = json.loads(json.dumps(result.run.as_dict()))
     run = {
-        key: stored.get(key) if key != "parameters" else now for key, now in replayed["run"].items()
+        key: stored_run.get(key) if key != "parameters" else now
+        for key, now in replayed_head["run"].items()
     }
-    return {**replayed, "inputs": json.loads(json.dumps(result.inputs.as_dict())), "run": run}
+    return {**replayed_head, "inputs": json.loads(json.dumps(result.inputs.as_dict())), "run": run}
 
 
-def _check_head(found: Verification, where: str, head: Record, expected: Record) -> None:
+def _check_head(report: Verification, name: str, head: Record, expected: Record) -> None:
     """Compare the head of a trial with result.json, a line for each value."""
-    seen: set[tuple[str | int, ...]] = set()
-    for path, before, after in differences.apart(head, expected):
-        if path[:2] not in seen:
-            seen.add(path[:2])
-            found.add(where, f"{' '.join(map(str, path))}: {before} there, {after} by result.json")
+    groups: set[tuple[str | int, ...]] = set()
+    for path, old_text, new_text in differences.differing_leaves(head, expected):
+        if path[:2] not in groups:
+            groups.add(path[:2])
+            message = f"{' '.join(map(str, path))}: {old_text} there, {new_text} by result.json"
+            report.add(name, message)
 
 
-def _check_result(found: Verification, result: Result, made: Result) -> None:
+def _check_result(report: Verification, result: Result, written_result: Result) -> None:
     documents = []
-    for each in (result, made):
-        document = json.loads(dumps(each))
+    for one_result in (result, written_result):
+        document = json.loads(dumps(one_result))
         document["run"] = {k: v for k, v in document["run"].items() if k not in ENVIRONMENT}
         documents.append(document)
-    names = [column.name for column in made.columns]
-    seen: set[tuple[str | int, ...]] = set()
-    for path, before, after in differences.apart(*documents):
+    names = [column.name for column in written_result.columns]
+    groups: set[tuple[str | int, ...]] = set()
+    for path, old_text, new_text in differences.differing_leaves(*documents):
         group = path if path[0] == "rows" else path[:2]
-        if group in seen:
+        if group in groups:
             continue
-        seen.add(group)
+        groups.add(group)
         match path:
             case ("rows", int(row), int(column)) if column < len(names):
-                where = f"row {row}, column {names[column]}"
+                location = f"row {row}, column {names[column]}"
             case _:
-                where = " ".join(map(str, path))
-        found.add("result.json", f"{where}: {before} there, {after} by units/")
+                location = " ".join(map(str, path))
+        report.add("result.json", f"{location}: {old_text} there, {new_text} by units/")
 
 
-def _check_trial(found: Verification, directory: Path, again: Run, trial: Trial) -> None:
+def _check_trial(report: Verification, directory: Path, replay: Run, trial: Trial) -> None:
     """Compare a replayed trial with the stored one, level by level."""
-    stored, replayed = (
+    old_trial, new_trial = (
         journal.read_any(journal.path_of(folder, trial.index))[1]
-        for folder in (directory, again.out)
+        for folder in (directory, replay.out)
     )
     name = f"trial {trial.index} (seed {trial.seed})"
-    before = len(found.differences)
-    if message := journal.level_difference(stored, trial.values):
-        found.add(name, message)
-    for level, *rows in zip(trial.levels, stored.rows, replayed.rows, strict=False):
-        for message in differences.of_row(*(row.record() for row in rows)):
-            found.add(f"{name}, level {level}", message)
-    for message in differences.of_end(*(_end(each) for each in (stored, replayed))):
-        found.add(name, message)
-    motion = differences.of_checkpoints(stored, replayed, again.plan.timestep)
-    if len(found.differences) > before or motion.message is not None:
-        found.is_replayed = False
+    n_before = len(report.differences)
+    if message := journal.level_difference(old_trial, trial.values):
+        report.add(name, message)
+    for level, *rows in zip(trial.levels, old_trial.rows, new_trial.rows, strict=False):
+        for message in differences.row_differences(*(row.record() for row in rows)):
+            report.add(f"{name}, level {level}", message)
+    for message in differences.end_differences(*map(_end, (old_trial, new_trial))):
+        report.add(name, message)
+    motion = differences.compare_checkpoints(old_trial, new_trial, replay.plan.timestep)
+    if len(report.differences) > n_before or motion.message is not None:
+        report.is_replayed = False
     if not motion.is_known:
-        found.not_compared.append(f"{name}: has no fingerprints of motion")
+        report.not_compared.append(f"{name}: has no fingerprints of motion")
     elif motion.message is not None:
-        found.is_steady = False
-        found.parts += [part for part in motion.parts if part not in found.parts]
-        found.differences.insert(before, Difference(where=name, what=motion.message))
+        report.is_steady = False
+        report.parts += [part for part in motion.parts if part not in report.parts]
+        report.differences.insert(n_before, Difference(location=name, description=motion.message))
 
 
-def _end(stored: journal.StoredTrial) -> Record:
-    return {} if stored.end is None else stored.end.record()
+def _end(content: journal.StoredTrial) -> Record:
+    return {} if content.end is None else content.end.record()
 
 
-def _check_rows(found: Verification, result: Result, again: Run) -> None:
+def _check_rows(report: Verification, result: Result, replay: Run) -> None:
     """Compare replayed rows with those of result.json, where there is no journal."""
-    made = again.write()
-    expected = _rows_by_level(result, again.plan)
+    new_result = replay.write()
+    expected = _rows_by_level(result, replay.plan)
     names = {column.name for column in result.columns}
-    known = {key for trial in again.plan.trials() for key in _keys(trial)}
-    n = len(known & expected.keys())
+    replayed_keys = {key for trial in replay.plan.trials() for key in _keys(trial)}
+    n = len(replayed_keys & expected.keys())
     if len(result.rows) > n:
-        found.add("result.json", f"{len(result.rows)} rows; expected {n}, one for each level")
-    for key, row in _rows_by_level(made, again.plan).items():
-        for column, cell in zip(made.columns, made.rows[row], strict=True):
-            if column.name == "ended_at" and len(made.rows) < len(result.rows):
+        report.add("result.json", f"{len(result.rows)} rows; expected {n}, one for each level")
+    for key, row in _rows_by_level(new_result, replay.plan).items():
+        for column, cell in zip(new_result.columns, new_result.rows[row], strict=True):
+            if column.name == "ended_at" and len(new_result.rows) < len(result.rows):
                 continue  # includes earlier parts of the run
-            there = result.values(column.name)[expected[key]] if column.name in names else None
-            if leaves(there) != leaves(cell):
-                found.is_replayed = False
-                where = f"row {expected[key]}, column {column.name}"
-                found.add("result.json", f"{where}: stored {there!r}, replayed {cell!r}")
-    for stream_again in made.image_streams:
+            old_cell = result.values(column.name)[expected[key]] if column.name in names else None
+            if leaves(old_cell) != leaves(cell):
+                report.is_replayed = False
+                location = f"row {expected[key]}, column {column.name}"
+                report.add("result.json", f"{location}: stored {old_cell!r}, replayed {cell!r}")
+    for stream_again in new_result.image_streams:
         if stream_again not in result.image_streams:
-            found.add("result.json", f"images on {stream_again.topic}: others than in the replay")
+            report.add("result.json", f"images on {stream_again.topic}: others than those replayed")
 
 
-def _check_images(found: Verification, directory: Path, again: Path) -> None:
-    for path in sorted((again / IMAGES).glob("*.png")):
-        there = directory / IMAGES / path.name
+def _check_images(report: Verification, directory: Path, replay_directory: Path) -> None:
+    for path in sorted((replay_directory / IMAGES).glob("*.png")):
+        stored_path = directory / IMAGES / path.name
         if not (directory / IMAGES).is_dir():
-            found.not_compared.append(f"{IMAGES}/: is not there")
+            report.not_compared.append(f"{IMAGES}/: is absent")
             return
-        if not there.is_file():
-            found.not_compared.append(f"{IMAGES}/{path.name}: is not there")
-        elif there.read_bytes() != path.read_bytes():
-            found.add(f"{IMAGES}/{path.name}", "another image than in the replay")
+        if not stored_path.is_file():
+            report.not_compared.append(f"{IMAGES}/{path.name}: is absent")
+        elif stored_path.read_bytes() != path.read_bytes():
+            report.add(f"{IMAGES}/{path.name}", "differs from the image of the replay")
 
 
 def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
-    """Return repeat and level -> number of the row."""
-    wanted = [c.name for c in result.columns if c.kind == "level" or c.name == "repeat"]
-    columns = [result.numbers(name) for name in wanted]
-    found: dict[tuple[float, ...], int] = {}
+    """Return the row number of each repeat and level."""
+    names = [c.name for c in result.columns if c.kind == "level" or c.name == "repeat"]
+    columns = [result.numbers(name) for name in names]
+    rows: dict[tuple[float, ...], int] = {}
     for row in range(len(result.rows)):
         key = tuple(value for column in columns if (value := column[row]) is not None)
-        found[key if plan.repeats > 1 else (0.0, *key)] = row
-    return found
+        rows[key if plan.repeats > 1 else (0.0, *key)] = row
+    return rows
 
 
 def _keys(trial: Trial) -> list[tuple[float, ...]]:
-    """The keys of `_rows_by_level` for a trial."""
+    """Return the keys of `_rows_by_level` for a trial."""
     return [(float(trial.repeat), *(value for _, value in level.values)) for level in trial.levels]
