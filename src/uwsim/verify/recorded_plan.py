@@ -136,7 +136,11 @@ def find_input(
 
     name, digest = recorded_file
     if choice is not None:
-        files = [bundled_files(f"{kind}s").get(str(choice), choice)] if not choice.is_file() else [choice]
+        files = (
+            [bundled_files(f"{kind}s").get(str(choice), choice)]
+            if not choice.is_file()
+            else [choice]
+        )
     else:
         names = [*(word for word in words if Path(word).name == name), name]
         parents = (directory.absolute(), *directory.absolute().parents)
