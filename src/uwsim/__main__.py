@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import gc
 import sys
 
 from .base.interrupts import exit_on_interrupt, ignore_interrupts
@@ -11,6 +12,7 @@ from .base.interrupts import exit_on_interrupt, ignore_interrupts
 def run() -> int:
     """Run ``uwsim`` as a process of its own; returns its exit status."""
     exit_on_interrupt()
+    gc.set_threshold(50_000, 20, 20)  # libraries and scenes are many objects, which stay
     atexit.register(ignore_interrupts)  # the first registered is the last called
     from .cli import main
     from .cli.app import say
@@ -21,6 +23,7 @@ def run() -> int:
         return say(error)
     finally:
         exit_on_interrupt()  # the interpreter may take a moment to leave
+        gc.freeze()  # its last collection would visit all objects, of which most stay
 
 
 if __name__ == "__main__":

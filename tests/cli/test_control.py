@@ -14,6 +14,7 @@ from tests.support.short_trial import with_algorithm
 from uwsim.cli import main
 from uwsim.runs import execute
 from uwsim.runs.control import control_of, image_topic
+from uwsim.runs.executors.background import BackgroundProcess, Job
 from uwsim.runs.run import Run
 
 SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
@@ -53,3 +54,24 @@ def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
     uwsim.bench(path, levels={"fog": [0]}, out=tmp_path / "python")
     assert "warning: the report lacks the control 'frozen', which" in capsys.readouterr().err
     assert (tmp_path / "python" / "report.html").is_file()
+
+
+@pytest.mark.parametrize(
+    ("workers", "jobs"), [("1", [Path]), pytest.param("2", [Run, Path], marks=pytest.mark.slow)]
+)
+def test_the_background_process_runs_the_control_of_trials_of_workers_alone(
+    workers: str, jobs: list[type], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[type] = []
+    ask = BackgroundProcess.ask
+
+    def record(self: BackgroundProcess, job: Job) -> None:
+        asked.append(type(job) if isinstance(job, Run) else Path)
+        ask(self, job)
+
+    monkeypatch.setattr(BackgroundProcess, "ask", record)
+    path, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
+    arguments = ["--level", "fog=0", "--workers", workers, "--out", str(out)]
+    assert main(["bench", str(path), *arguments]) == 0
+    assert asked == jobs
+    assert (out / "control" / "result.json").is_file()

@@ -234,10 +234,17 @@ def _run(execution: Execution, progress: Progress) -> Outcome:
 
 
 def _run_with_controls(execution: Execution, jobs: Jobs, progress: Progress) -> Outcome:
-    """Run the trials and the control, beside them unless an algorithm could read its rows."""
+    """Run the trials and the control.
+
+    The control runs beside trials of workers, unless an algorithm could read its rows. After trials
+    in this process it runs here: another process would load the simulation for it.
+    """
     runs = execution.runs
     controls = [control_of(run) for run in runs if wants_control(run.plan)]
+    is_here = execution.workers in ("0", "1") and len(runs) == 1
     waits = any(is_foreign(run.plan) for run in runs)
+    if is_here and not waits:
+        jobs, waits = jobs.in_this_process(), True
     if controls and not waits:
         jobs.ask(controls[0])
     outcome = _run(execution, progress)

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
-from ..base.geometry import Array
 from ..base.rng import stream
 
 N_RESAMPLES = 10_000
@@ -67,7 +67,7 @@ def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Inter
     return Interval(n=n, mean=mean, std=std, low=mean - high * scale, high=mean - low * scale)
 
 
-def _quantiles(standardised: Array, tail: float) -> tuple[float, float]:
+def _quantiles(standardised: npt.NDArray[np.float64], tail: float) -> tuple[float, float]:
     """Quantiles ``tail`` and ``1 - tail`` of t* for values of mean 0 and deviation 1, sorted."""
     from scipy.special import stdtrit
 
@@ -90,13 +90,13 @@ def _quantiles(standardised: Array, tail: float) -> tuple[float, float]:
 class _Resamples:
     """What the moments of all resamples of n values need, for any values."""
 
-    shares: Array
+    shares: npt.NDArray[np.float64]
     """(n, N_RESAMPLES): how often a value was drawn, over n."""
-    errors: Array
+    errors: npt.NDArray[np.float64]
     """(n, N_RESAMPLES): sum of the errors [s / sqrt n] at the draws of a value, over n."""
-    mean_error: Array
+    mean_error: npt.NDArray[np.float64]
     """(N_RESAMPLES,): mean error."""
-    square_error: Array
+    square_error: npt.NDArray[np.float64]
     """(N_RESAMPLES,): mean squared error."""
 
 

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from ..base.geometry import Array
 from ..base.rng import stream
 
 MAX_EXACT = 20
@@ -118,7 +117,7 @@ def fewest_for(alpha: float) -> int:
     return n - 1 if n > 1 and 2.0 ** (2 - n) <= alpha else n
 
 
-def doubled_ranks(sizes: Array) -> npt.NDArray[np.int64]:
+def doubled_ranks(sizes: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
     """Return twice the mean rank of every size, from 2 for the smallest: whole numbers."""
     _, place, counts = np.unique(sizes, return_inverse=True, return_counts=True)
     below = np.concatenate([[0], np.cumsum(counts)[:-1]])
@@ -126,7 +125,7 @@ def doubled_ranks(sizes: Array) -> npt.NDArray[np.int64]:
     return doubled
 
 
-def _student(values: Array) -> float:
+def _student(values: npt.NDArray[np.float64]) -> float:
     from scipy.special import stdtr
 
     n, std = len(values), float(values.std(ddof=1))

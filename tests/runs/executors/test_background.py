@@ -39,6 +39,21 @@ def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
     assert "Traceback" not in capfd.readouterr().err
 
 
+LOADED = """
+import sys
+from uwsim.analysis.load_reporter import load_reporter
+from uwsim.runs.executors import background
+load_reporter()
+print(*sorted({"cv2", "mujoco", "numba", "uwsim.simulation"} & set(sys.modules)))
+"""
+
+
+def test_a_process_that_draws_reports_loads_no_simulation() -> None:
+    command = [sys.executable, "-c", LOADED]
+    loaded = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert loaded.stdout.split() == []
+
+
 def test_ends_with_the_block() -> None:
     with BackgroundProcess(load_reporter) as background:
         process = background._process

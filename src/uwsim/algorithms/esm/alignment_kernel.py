@@ -59,7 +59,10 @@ def iterate(
         )
         matrix, right = _system(gram, found, scale, settings.photometric)
         step, solvable = solve(matrix, -right)
-        length = np.sqrt((step * step).sum())
+        square = 0.0  # a sum of numba's loads all of scipy.linalg
+        for component in step:
+            square += component * component
+        length = np.sqrt(square)
         if not solvable or not length < 2.0:
             break
         current = multiply(current, exponential(step))

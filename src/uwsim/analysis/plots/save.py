@@ -16,8 +16,15 @@ def save_plot(figure: Figure, path: Path) -> Path:
     """Write a plot as PNG, 200 dots an inch, without a date or a program's name in it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     FigureCanvasAgg(figure)
+    engine, dpi = figure.get_layout_engine(), figure.dpi
     with any_letter(), atomic_write(path) as draft:
+        if engine is not None:
+            figure.set_dpi(DPI)
+            engine.execute(figure)
+            figure.set_layout_engine(None)  # else `savefig` draws the figure twice
         figure.savefig(draft, dpi=DPI, format="png", metadata={"Software": None})
+    figure.set_dpi(dpi)
+    figure.set_layout_engine(engine)
     return path
 
 

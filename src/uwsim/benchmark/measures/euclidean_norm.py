@@ -298,7 +298,10 @@ class EuclideanNorm(Measure):
 
     def _read(self) -> bool:
         """Take what arrived; return whether an estimate was among it, which is then in force."""
-        good = [e for message in self._inbox.take() if (e := self._accepted(message)) is not None]
+        messages = self._inbox.take()
+        if not messages:
+            return False
+        good = [e for message in messages if (e := self._accepted(message)) is not None]
         if not good:
             return False
         self._n += len(good)

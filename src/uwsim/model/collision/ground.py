@@ -172,11 +172,11 @@ def triangles_of(shapes: Sequence[CollisionShape], world_from_body: Pose) -> Arr
 
 def _surface(shape: CollisionShape) -> Array:
     """Triangles of a shape in its own frame, (n, 3, 3) [m]; which way they turn is not said."""
-    from scipy.spatial import ConvexHull
-
     if shape.kind == "box":
         faces: Array = (CUBE * np.array(shape.size))[CUBE_FACES]
         return faces
+    from scipy.spatial import ConvexHull
+
     if shape.corners is not None:
         corners = shape.corners
     else:

@@ -1,11 +1,12 @@
-"""A background process of a run: it runs the control and draws the report.
+"""A background process of a run: it draws the report, and runs the control of workers' trials.
 
 Both need no image and no OpenGL, and a run in one process leaves a core half idle. Started early,
-this one has loaded what it needs by the time it is asked. Should it die, the run does its jobs.
+this one has loaded what reports need by the time it is asked. Should it die, the run does its jobs.
 """
 
 from __future__ import annotations
 
+import gc
 import multiprocessing
 from collections import deque
 from collections.abc import Callable
@@ -13,16 +14,16 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from pathlib import Path
 from types import TracebackType
-from typing import Self, cast
+from typing import TYPE_CHECKING, Self, TypeAlias, Union, cast
 
 from ...base.terminal import ignore_casts
-from ...benchmark.plugin import raised
 from ...errors import RunFailed, UwsimError
-from ..run import Run
-from .executor import run_all
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 
-Job = Run | Path
+if TYPE_CHECKING:
+    from ..run import Run
+
+Job: TypeAlias = Union["Run", Path]
 """A run to execute, or a result directory whose report is drawn."""
 Reporter = Callable[[], Callable[[Path], object]]
 """Loads what draws the report of a result directory, which is heavy; returns it."""
@@ -45,6 +46,10 @@ class Jobs:
         trace: TracebackType | None,
     ) -> None:
         """Hold nothing."""
+
+    def in_this_process(self) -> Jobs:
+        """Return what executes such jobs in this process."""
+        return Jobs(self._reporter)
 
     def ask(self, job: Job) -> None:
         """Give it something to do."""
@@ -113,6 +118,7 @@ def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:
     ignore_casts()
     with suppress(Exception):  # heavy, and loaded while the levels run; errors are reported below
         reporter()
+    gc.freeze()  # what is loaded stays
     with suppress(EOFError, OSError):  # the parent has gone
         while True:
             there.send(_done(there.recv(), reporter))
@@ -121,13 +127,17 @@ def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:
 def _done(job: Job, reporter: Reporter) -> str | None:
     """Do it; returns why it could not be done."""
     try:
-        if isinstance(job, Run):
-            run_all([job])
-        else:
+        if isinstance(job, Path):
             reporter()(job)
+        else:
+            from .executor import run_all  # heavy, and needless for reports
+
+            run_all([job])
     except UwsimError as error:
         return str(error)
     except Exception as error:  # a full disk, a number that no plot can show
-        what = "The control" if isinstance(job, Run) else "The report"
+        from ...benchmark.plugin import raised
+
+        what = "The report" if isinstance(job, Path) else "The control"
         return f"{what} failed: {raised(error)}. Finished rows are kept; continue with --resume."
     return None

@@ -147,7 +147,8 @@ def through(homography: Array, points: Array) -> Array:
 
 def crossing(quad: Array) -> Array:
     """Return where the diagonals of a quad (4, 2) cross, (2,)."""
-    a, b, c, d = (np.append(corner, 1.0) for corner in quad)
-    meeting = np.cross(np.cross(a, c), np.cross(b, d))
-    point: Array = meeting[:2] / meeting[2]
+    (x1, y1), (x2, y2), (x3, y3), (x4, y4) = quad.tolist()
+    p, q, r = y1 - y3, x3 - x1, x1 * y3 - y1 * x3  # the line p x + q y + r = 0
+    u, v, w = y2 - y4, x4 - x2, x2 * y4 - y2 * x4
+    point: Array = np.array([q * w - r * v, r * u - p * w]) / (p * v - q * u)
     return point
