@@ -84,7 +84,7 @@ def test_a_tool_uncovers_an_object_for_rays_and_cameras(tmp_path: Path) -> None:
         buried.advance(0.1)
         assert buried.world.scenery.heaps[0].height(0.0, 0.0) < top - 0.02
         tool = next(d for d in buried.world.devices if isinstance(d, DredgeTool))
-        assert tool.state.n_taken > 1000
+        assert tool.state.n_lowered > 1000
         after = buried.image("eye")
         assert before.ids is not None
         assert after.ids is not None

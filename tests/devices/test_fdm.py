@@ -92,7 +92,7 @@ def test_a_vehicle_is_where_the_newest_packet_says_and_others_are_counted(tmp_pa
         pose = simulation.pose("rov")
     assert pose.position == pytest.approx([100.0, 0.0, 3.0], abs=0.05)
     assert pose.rotation[:2, 0] == pytest.approx([math.cos(0.5), math.sin(0.5)], abs=1e-3)
-    assert (fdm.state.n_taken, fdm.state.n_dropped) == (2, 1)
+    assert (fdm.state.n_valid, fdm.state.n_invalid) == (2, 1)
 
 
 def test_where_ned_counts_from_may_come_from_tf(tmp_path: Path) -> None:
@@ -127,11 +127,11 @@ def test_packets_come_over_udp_where_the_simulation_takes_any(tmp_path: Path) ->
         assert isinstance(fdm, FdmInput)
         for _ in range(200):
             simulation.advance()
-            if fdm.state.n_taken:
+            if fdm.state.n_valid:
                 break
             time.sleep(0.005)
         assert simulation.pose("rov").position == pytest.approx([0.0, 0.0, 9.0], abs=1e-6)
-        assert fdm.state.n_dropped == 1
+        assert fdm.state.n_invalid == 1
 
 
 def test_without_an_address_no_port_is_opened_and_the_vehicle_stays(tmp_path: Path) -> None:

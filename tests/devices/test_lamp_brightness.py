@@ -67,6 +67,6 @@ def test_a_live_view_gets_the_brightness() -> None:
 
 def test_the_topic_is_listed() -> None:
     (topic,) = LAMP.topics
-    assert (topic.name, topic.is_heard) == (TOPIC, True)
+    assert (topic.name, topic.is_subscribed) == (TOPIC, True)
     with open_scene(night(LAMP), is_blind=True) as simulation:
         assert simulation.topics[TOPIC] == "std_msgs/msg/Float64"

@@ -57,8 +57,8 @@ def test_a_lamp_shines_until_its_time_is_over(tmp_path: Path) -> None:
 
 
 def test_the_red_lamp_is_at_plus_y_and_the_green_one_at_minus_y() -> None:
-    assert LEDS.places["red"] == pytest.approx((0.5, 0.2, 0.0))
-    assert LEDS.places["green"] == pytest.approx((0.5, -0.2, 0.0))
+    assert LEDS.positions["red"] == pytest.approx((0.5, 0.2, 0.0))
+    assert LEDS.positions["green"] == pytest.approx((0.5, -0.2, 0.0))
 
 
 def test_what_shines_is_saved(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from tests.simulation.small_robots import scene_of, shape, write_robot
 from tests.support.opened import open_scene
 from uwsim.assets.bundled import scene_file
 from uwsim.bus import Bus
-from uwsim.devices.tf import HeardFrames, TfSpec
+from uwsim.devices.tf import ReceivedFrames, TfSpec
 from uwsim.messages import Quaternion, TFMessage, Transform, TransformStamped, Vector3, header
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SimParamsSpec
@@ -70,9 +70,9 @@ def test_what_it_follows_is_saved(tmp_path: Path) -> None:
         assert np.array_equal(first.pose("rov").position, second.pose("rov").position)
 
 
-def heard(*frames: TransformStamped) -> HeardFrames:
+def heard(*frames: TransformStamped) -> ReceivedFrames:
     bus = Bus()
-    found = HeardFrames(bus)
+    found = ReceivedFrames(bus)
     bus.publisher("/tf", TFMessage)(TFMessage(transforms=[*frames]))
     bus.deliver()
     return found

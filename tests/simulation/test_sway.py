@@ -6,7 +6,7 @@ import pytest
 
 from tests.simulation.girona500 import make
 from uwsim.base.geometry import Pose, quaternion_from_rotation, rotation_from_xyz
-from uwsim.devices.sway import AXES, SwaySpec, displaced
+from uwsim.devices.sway import AXES, SwaySpec, displace_pose
 from uwsim.messages import Point, Quaternion
 from uwsim.messages import Pose as PoseMessage
 from uwsim.simulation import Simulation
@@ -20,7 +20,7 @@ def swayed(
     time: float,
 ) -> Pose:
     offsets = [(AXES.index(sway.axis), sway.offset(time)) for sway in sways]
-    return displaced(position, orientation, offsets)
+    return displace_pose(position, orientation, offsets)
 
 
 def test_a_vehicle_sways_about_its_place_in_the_file() -> None:

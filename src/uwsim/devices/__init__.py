@@ -30,6 +30,7 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}battery": BatterySpec,
     f"{{{NAMESPACE}}}motorCurrents": MotorCurrentsSpec,
 }
-"""Element of a vehicle -> spec; ours last. One without ``bind`` is read and not simulated."""
+"""The table of elements of a vehicle, each with its spec; extensions are last. A spec without
+``bind`` is read and not simulated."""
 
 __all__ = ["DEVICES"]

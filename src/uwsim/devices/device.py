@@ -21,28 +21,28 @@ from ..world import DeviceWorld
 
 
 class DeviceVehicle(Vehicle, Carrier, Protocol):
-    """A vehicle as its devices see it: they are mounted on its links, and act on it."""
+    """A vehicle as an interface for its devices: they are mounted on its links and act on it."""
 
-    def hold(self, thing: int, link: str) -> None:
-        """Fix an object, by its number, to a link of the vehicle, where it is now."""
+    def hold(self, object_index: int, link: str) -> None:
+        """Fix an object, by its index, to a link of the vehicle at its present pose."""
 
-    def let_go(self, thing: int) -> None:
-        """Release an object that is held."""
+    def release(self, object_index: int) -> None:
+        """Release a held object."""
 
     def wrench_sampler(
         self, spec: Mounted, *, at_joint: bool = False, visual: bool = False
     ) -> Sampler:
         """Return a sampler of a wrench at a link, in the frame of a part on the link.
 
-        It takes 6 numbers: force [N] and torque about the part [N m] in the last step. They are
-        those of the contacts on the link, and 0 where the scene has no physics. At the joint they
-        are what the link, and all beyond it, does to the joint that carries it, with the water on
-        these links. They are 0 for a vehicle that is not simulated.
+        A sample has 6 numbers: force [N] and torque about the part [N m] in the last step. They are
+        those of the contacts on the link, and 0 if the scene has no physics. At the joint they are
+        the wrench of the link, all beyond it, and the water on these links, on the joint that
+        carries it. They are 0 for a vehicle that is not simulated.
 
         Args:
-            spec: the part.
-            at_joint: whether to measure the wrench at the joint, not that of the contacts.
-            visual: whether the pose of the part is given in the link's visual frame.
+            spec: the spec of the part.
+            at_joint: measure the wrench at the joint instead of that of the contacts.
+            visual: the pose of the part is relative to the link's visual frame.
 
         Raises:
             UnknownName: the vehicle has no such link.
@@ -51,51 +51,51 @@ class DeviceVehicle(Vehicle, Carrier, Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class DeviceTopic:
-    """A topic that a device has without any interface."""
+    """A topic that a device has without an interface."""
 
     name: str
-    """Of the topic."""
-    is_heard: bool = False
-    """Whether the device listens to it; else it publishes."""
+    """The name of the topic."""
+    is_subscribed: bool = False
+    """A flag: the device subscribes to the topic; otherwise it publishes on it."""
     rate: float | None = None
-    """How often it publishes; None: when there is something [Hz]."""
+    """The rate of publication [Hz]; None: at events."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DeviceSpec(Spec, abc.ABC):
-    """A device that is simulated; the spec of one that is not has no ``bind``."""
+    """The spec of a simulated device; that of a device that is not simulated has no ``bind``."""
 
     is_left_out: ClassVar[bool] = False
-    """Whether the scene goes without it where what it names is not there, as in the original."""
+    """A flag: a device whose names are unknown is left out without an error, as in the original."""
     is_pure: ClassVar[bool] = False
-    """Whether a sample changes nothing in the device, so that it need not be taken for nobody."""
+    """A flag: a sample does not change the device, so none is taken without a subscriber."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """Its topics, besides those of interfaces."""
+        """The topics of the device, besides those of interfaces."""
         return ()
 
     @abc.abstractmethod
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Device:
-        """Find what the device acts on; raises UnknownName if there is none."""
+        """Resolve the names of the spec; raises UnknownName if one is unknown."""
 
 
 class Device:
     """A bound device; each kind implements one of these methods."""
 
     state: Record = NoState()
-    """All that changes of it as time goes by; `Simulation.save` keeps it."""
+    """The record of all that changes with time; `Simulation.save` stores it."""
 
     def step(self, time: float) -> None:
         """Act before the forces, in the step that begins at ``time`` [s]."""
 
-    def rests_until(self, time: float) -> float:
-        """Return the time before which it does nothing new, after the step at ``time`` [s].
+    def idle_until(self, time: float) -> float:
+        """Return the time until which the device is idle, after the step at ``time`` [s].
 
-        Until then several steps may be taken at once, for all of which it is asked once.
+        The simulation may run the steps until then together, without another call of the device.
         """
-        rests = type(self).step is Device.step and type(self).animate is Device.animate
-        return math.inf if rests else time
+        is_idle = type(self).step is Device.step and type(self).animate is Device.animate
+        return math.inf if is_idle else time
 
     def animate(self, time: float) -> None:
-        """Move what the device animates to its pose at ``time`` [s], the end of the step."""
+        """Set the poses that the device controls to those at ``time`` [s], the end of the step."""

@@ -1,4 +1,4 @@
-"""Uncovers buried objects within 0.1 m.
+"""A tool that uncovers buried objects within 0.1 m.
 
 .. code-block:: xml
 
@@ -20,33 +20,33 @@ from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 RATE = 60.0
-"""How often a tool takes sand, as often as the original draws an image [Hz]."""
+"""The rate at which a tool removes sand, which is the original's rate of images [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DredgeToolSpec(DeviceSpec):
-    """A ``<DredgeTool>``; it rides on the link's visual frame."""
+    """A ``<DredgeTool>``; it is mounted on the link's visual frame."""
 
     is_left_out: ClassVar[bool] = True
 
     name: str
-    """Its name."""
+    """The name of the device."""
     target: str
-    """The link it belongs to."""
+    """The link on which the tool is mounted."""
     offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
-    """Read and not used, as in the original [m]."""
+    """An offset [m]: read and not used, as in the original."""
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
-    """Read and not used, as in the original [rad]."""
+    """An offset [rad]: read and not used, as in the original."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> DredgeTool:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        tool = DredgeTool(world, vehicle.mount(_Place(relative_to=self.target), visual=True))
-        world.every(RATE, tool.dig)
+        """Mount the tool on its link; raises UnknownName if the vehicle has no such link."""
+        tool = DredgeTool(world, vehicle.mount(_LinkOrigin(relative_to=self.target), visual=True))
+        world.every(RATE, tool.remove_sand)
         return tool
 
 
 @dataclass(frozen=True, kw_only=True)
-class _Place:
+class _LinkOrigin:
     """The origin of a link's visual frame."""
 
     relative_to: str
@@ -56,19 +56,19 @@ class _Place:
 
 @dataclass(slots=True)
 class DredgeState(Record):
-    """What a dredge tool has taken."""
+    """The state of a dredge tool."""
 
-    n_taken: int = 0
-    """The columns of sand that lost some, added up."""
+    n_lowered: int = 0
+    """The number of columns of sand that were lowered, summed over all samples."""
 
 
 class DredgeTool(Device):
-    """A tool that takes sand where it is."""
+    """A tool that removes the sand around it."""
 
     def __init__(self, world: DeviceWorld, mount: Body) -> None:
         self._world, self._mount = world, mount
         self.state: DredgeState = DredgeState()
 
-    def dig(self) -> None:
-        """Take 0.01 m of each column of sand whose top is within 0.1 m."""
-        self.state.n_taken += self._world.dig(self._mount.world_from_body.position)
+    def remove_sand(self) -> None:
+        """Lower by 0.01 m each column of sand whose top is within 0.1 m."""
+        self.state.n_lowered += self._world.dig(self._mount.world_from_body.position)

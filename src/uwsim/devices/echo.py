@@ -1,4 +1,4 @@
-"""Publishes a fixed text: the original's example of a device.
+"""A device that publishes a fixed text: the original's example of a device.
 
 .. code-block:: xml
 
@@ -25,12 +25,12 @@ class EchoSpec(DeviceSpec):
     message_type: ClassVar[type] = String
 
     name: str
-    """Its name."""
+    """The name of the device."""
     info: str = element(default="", original=REQUIRED_BY_DTD)
-    """The text; an empty one switches the device off."""
+    """The text; an empty text disables the device."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Echo:
-        """Have the text published; raises UnknownName if it is empty."""
+        """Create the device; raises UnknownName if the text is empty."""
         if not self.info:
             raise UnknownName("echo with a text", self.name, ())
         return Echo(self.info)
@@ -54,4 +54,4 @@ class SimulatedDevicesSpec(Spec):
     OCCURS_ONCE: ClassVar[bool] = True
 
     echo: tuple[EchoSpec, ...] = ()
-    """Echo devices."""
+    """The echo devices."""

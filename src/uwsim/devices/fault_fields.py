@@ -1,4 +1,4 @@
-"""The fields of messages that a fault of a sensor changes: their numbers."""
+"""The numeric fields of messages, which a fault of a sensor changes."""
 
 from __future__ import annotations
 
@@ -8,25 +8,25 @@ from typing import Any
 
 import numpy as np
 
-NOT_MEASURED = ("header", "status", "covariance")
-"""Fields with these words are spared where a fault names none."""
+UNMEASURED_WORDS = ("header", "status", "covariance")
+"""The words of fields that stay unchanged where a fault names no field."""
 
 
-def number_fields(message: Any, before: str = "") -> Iterator[str]:
+def numeric_fields(message: Any, prefix: str = "") -> Iterator[str]:
     """Yield the paths of the floating-point numbers of a message, and of arrays of them."""
     for field in dataclasses.fields(message):
         value = getattr(message, field.name)
-        path = f"{before}{field.name}"
+        path = f"{prefix}{field.name}"
         if dataclasses.is_dataclass(value):
-            yield from number_fields(value, f"{path}.")
+            yield from numeric_fields(value, f"{path}.")
         elif isinstance(value, float) or (
             isinstance(value, np.ndarray) and value.dtype.kind == "f"
         ):
             yield path
 
 
-def measured_fields(message: Any, wanted: str | None) -> Iterator[str]:
-    """Yield the paths that a fault changes: the ``wanted`` one, or all that are measured."""
-    for path in number_fields(message):
-        if path == wanted or (wanted is None and not any(word in path for word in NOT_MEASURED)):
+def measured_fields(message: Any, field: str | None) -> Iterator[str]:
+    """Yield the paths that a fault changes: the named one, or all that are measured."""
+    for path in numeric_fields(message):
+        if path == field or (field is None and not any(word in path for word in UNMEASURED_WORDS)):
             yield path

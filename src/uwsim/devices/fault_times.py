@@ -1,4 +1,4 @@
-"""When a fault is present: from one time to another, or at random with a rate."""
+"""The times at which a fault is present: an interval, or random occurrences in it."""
 
 from __future__ import annotations
 
@@ -10,74 +10,74 @@ import numpy as np
 
 from ..base.record import Record
 
-EARLY = 1e-9
-"""Tolerance of times [s]."""
+TIME_TOLERANCE = 1e-9
+"""The tolerance of times [s]."""
 
 
-class Timed(Protocol):
+class FaultTiming(Protocol):
     """The times of a fault."""
 
     @property
     def start(self) -> float:
-        """From when on it may be present [s]."""
+        """The time from which on it may be present [s]."""
 
     @property
     def end(self) -> float | None:
-        """Up to when; None: for ever [s]."""
+        """The time until which it may be present; None: no end [s]."""
 
     @property
     def rate(self) -> float | None:
-        """How often it begins, between these; None: it is always present [1/s]."""
+        """The rate at which it begins, between these times; None: it is permanent [1/s]."""
 
     @property
     def duration(self) -> float:
-        """How long it stays each time; 0: one sample [s]."""
+        """The duration of each occurrence; 0: one sample [s]."""
 
 
 @dataclass(slots=True)
 class FaultState(Record):
-    """When a fault occurs."""
+    """The state of the occurrences of a fault."""
 
-    random: np.random.Generator
-    """The generator of its times."""
-    next: float
-    """When it occurs next [s]."""
-    until: float
-    """When the last occurrence ends [s]."""
+    rng: np.random.Generator
+    """The random generator of the times."""
+    next_start: float
+    """The time of the next occurrence [s]."""
+    last_end: float
+    """The time at which the last occurrence ends [s]."""
 
 
 class FaultTimes:
-    """The times of one fault; asked at times that rise.
+    """The times of one fault; they are requested in ascending order.
 
     With a rate it begins as a Poisson process does: the times between are exponential.
     """
 
-    def __init__(self, spec: Timed, random: np.random.Generator) -> None:
+    def __init__(self, spec: FaultTiming, rng: np.random.Generator) -> None:
         self._spec = spec
-        self.state = FaultState(random, math.inf, -math.inf)
-        """When it occurs."""
+        self.state = FaultState(rng, math.inf, -math.inf)
+        """The state of the occurrences."""
         if spec.rate is not None:
-            self.state.next = spec.start + self._wait()
+            self.state.next_start = spec.start + self._draw_interval()
 
-    def _wait(self) -> float:
+    def _draw_interval(self) -> float:
         rate = self._spec.rate
-        return float(self.state.random.exponential(1.0 / rate)) if rate else 0.0
+        return float(self.state.rng.exponential(1.0 / rate)) if rate else 0.0
 
     def acts(self, time: float) -> bool:
-        """Whether the fault is present at ``time`` [s]."""
-        spec, time = self._spec, time + EARLY
+        """Return whether the fault is present at ``time`` [s]."""
+        spec, time = self._spec, time + TIME_TOLERANCE
         if time < spec.start or (spec.end is not None and time >= spec.end):
             return False
         if spec.rate is None:
             return True
         has_begun = False
-        while self.state.next <= time:
+        while self.state.next_start <= time:
             has_begun = has_begun or spec.duration == 0.0
-            self.state.until = max(self.state.until, self.state.next + spec.duration)
-            self.state.next += self._wait()
-        return has_begun or time < self.state.until
+            self.state.last_end = max(self.state.last_end, self.state.next_start + spec.duration)
+            self.state.next_start += self._draw_interval()
+        return has_begun or time < self.state.last_end
 
     def next_change(self, time: float) -> float:
-        """Return when it may begin or end next, after ``time`` [s]."""
-        ends = (self._spec.start, self._spec.end, self.state.next, self.state.until)
-        return min((end for end in ends if end is not None and end > time), default=math.inf)
+        """Return the next time after ``time`` at which it may begin or end [s]."""
+        changes = (self._spec.start, self._spec.end, self.state.next_start, self.state.last_end)
+        return min((end for end in changes if end is not None and end > time), default=math.inf)

@@ -1,11 +1,11 @@
-"""A vehicle goes where a flight dynamics model says, by UDP: FlightGear's ``net_fdm``.
+"""A vehicle that follows a flight dynamics model over UDP: FlightGear's ``net_fdm``.
 
 .. code-block:: xml
 
     <nedOrigin> <lat>41.775</lat> <lon>3.033</lon> </nedOrigin>
     <vehicle> <name>bluerov2</name> <file>bluerov2.urdf</file> <fdm>5503</fdm> </vehicle>
 
-The first bytes of a packet, all big-endian; what follows is not read:
+The first bytes of a packet, all big-endian; the rest is not read:
 
 ======  ========  =========  ===================================
 offset  type      field      meaning
@@ -38,15 +38,15 @@ from ..base.record import Record
 from ..vehicle import Vehicle, go_or_place
 from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
-from .tf import HeardFrames, HeardState
+from .tf import HeardState, ReceivedFrames
 
 LAYOUT = struct.Struct(">II3d4f")
 VERSION = 24
-"""FlightGear's ``FG_NET_FDM_VERSION``."""
+"""The value of FlightGear's ``FG_NET_FDM_VERSION``."""
 NED_FRAME = "local_origin_ned"
-"""Frame of ROS that says where north, east and down count from, when it is on ``/tf``."""
+"""The ROS frame of the NED axes, if it is on ``/tf``."""
 WORLD_FROM_NED = Pose(np.zeros(3), np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]]))
-"""W is east, north, up."""
+"""The default NED frame: W is east, north, up."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,21 +54,21 @@ class FdmSpec(DeviceSpec):
     """A ``<fdm>``: the UDP port of a vehicle."""
 
     port: int
-    """Of the packets."""
+    """The UDP port."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> FdmInput:
-        """Take packets from now on, where the simulation takes any."""
+        """Receive packets from now on, if the simulation receives any."""
         return FdmInput(
             vehicle,
             world.datagrams(self.port),
             world.ned_origin,
-            HeardFrames(world.bus),
+            ReceivedFrames(world.bus),
             world.world_from_localized,
         )
 
 
 def read_packet(data: bytes, origin: Geodetic) -> Pose | None:
-    """Return ``ned_from_vehicle`` of a packet; None where it is short, foreign or senseless."""
+    """Return ``ned_from_vehicle`` of a packet; None if its size, version or values are invalid."""
     if len(data) < LAYOUT.size:
         return None
     version, _, longitude, latitude, altitude, _, roll, pitch, yaw = LAYOUT.unpack_from(data)
@@ -79,8 +79,8 @@ def read_packet(data: bytes, origin: Geodetic) -> Pose | None:
         return None
     if max(abs(roll), abs(pitch), abs(yaw)) > 4.0 * math.pi:
         return None
-    place = Geodetic(latitude=latitude, longitude=longitude, altitude=altitude)
-    position = origin.north_east_down(place)
+    geodetic = Geodetic(latitude=latitude, longitude=longitude, altitude=altitude)
+    position = origin.north_east_down(geodetic)
     if float(np.abs(position).max()) > MAX_COMMAND:
         return None
     return Pose(position, rotation_from_rpy(roll, pitch, yaw))
@@ -88,25 +88,25 @@ def read_packet(data: bytes, origin: Geodetic) -> Pose | None:
 
 @dataclass(slots=True)
 class FdmState(Record):
-    """What has come from the autopilot."""
+    """The state of the packets of a flight dynamics model."""
 
     frames: HeardState
-    """What has been on ``/tf``."""
-    n_taken: int = 0
-    """The packets that could be read."""
-    n_dropped: int = 0
-    """The packets that could not be read."""
+    """The transforms received on ``/tf``."""
+    n_valid: int = 0
+    """The number of valid packets."""
+    n_invalid: int = 0
+    """The number of invalid packets."""
 
 
 class FdmInput(Device):
-    """Puts a vehicle where the newest packet says; one that is simulated goes there.
+    """The input that sets a vehicle's pose from the newest packet; a simulated vehicle moves there.
 
     Args:
         vehicle: the vehicle.
-        receive: returns the packets that have come since the last call, oldest first; None: the
-            simulation takes none.
-        origin: where north, east and down count from.
-        frames: what has been on ``/tf``.
+        receive: returns the packets received since the last call, oldest first; None: the
+            simulation receives none.
+        origin: the origin of the NED axes.
+        frames: the transforms received on ``/tf``.
         world_from_localized: W from L.
     """
 
@@ -115,27 +115,27 @@ class FdmInput(Device):
         vehicle: Vehicle,
         receive: Callable[[], Sequence[bytes]] | None,
         origin: Geodetic,
-        frames: HeardFrames,
+        frames: ReceivedFrames,
         world_from_localized: Pose,
     ) -> None:
         self._vehicle, self._receive, self._origin = vehicle, receive, origin
         self._frames, self._world_from_localized = frames, world_from_localized
         self.state: FdmState = FdmState(frames.state)
 
-    def rests_until(self, time: float) -> float:
-        """Return when it looks for packets again: at the next step, or never."""
+    def idle_until(self, time: float) -> float:
+        """Return the time of the next check for packets: the next step, or never."""
         return math.inf if self._receive is None else time
 
     def step(self, time: float) -> None:
-        """Take the packets that have come since the last step."""
+        """Apply the packets received since the last step."""
         if self._receive is None:
             return
         poses = [read_packet(data, self._origin) for data in self._receive()]
-        sound = [pose for pose in poses if pose is not None]
-        self.state.n_taken += len(sound)
-        self.state.n_dropped += len(poses) - len(sound)
-        if sound:
-            ned_from_vehicle = sound[-1]
+        valid_poses = [pose for pose in poses if pose is not None]
+        self.state.n_valid += len(valid_poses)
+        self.state.n_invalid += len(poses) - len(valid_poses)
+        if valid_poses:
+            ned_from_vehicle = valid_poses[-1]
             go_or_place(self._vehicle, self._world_from_ned() @ ned_from_vehicle)
 
     def _world_from_ned(self) -> Pose:

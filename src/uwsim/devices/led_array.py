@@ -27,46 +27,48 @@ from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .lamp import LampSpec
 
 INTENSITY = 0.83
-"""What a lamp gives to a white surface facing it at 1 m, as in the original [1: full scale]."""
+"""The radiance of a white surface that faces a lamp at 1 m, as in the original [1: full scale]."""
 COLOURS = {"red": (1.0, 0.0, 0.0), "green": (0.0, 1.0, 0.0)}
-"""Of the lamps, in their order; the first is at +y."""
+"""The colours of the lamps, in their order; the first is at +y."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class LedArraySpec(DeviceSpec):
     """A ``<LedArray>``: two signal lamps; topics ``<name>/red`` and ``<name>/green``.
 
-    A lamp shines in all directions for the time that an ``underwater_sensor_msgs/LedLight`` says.
+    A lamp emits light in all directions for the time in an ``underwater_sensor_msgs/LedLight``.
     """
 
     OCCURS_ONCE: ClassVar[bool] = True
     is_left_out: ClassVar[bool] = True
 
     name: str
-    """Its name, which begins its topics."""
+    """The name of the device, which begins its topics."""
     relative_to: str
-    """The link it rides on."""
+    """The link on which the device is mounted."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD
     )
-    """Position of the device in the link's frame [m]."""
+    """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), parts="rpy", original=REQUIRED_BY_DTD
     )
-    """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
+    """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     radio: float = element(default=0.02, above=0)
-    """Radius of each lamp [m]."""
+    """The radius of each lamp [m]."""
     space: float = 0.2
-    """Distance between the lamps, along y [m]."""
+    """The distance between the lamps, along y [m]."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topics of its lamps."""
-        return tuple(DeviceTopic(name=f"{self.name}/{colour}", is_heard=True) for colour in COLOURS)
+        return tuple(
+            DeviceTopic(name=f"{self.name}/{colour}", is_subscribed=True) for colour in COLOURS
+        )
 
     @property
-    def places(self) -> dict[str, tuple[float, float, float]]:
-        """Where each lamp is in the link's frame, by its colour [m]."""
+    def positions(self) -> dict[str, tuple[float, float, float]]:
+        """The position of each lamp in the link's frame, by its colour [m]."""
         link_from_array = Pose.from_rpy(self.position, self.orientation)
         half = 0.5 * self.space
         ends = np.array([[0.0, half, 0.0], [0.0, -half, 0.0]])
@@ -76,8 +78,8 @@ class LedArraySpec(DeviceSpec):
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> LedArray:
         """Mount the lamps on their link; raises UnknownName if the vehicle has no such link."""
         leds = []
-        for colour, place in self.places.items():
-            mount = vehicle.mount(replace(self, position=place))
+        for colour, position in self.positions.items():
+            mount = vehicle.mount(replace(self, position=position))
             spec = LampSpec(
                 name=f"{self.name}/{colour}",
                 relative_to=self.relative_to,
@@ -95,33 +97,33 @@ class LedArraySpec(DeviceSpec):
 
 @dataclass(slots=True)
 class LedState(Record):
-    """How long a signal lamp shines."""
+    """The state of a signal lamp."""
 
-    until: float = 0.0
-    """The time before which it shines [s]."""
+    end_time: float = 0.0
+    """The time until which the lamp is on [s]."""
 
 
 @dataclass(slots=True)
 class LedArrayState(Record):
-    """How long signal lamps shine."""
+    """The state of an array of signal lamps."""
 
     leds: list[LedState]
-    """How long each does."""
+    """The state of each lamp."""
 
 
 class Led:
-    """One signal lamp."""
+    """A signal lamp."""
 
     def __init__(self, spec: LampSpec, mount: Body, clock: Callable[[], float]) -> None:
         self.spec = spec
-        """How it shines."""
+        """The properties of the lamp."""
         self._mount, self._clock = mount, clock
         self.state = LedState()
-        """How long it shines."""
+        """The state of the lamp."""
 
     @property
     def link(self) -> str:
-        """Name of the link that it rides on: ``vehicle/link``."""
+        """The name of the link on which the lamp is mounted: ``vehicle/link``."""
         return self._mount.name
 
     @property
@@ -131,17 +133,17 @@ class Led:
 
     @property
     def is_on(self) -> bool:
-        """Whether it shines now."""
-        return self._clock() < self.state.until
+        """A flag: the lamp is on now."""
+        return self._clock() < self.state.end_time
 
     @property
     def intensity(self) -> float:
-        """What it gives to a white surface facing it at 1 m [1: full scale]."""
+        """The radiance of a white surface that faces the lamp at 1 m [1: full scale]."""
         return self.spec.intensity
 
     def command(self, message: LedLight) -> None:
-        """Shine from now on for a time, whatever was said before."""
-        self.state.until = self._clock() + message.duration.sec + 1e-9 * message.duration.nanosec
+        """Switch the lamp on for the commanded time; the command replaces the one before."""
+        self.state.end_time = self._clock() + message.duration.sec + 1e-9 * message.duration.nanosec
 
 
 class LedArray(Device):

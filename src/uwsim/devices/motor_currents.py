@@ -4,10 +4,10 @@ r"""The currents that the motors of a vehicle draw, thrusters first, then joints
 
     <u:motorCurrents> <name>currents</name> <voltage>24</voltage> <std>0.01</std> </u:motorCurrents>
 
-A motor that draws the power P from a supply of the voltage V draws :math:`I = P / V`. P is that of
-the measure ``<u:energy>``: of a thruster it follows from its thrust, of a joint from its torque,
-its speed, and the efficiency and copper loss of its drive in the vehicle's hydrodynamics file. Not
-modelled: currents of the windings, which differ where the electronics lower the voltage.
+A motor of the power P at a supply of the voltage V draws :math:`I = P / V`. P is that of the
+measure ``<u:energy>``: a function of a thruster's thrust, and of a joint's torque and speed with
+the efficiency and copper loss of its drive in the vehicle's hydrodynamics file. Not modelled:
+currents of the windings, which differ where the electronics lower the voltage.
 """
 
 from __future__ import annotations
@@ -31,29 +31,29 @@ class MotorCurrentsSpec(DeviceSpec):
     message_type: ClassVar[type] = JointState
 
     name: str
-    """Its name."""
+    """The name of the device."""
     voltage: float = element(default=24.0, above=0.0, maximum=10000.0)
-    """Of the supply [V]."""
+    """The voltage of the supply [V]."""
     std: float = element(default=0.0, minimum=0.0, maximum=1e6)
-    """Noise of each current, standard deviation [A]."""
+    """The standard deviation of the noise of each current [A]."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MotorCurrents:
-        """Find the motors; a vehicle that is not simulated has none."""
-        random = world.stream(f"{vehicle.name}/{self.name}/noise")
-        return MotorCurrents(self, world.actuators(vehicle.name), random)
+        """Resolve the motors; a vehicle that is not simulated has none."""
+        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return MotorCurrents(self, world.actuators(vehicle.name), rng)
 
 
 class MotorCurrents(Device):
-    """Currents of thrusters and joints."""
+    """The currents of thrusters and joints."""
 
     def __init__(
-        self, spec: MotorCurrentsSpec, actuators: Actuators | None, random: np.random.Generator
+        self, spec: MotorCurrentsSpec, actuators: Actuators | None, rng: np.random.Generator
     ) -> None:
         self._spec, self._actuators = spec, actuators
-        self.state: RandomState = RandomState(random)
+        self.state: RandomState = RandomState(rng)
 
     def sample(self, time: float) -> JointState:
-        """Measure now, at ``time`` [s]."""
+        """Measure at ``time`` [s], which is now."""
         stamp = header(time, self._spec.name)
         if self._actuators is None:
             return JointState(header=stamp)

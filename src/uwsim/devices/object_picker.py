@@ -1,4 +1,4 @@
-"""Picks up the first object that its ray along +x hits.
+"""A device that picks up the first object on its ray along +x.
 
 .. code-block:: xml
 
@@ -22,16 +22,17 @@ from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 
 RATE = 60.0
-"""How often a picker looks for an object, as often as the original draws an image [Hz]."""
-AHEAD = np.array([[1.0, 0.0, 0.0]])
-"""Direction of the ray."""
+"""The rate at which a picker searches for an object, which is the original's rate of images
+[Hz]."""
+RAY_DIRECTION = np.array([[1.0, 0.0, 0.0]])
+"""The direction of the ray in the picker's frame, (1, 3)."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ObjectPickerSpec(DeviceSpec):
-    """An ``<objectPicker>``; it rides on the link's visual frame.
+    """An ``<objectPicker>``; it is mounted on the link's visual frame.
 
-    It releases what it holds, and picks nothing up, while the last ``std_msgs/Bool`` on the topic
+    It releases the held object, and picks nothing up, while the last ``std_msgs/Bool`` on the topic
     ``<name>/release`` was true.
     """
 
@@ -39,56 +40,56 @@ class ObjectPickerSpec(DeviceSpec):
     message_type: ClassVar[type] = Range
 
     name: str
-    """Its name."""
+    """The name of the device."""
     relative_to: str
-    """The link it rides on."""
+    """The link on which the device is mounted."""
     range: float = element(minimum=0)
-    """Length of the ray [m]."""
+    """The length of the ray [m]."""
     visible: bool = False
-    """Read and not used: the ray is always drawn."""
+    """A flag: read and not used; the ray is always drawn."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Position of the device in the link's frame [m]."""
+    """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
+    """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
-    of the vehicle. It stays fixed to its link."""
+    """The viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
+    of the vehicle. The device stays fixed to its link."""
 
     @property
     def release_topic(self) -> str:
-        """Name of the topic on which it is told to release what it holds."""
+        """The name of the topic that commands the release of the held object."""
         return f"{self.name}/release"
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
         """The topic of its release."""
-        return (DeviceTopic(name=self.release_topic, is_heard=True),)
+        return (DeviceTopic(name=self.release_topic, is_subscribed=True),)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ObjectPicker:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount the device on its link; raises UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual=True)
         picker = ObjectPicker(self, mount, world, vehicle)
         world.bus.subscribe(self.release_topic, Bool, picker.command)
-        world.every(RATE, picker.look)
+        world.every(RATE, picker.pick_up)
         return picker
 
 
 @dataclass(slots=True)
 class PickerState(Record):
-    """What an object picker holds."""
+    """The state of an object picker."""
 
     distance: float
-    """The distance at which it took it [m]."""
-    held: int | None = None
-    """The number of the object that it holds."""
+    """The distance at which it picked the object up [m]."""
+    held_object: int | None = None
+    """The index of the object that it holds."""
     is_released: bool = False
-    """Whether it takes nothing."""
+    """A flag: it picks nothing up."""
 
 
 class ObjectPicker(Device):
-    """A ray that takes what it hits; it measures the distance to it, as a range sensor does.
+    """A ray that picks up what it hits; it measures the distance to it, as a range sensor does.
 
-    Not modelled: how it holds; whatever is within the range of its ray is fixed to its link.
+    Not modelled: the mechanism of the grip; an object within the range is fixed to the link.
     """
 
     def __init__(
@@ -98,26 +99,26 @@ class ObjectPicker(Device):
         self.state: PickerState = PickerState(spec.range)
 
     def command(self, message: Bool) -> None:
-        """Release what it holds, or look for an object again."""
+        """Release the held object, or search for an object again."""
         self.state.is_released = bool(message.data)
-        if self.state.is_released and self.state.held is not None:
-            self._vehicle.let_go(self.state.held)
-            self.state.held = None
+        if self.state.is_released and self.state.held_object is not None:
+            self._vehicle.release(self.state.held_object)
+            self.state.held_object = None
 
-    def look(self) -> None:
-        """Take the first object in its ray, if it holds none."""
-        if self.state.held is not None or self.state.is_released:
+    def pick_up(self) -> None:
+        """Pick up the first object on the ray, unless the picker holds one."""
+        if self.state.held_object is not None or self.state.is_released:
             return
         distance, surface = self._cast()
-        thing = self._world.catchable(surface)
-        if thing is not None and distance <= self._spec.range:
-            self._vehicle.hold(thing, self._spec.relative_to)
-            self.state.held, self.state.distance = thing, distance
+        object_index = self._world.catchable(surface)
+        if object_index is not None and distance <= self._spec.range:
+            self._vehicle.hold(object_index, self._spec.relative_to)
+            self.state.held_object, self.state.distance = object_index, distance
 
     def sample(self, time: float) -> Range:
-        """Measure now, at ``time`` [s]: the distance at which it took what it holds."""
+        """Measure at ``time`` [s], which is now; with a held object, the distance at pick-up."""
         spec, state = self._spec, self.state
-        distance = min(self._cast()[0], spec.range) if state.held is None else state.distance
+        distance = min(self._cast()[0], spec.range) if state.held_object is None else state.distance
         return Range(
             header=header(time, spec.name),
             radiation_type=Range.ULTRASOUND,
@@ -128,6 +129,6 @@ class ObjectPicker(Device):
         )
 
     def _cast(self) -> tuple[float, int]:
-        """Distance to the first surface [m], and its number."""
-        hits = self._world.rays.cast(self._mount.world_from_body, AHEAD, self._spec.range)
+        """Return the distance to the first surface [m] and its index."""
+        hits = self._world.rays.cast(self._mount.world_from_body, RAY_DIRECTION, self._spec.range)
         return float(hits.distance[0]), int(hits.surface[0])

@@ -1,4 +1,4 @@
-r"""sway: a vehicle that oscillates about its place, as in a swell; an extension of the dialect.
+r"""A vehicle that oscillates about its pose, as in a swell; an extension of the dialect.
 
 .. code-block:: xml
 
@@ -26,27 +26,27 @@ AXES = ("x", "y", "z", "roll", "pitch", "yaw")
 
 @dataclass(frozen=True, kw_only=True)
 class SwaySpec(DeviceSpec):
-    """A ``<u:sway>``: one sinusoid about the vehicle's place in its file.
+    """A ``<u:sway>``: one sinusoid about the vehicle's pose in its file.
 
-    Where it is put elsewhere (by a program, a command or a level), it sways about that place from
-    then on. A current does not carry it away.
+    After a program, a command or a level has set another pose, it oscillates about that. Currents
+    do not move it.
     """
 
     axis: Literal["x", "y", "z", "roll", "pitch", "yaw"] = element(namespaced=True)
-    """Of L for x, y, z; of the vehicle's orientation for roll, pitch, yaw."""
+    """The axis: of L for x, y, z; of the vehicle's orientation for roll, pitch, yaw."""
     amplitude: float = element(namespaced=True)
-    """Amplitude; of angles in radians [m or rad]."""
+    """The amplitude [m or rad]."""
     period: float = element(namespaced=True, above=0)
-    """Time of one swing [s]."""
+    """The period [s]."""
     phase: float = element(namespaced=True, default=0.0)
-    """Where in the swing it begins [rad]."""
+    """The phase at time 0 [rad]."""
 
     def offset(self, time: float) -> float:
         """Return ``amplitude * sin(2 pi time / period + phase)`` [m or rad]."""
         return self.amplitude * math.sin(2.0 * math.pi * time / self.period + self.phase)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Sway:
-        """Sway the vehicle about its place."""
+        """Resolve the axis of the vehicle."""
         return Sway(self, vehicle.displacer(AXES.index(self.axis)))
 
 
@@ -57,21 +57,21 @@ class Sway(Device):
         self._spec, self._displace = spec, displace
 
     def animate(self, time: float) -> None:
-        """Put the vehicle where it is at ``time`` [s]."""
+        """Set the offset of the vehicle at ``time`` [s]."""
         self._displace(self._spec.offset(time))
 
 
-def displaced(
+def displace_pose(
     position: Sequence[float],
     orientation: Sequence[float],
     offsets: Iterable[tuple[int, float]],
 ) -> Pose:
-    """Return ``localized_from_base`` of a vehicle displaced from its place.
+    """Return ``localized_from_base`` of a vehicle displaced from its rest pose.
 
     Args:
-        position: its place, in L [m].
-        orientation: its angles there, Rx Ry Rz [rad].
-        offsets: number of the axis and how far [m or rad]; several on one axis add up.
+        position: the rest position, in L [m].
+        orientation: the angles of the rest pose, Rx Ry Rz [rad].
+        offsets: pairs of an axis index and an offset [m or rad]; those of one axis are added.
     """
     values = [*position, *orientation]
     for axis, offset in offsets:
@@ -79,14 +79,14 @@ def displaced(
     return Pose(np.array(values[:3]), rotation_from_xyz(*values[3:]))
 
 
-def undisplaced(
+def rest_pose(
     localized_from_base: Pose, offsets: Iterable[tuple[int, float]]
 ) -> tuple[list[float], list[float]]:
-    """Return the place from which `displaced` gives a pose: position [m], angles [rad].
+    """Return the rest pose from which `displace_pose` gives a pose: position [m], angles [rad].
 
     Args:
-        localized_from_base: of the displaced vehicle.
-        offsets: as `displaced` takes them.
+        localized_from_base: the pose of the displaced vehicle.
+        offsets: the offsets as for `displace_pose`.
     """
     position = np.array(localized_from_base.position)
     values = np.concatenate([position, xyz_from_rotation(localized_from_base.rotation)])

@@ -1,4 +1,4 @@
-"""A vehicle follows a frame of ROS.
+"""A vehicle that follows a ROS frame.
 
 .. code-block:: xml
 
@@ -25,30 +25,30 @@ from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 WORLD = "world"
-"""The frame of ROS that is L."""
+"""The ROS frame that is L."""
 MAX_DEPTH = 100
-"""Frames hang on one another at most so deep."""
+"""The greatest number of transforms between a frame and its ancestor."""
 EXPECTED = f"{EXPECTED_POSE}; it is left out"
-"""What a transform has."""
+"""The expected content of a transform."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TfSpec(DeviceSpec):
-    """A ``<tf>``: the vehicle follows a ROS frame, as far as ``/tf`` leads from it to ``world``."""
+    """A ``<tf>``: the vehicle follows a ROS frame, if ``/tf`` connects the frame with ``world``."""
 
     tf_id: str
-    """The frame it follows."""
+    """The name of the frame."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Position of the vehicle in that frame [m]."""
+    """The position of the vehicle in that frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Orientation of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The orientation of the vehicle in that frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> TfFollower:
-        """Listen to ``/tf`` from now on."""
+        """Subscribe to ``/tf``."""
         frame_from_vehicle = Pose.from_rpy(self.position, self.orientation)
-        frames = HeardFrames(world.bus)
+        frames = ReceivedFrames(world.bus)
         return TfFollower(
             vehicle, frames, self.tf_id, frame_from_vehicle, world.world_from_localized
         )
@@ -56,43 +56,43 @@ class TfSpec(DeviceSpec):
 
 @dataclass(slots=True)
 class HeardState(Record):
-    """What has been on ``/tf``."""
+    """The transforms received on ``/tf``."""
 
     parents: dict[str, tuple[str, Pose]] = field(default_factory=dict)
     """The parent of each frame, and ``parent_from_frame``."""
-    n_heard: int = 0
-    """The transforms so far."""
+    n_received: int = 0
+    """The number of transforms so far."""
 
 
 @dataclass(slots=True)
 class FollowerState(Record):
-    """What a vehicle has followed."""
+    """The state of a vehicle that follows a frame."""
 
     frames: HeardState
-    """What has been on ``/tf``."""
+    """The transforms received on ``/tf``."""
     n_followed: int = 0
-    """The transforms that it has followed."""
+    """The number of transforms that it has followed."""
 
 
-class HeardFrames:
-    """The newest transform to each frame that was on ``/tf``; what is no transform is left out."""
+class ReceivedFrames:
+    """The newest transform of each frame on ``/tf``; invalid transforms are left out."""
 
     def __init__(self, bus: Bus) -> None:
         self.state = HeardState()
-        """What has been there."""
-        bus.subscribe("/tf", TFMessage, self._hear, remark=_odd_transform)
+        """The transforms received so far."""
+        bus.subscribe("/tf", TFMessage, self._receive, remark=_check_transforms)
 
-    def _hear(self, message: TFMessage) -> None:
-        for each in message.transforms:
-            pose = _pose_of(each)
+    def _receive(self, message: TFMessage) -> None:
+        for transform in message.transforms:
+            pose = _read_transform(transform)
             if pose is not None:
-                parent = _plain(each.header.frame_id)
-                self.state.parents[_plain(each.child_frame_id)] = parent, pose
-                self.state.n_heard += 1
+                parent = _strip_slash(transform.header.frame_id)
+                self.state.parents[_strip_slash(transform.child_frame_id)] = parent, pose
+                self.state.n_received += 1
 
     def find(self, frame: str, parent: str = WORLD) -> Pose | None:
-        """Return ``parent_from_frame``; None where no chain of transforms leads there."""
-        name, pose = _plain(frame), Pose.identity()
+        """Return ``parent_from_frame``; None if no chain of transforms connects the frames."""
+        name, pose = _strip_slash(frame), Pose.identity()
         for _ in range(MAX_DEPTH):
             if name == parent:
                 return pose
@@ -104,20 +104,20 @@ class HeardFrames:
 
 
 class TfFollower(Device):
-    """Puts a vehicle where a frame is; one that is simulated goes there.
+    """The device that sets a vehicle's pose from a frame; a simulated vehicle moves there.
 
     Args:
         vehicle: the vehicle.
-        frames: what has been on ``/tf``.
-        frame: the frame it follows.
-        frame_from_vehicle: where it is in that frame.
+        frames: the transforms received on ``/tf``.
+        frame: the name of the frame.
+        frame_from_vehicle: the vehicle's pose in the frame.
         world_from_localized: W from L.
     """
 
     def __init__(
         self,
         vehicle: Vehicle,
-        frames: HeardFrames,
+        frames: ReceivedFrames,
         frame: str,
         frame_from_vehicle: Pose,
         world_from_localized: Pose,
@@ -127,37 +127,37 @@ class TfFollower(Device):
         self._world_from_localized = world_from_localized
         self.state: FollowerState = FollowerState(frames.state)
 
-    def rests_until(self, time: float) -> float:
-        """Return inf: it does something only where a message has been delivered."""
+    def idle_until(self, time: float) -> float:
+        """Return inf: the device acts only after a message."""
         return math.inf
 
     def step(self, time: float) -> None:
-        """Follow what has come since the last step."""
-        if self.state.n_followed == self._frames.state.n_heard:
+        """Apply the transforms received since the last step."""
+        if self.state.n_followed == self._frames.state.n_received:
             return
-        self.state.n_followed = self._frames.state.n_heard
+        self.state.n_followed = self._frames.state.n_received
         localized_from_frame = self._frames.find(self._frame)
         if localized_from_frame is not None:
             localized_from_vehicle = localized_from_frame @ self._frame_from_vehicle
             go_or_place(self._vehicle, self._world_from_localized @ localized_from_vehicle)
 
 
-def _pose_of(each: TransformStamped) -> Pose | None:
-    """``parent_from_child`` of a transform; None where it is none."""
-    position = read_position(each.transform.translation)
-    quaternion = read_quaternion(each.transform.rotation)
+def _read_transform(transform: TransformStamped) -> Pose | None:
+    """Return ``parent_from_child`` of a transform; None if it is invalid."""
+    position = read_position(transform.transform.translation)
+    quaternion = read_quaternion(transform.transform.rotation)
     if position is None or quaternion is None:
         return None
     return Pose.from_quaternion(position, quaternion)
 
 
-def _odd_transform(message: TFMessage) -> Remark | None:
-    """Report a transform that is left out."""
-    for index, each in enumerate(message.transforms):
-        if _pose_of(each) is None:
-            return f"transforms[{index}] (to {each.child_frame_id!r:.60}) is none", EXPECTED
+def _check_transforms(message: TFMessage) -> Remark | None:
+    """Report an invalid transform, which is left out."""
+    for index, transform in enumerate(message.transforms):
+        if _read_transform(transform) is None:
+            return f"transforms[{index}] (to {transform.child_frame_id!r:.60}) is invalid", EXPECTED
     return None
 
 
-def _plain(name: str) -> str:
+def _strip_slash(name: str) -> str:
     return name.strip().lstrip("/")

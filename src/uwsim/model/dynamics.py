@@ -14,7 +14,7 @@ from typing import Literal, cast
 from ..base.rng import stream
 from ..currents import Place, PythonFunctionSpec
 from ..devices.fault import FaultSpec
-from ..devices.fault_fields import number_fields
+from ..devices.fault_fields import numeric_fields
 from ..errors import BadSetting, Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle_into, set_errors
@@ -273,7 +273,7 @@ class Search:
         for interface in self._scene.ros_interfaces:
             if fault.sensor in (_name(interface), getattr(interface, "camera_name", None)):
                 types |= set(self._sensors.carried(interface).values())
-        known = [path for each in types if each is not None for path in number_fields(each())]
+        known = [path for each in types if each is not None for path in numeric_fields(each())]
         if fault.field is None or not named or fault.field in known:
             return None
         return str(UnknownName("field of numbers", fault.field, sorted(known)))

@@ -109,7 +109,7 @@ def parts_of(resolved: ResolvedScene) -> list[Part]:
 def _led_parts(number: int, index: int, vehicle: VehicleSpec, array: LedArraySpec) -> list[Part]:
     """The balls of an array of signal lamps, numbered from ``number``."""
     balls = []
-    for i, (colour, place) in enumerate(array.places.items()):
+    for i, (colour, place) in enumerate(array.positions.items()):
         frame_from_mesh = np.eye(4)
         frame_from_mesh[:3, 3] = place
         balls.append(

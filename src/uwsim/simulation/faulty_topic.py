@@ -14,7 +14,7 @@ import numpy as np
 from ..base.record import Record
 from ..devices.fault import FaultSpec
 from ..devices.fault_fields import measured_fields
-from ..devices.fault_times import EARLY, FaultState, FaultTimes
+from ..devices.fault_times import TIME_TOLERANCE, FaultState, FaultTimes
 from ..messages import time_from_seconds
 from ..scene.spec import SceneSpec
 
@@ -82,7 +82,9 @@ class SensorFault:
         """What has waited long enough; when the fault is over all that is left comes at once."""
         self.state.waiting.append((time + self._spec.delay if acts else time, message))
         ready = []
-        while self.state.waiting and (not acts or self.state.waiting[0][0] <= time + EARLY):
+        while self.state.waiting and (
+            not acts or self.state.waiting[0][0] <= time + TIME_TOLERANCE
+        ):
             ready.append(self.state.waiting.popleft()[1])
         return ready
 

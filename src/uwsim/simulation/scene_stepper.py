@@ -106,7 +106,7 @@ class SceneStepper:
         dues += [timer.due for timer in self._image_timers]
         dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
         began = self._time - self._timestep
-        rests = [math.inf, *(device.rests_until(began) for device in self._devices)]
+        rests = [math.inf, *(device.idle_until(began) for device in self._devices)]
         free = (min(rests) - began) // self._timestep - 1
         n = int(min(wanted, MAX_RUN, min(dues) - now + 1, free))
         return (n, now + n <= unprepared) if n > 1 else (1, False)

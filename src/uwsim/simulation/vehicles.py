@@ -12,7 +12,7 @@ from ..base.numerics.linear import rotate_back
 from ..base.record import LazyPart, Record
 from ..base.sampling import Sampler
 from ..bus import Bus
-from ..devices.sway import displaced, undisplaced
+from ..devices.sway import displace_pose, rest_pose
 from ..errors import UnknownName
 from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
@@ -176,13 +176,15 @@ class SceneVehicle:
         if not self.state.offsets:
             return None
         localized_from_base = self._frames.world_from_localized.inverse() @ world_from_base
-        return undisplaced(localized_from_base, self.state.offsets)
+        return rest_pose(localized_from_base, self.state.offsets)
 
     def _displaced_pose(self) -> Pose:
         """Where it is by the displacements of now, ``world_from_base``."""
         spec = self._frames.vehicle
         position, angles = self.state.centre or (spec.position, spec.orientation)
-        return self._frames.world_from_localized @ displaced(position, angles, self.state.offsets)
+        return self._frames.world_from_localized @ displace_pose(
+            position, angles, self.state.offsets
+        )
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return a function that displaces it along or about an axis; displacements add up."""
@@ -211,13 +213,13 @@ class SceneVehicle:
 
         return lose
 
-    def hold(self, thing: int, link: str) -> None:
-        """Fix an object, by its number, to a link of the vehicle, where it is now."""
-        self._engine.grips.hold(thing, self.index, link)
+    def hold(self, object_index: int, link: str) -> None:
+        """Fix an object, by its index, to a link of the vehicle at its present pose."""
+        self._engine.grips.hold(object_index, self.index, link)
 
-    def let_go(self, thing: int) -> None:
-        """Release an object that is held."""
-        self._engine.grips.let_go(thing)
+    def release(self, object_index: int) -> None:
+        """Release a held object."""
+        self._engine.grips.let_go(object_index)
 
     @property
     def compiled(self) -> CompiledVehicle:

@@ -37,9 +37,9 @@ def thrust_said(one: Candidate) -> str:
     dynamics = one.dynamics
     greatest = sum(greatest_power(each, dynamics.density) for each in dynamics.thrusters)
     for battery in one.vehicle.parts_of(BatterySpec):
-        if greatest + battery.hotel_load > battery.greatest_load:
+        if greatest + battery.hotel_load > battery.max_load:
             messages.append(
-                f"the battery {battery.name!r} feeds {battery.greatest_load:.4g} W at most, and "
+                f"the battery {battery.name!r} feeds {battery.max_load:.4g} W at most, and "
                 f"all thrusters draw up to {greatest:.4g} W: they then give less thrust; "
                 "expected a higher <voltage> or a lower <resistance>"
             )

@@ -9,8 +9,8 @@ from ...devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec
 from ...devices.comms.comms_channels import (
     AcousticCommsChannelSpec,
     CustomCommsChannelSpec,
-    acoustic_channel,
-    custom_channel,
+    acoustic_channel_name,
+    custom_channel_name,
 )
 from ...devices.comms.custom_comms_device import CustomCommsDeviceSpec
 from ...errors import Diagnostic
@@ -62,6 +62,9 @@ def communication(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 def _channels_of(device: CommsDeviceSpec) -> tuple[str, ...]:
     if isinstance(device, AcousticCommsDeviceSpec):
-        return (acoustic_channel(device.channel_id),)
-    sends, listens = custom_channel(device.tx_channel_id), custom_channel(device.rx_channel_id)
+        return (acoustic_channel_name(device.channel_id),)
+    sends, listens = (
+        custom_channel_name(device.tx_channel_id),
+        custom_channel_name(device.rx_channel_id),
+    )
     return (sends,) if sends == listens else (sends, listens)

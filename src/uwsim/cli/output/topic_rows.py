@@ -69,7 +69,7 @@ def _device_topics(scene: SceneSpec, types: Mapping[str, str]) -> list[Fields]:
         {
             "topic": f"/{topic.name}",
             "type": types[topic.name],
-            "direction": "listens" if topic.is_heard else "publishes",
+            "direction": "listens" if topic.is_subscribed else "publishes",
             "rate_hz": topic.rate,
             "of": getattr(part, "name", ""),
             "interface": element,

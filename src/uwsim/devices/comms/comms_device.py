@@ -1,4 +1,4 @@
-"""What custom and acoustic communication devices have in common."""
+"""The common parts of custom and acoustic communication devices."""
 
 from __future__ import annotations
 
@@ -35,84 +35,84 @@ from ...sensors.sensor import Mounted
 from ...world import Body, DeviceWorld
 from ..device import Device, DeviceTopic, DeviceVehicle
 
-SLOT_BYTES = 64
-"""A slot of a protocol is long enough for a packet of this size, unless the file says otherwise."""
+SLOT_PACKET_SIZE = 64
+"""The packet size for which a slot is long enough, unless the file sets the slot [byte]."""
 MIN_SLOT = 1_000_000
-"""Shortest slot [ns]."""
+"""The shortest slot [ns]."""
 ENERGY_RATE = 1.0
-"""How often what is left of the energy is published [Hz]."""
+"""The rate at which the remaining energy is published [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class MacProtocolSpec(Spec):
-    """A ``<macProtocol>``: who may send when."""
+    """A ``<macProtocol>``: the medium access protocol."""
 
     name: str = element(default="", original=REQUIRED_BY_DTD)
-    """ALOHA, slottedALOHA or CSMA; empty: ALOHA."""
+    """The name of the protocol: ALOHA, slottedALOHA or CSMA; empty: ALOHA."""
     max_distance: float = element(
         default=0.0, original=Original(allows_trailing_text=True), minimum=0, maximum=MAX_DISTANCE
     )
-    """Longest distance between two devices, for the length of a slot [m]."""
+    """The longest distance between two devices, for the length of a slot [m]."""
     max_backoff_slots: int = element(default=4, minimum=0, maximum=1_000_000)
-    """CSMA: longest wait when another device is heard, at least 1 [slots]."""
+    """The longest wait of CSMA on a busy channel, at least 1 [slots]."""
     slot: float | None = element(namespaced=True, default=None, minimum=0.001, maximum=1e6)
-    """Length of a slot [s]; without it the travel time over ``maxDistance`` and the time of a
+    """The length of a slot [s]; without it the travel time over ``maxDistance`` and the time of a
     packet of 64 bytes, at least 1 ms."""
 
     def bind(self, channel: Channel, airtime: Callable[[int], int]) -> Mac:
-        """Make the protocol; one of another name is ALOHA.
+        """Create the protocol; an unknown name gives ALOHA.
 
         Args:
-            channel: what the device sends on.
-            airtime: how long a packet of so many bytes takes [ns].
+            channel: the channel on which the device sends.
+            airtime: returns the duration of a packet of a number of bytes [ns].
         """
         if self.slot is not None:
             slot = nanoseconds(self.slot)
         else:
-            travel = channel.delay(Path(distance=self.max_distance, depth=0.0))
-            slot = nanoseconds(travel) + airtime(SLOT_BYTES)
+            propagation_delay = channel.delay(Path(distance=self.max_distance, depth=0.0))
+            slot = nanoseconds(propagation_delay) + airtime(SLOT_PACKET_SIZE)
         kind = mac_kind(self.name) or "aloha"
         return Mac(kind=kind, slot=max(slot, MIN_SLOT), max_backoff=self.max_backoff_slots)
 
 
 @dataclass(frozen=True, kw_only=True)
 class PacketBuilderSpec(Spec):
-    """A ``<txPacketBuilder>`` or ``<rxPacketBuilder>``: read and not used, data has no frame."""
+    """A ``<txPacketBuilder>`` or ``<rxPacketBuilder>``: read and not used; there is no framing."""
 
     class_name: str
-    """Name of the class that packs."""
+    """The name of the class that packs."""
     lib_path: str = ""
-    """Library that holds it, when it is not built in."""
+    """The library that contains it, if it is not built in."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CommsMeshSpec(Spec):
-    """A ``<mesh>`` that shows where a device is; nothing touches it."""
+    """A ``<mesh>`` that shows a device; it has no collision shape."""
 
     path: str
-    """The file."""
+    """The mesh file."""
     scale_factor: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    """Scale along x, y, z [1]."""
+    """The scale along x, y, z [1]."""
 
 
 class CommsSpec(Mounted, Protocol):
-    """The spec of either device."""
+    """The spec of a custom or acoustic device."""
 
     @property
     def dccomms_id(self) -> str:
-        """Its name."""
+        """The name of the device."""
 
     @property
     def tf_id(self) -> str:
-        """Name of its frame."""
+        """The name of the device's frame."""
 
     @property
     def relative_tf_id(self) -> str:
-        """Name of the frame it rides on."""
+        """The name of the link's frame."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class _OnLink:
+class _LinkOrigin:
     """The origin of a link."""
 
     relative_to: str
@@ -122,19 +122,19 @@ class _OnLink:
 
 def packet_topics(name: str, *, has_energy: bool = False) -> tuple[DeviceTopic, ...]:
     """Return the topics of a device."""
-    packets = (DeviceTopic(name=f"{name}/tx", is_heard=True), DeviceTopic(name=f"{name}/rx"))
+    packets = (DeviceTopic(name=f"{name}/tx", is_subscribed=True), DeviceTopic(name=f"{name}/rx"))
     energy = DeviceTopic(name=f"{name}/energy", rate=ENERGY_RATE)
     return (*packets, energy) if has_energy else packets
 
 
 class CommsDevice(Device):
-    """A device on a link: bytes on ``<id>/tx`` are sent, what it receives is on ``<id>/rx``.
+    """A device on a link: it sends the bytes of ``<id>/tx`` and publishes those of ``<id>/rx``.
 
     Args:
-        spec: its spec.
+        spec: the spec of the device.
         world: the scene.
-        vehicle: what it rides on.
-        settings: what it is in the network; None: it takes no part.
+        vehicle: the vehicle on which the device is mounted.
+        settings: the settings of its modem; None: it is not in the network.
     """
 
     def __init__(
@@ -145,12 +145,12 @@ class CommsDevice(Device):
         settings: ModemSettings | None,
     ) -> None:
         self._mount = vehicle.mount(spec)
-        self._link = vehicle.mount(_OnLink(relative_to=spec.relative_to))
-        self._visual = vehicle.mount(_OnLink(relative_to=spec.relative_to), visual=True)
+        self._link = vehicle.mount(_LinkOrigin(relative_to=spec.relative_to))
+        self._visual = vehicle.mount(_LinkOrigin(relative_to=spec.relative_to), visual=True)
         self.frame = spec.tf_id or f"{vehicle.name}/{spec.dccomms_id}"
-        """Name of its frame."""
+        """The name of the device's frame."""
         self.parent_frame = spec.relative_tf_id or f"{vehicle.name}/{spec.relative_to}"
-        """Name of the frame it rides on."""
+        """The name of the link's frame."""
         if settings is not None:
             self._join(spec.dccomms_id, world, settings)
 
@@ -158,25 +158,27 @@ class CommsDevice(Device):
         bus = world.bus
         publish = bus.publisher(f"{name}/rx", UInt8MultiArray)
         modem = Modem(
-            settings, lambda: _position(self._mount), lambda packet, _: publish(_message(packet))
+            settings,
+            lambda: _body_position(self._mount),
+            lambda packet, _: publish(_packet_message(packet)),
         )
         send = world.network.join(modem)
 
-        def take(message: UInt8MultiArray) -> None:
-            send(message.data.tobytes(), _destination(message))
+        def send_message(message: UInt8MultiArray) -> None:
+            send(message.data.tobytes(), _read_destination(message))
 
-        bus.subscribe(f"{name}/tx", UInt8MultiArray, take, check=_check_bytes)
+        bus.subscribe(f"{name}/tx", UInt8MultiArray, send_message, check=_check_bytes)
         if settings.energy is not None:
             publish_energy = bus.publisher(f"{name}/energy", Float64)
 
-            def tell() -> None:
+            def publish_remaining_energy() -> None:
                 publish_energy(Float64(data=modem.energy(world.network.now) or 0.0))
 
-            world.every(ENERGY_RATE, tell)
+            world.every(ENERGY_RATE, publish_remaining_energy)
 
     @property
     def parent_from_device(self) -> Pose:
-        """Where it is on its link now."""
+        """The present pose of the device in the frame of its link."""
         return self._link.world_from_body.inverse() @ self._mount.world_from_body
 
     def sample(self, time: float) -> PoseMessage:
@@ -189,26 +191,26 @@ class CommsDevice(Device):
         )
 
 
-def _position(body: Body) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
+def _body_position(body: Body) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]]:
     return body.world_from_body.position
 
 
 def _check_bytes(message: UInt8MultiArray) -> None:
     if message.data.dtype != np.uint8:
-        raise BadMessage(f"The data of a packet are bytes (uint8), not {message.data.dtype}.")
+        raise BadMessage(f"The data of a packet is {message.data.dtype}; expected bytes (uint8).")
 
 
-def _destination(message: UInt8MultiArray) -> int:
-    """The address that a packet is for: the size of the dimension called ``destination``."""
-    sizes = [each.size for each in message.layout.dim if each.label == "destination"]
+def _read_destination(message: UInt8MultiArray) -> int:
+    """Return the address in the size of the dimension ``destination``, or that of everyone."""
+    sizes = [dimension.size for dimension in message.layout.dim if dimension.label == "destination"]
     return sizes[0] if sizes else EVERYONE
 
 
-def _message(packet: Packet) -> UInt8MultiArray:
-    """A packet with its sender, and with the device that it is for unless it is for all."""
-    dim = [MultiArrayDimension(label="source", size=packet.source)]
+def _packet_message(packet: Packet) -> UInt8MultiArray:
+    """Return a packet with its source and, unless it is for everyone, its destination."""
+    dimensions = [MultiArrayDimension(label="source", size=packet.source)]
     if packet.destination != EVERYONE:
-        dim.append(MultiArrayDimension(label="destination", size=packet.destination))
+        dimensions.append(MultiArrayDimension(label="destination", size=packet.destination))
     return UInt8MultiArray(
-        layout=MultiArrayLayout(dim=[*dim]), data=np.frombuffer(packet.data, np.uint8)
+        layout=MultiArrayLayout(dim=[*dimensions]), data=np.frombuffer(packet.data, np.uint8)
     )

@@ -1,4 +1,4 @@
-"""A link described by delays and error rates, for example a radio or an optical modem.
+"""A link with delays and error rates, for example a radio or an optical modem.
 
 .. code-block:: xml
 
@@ -25,7 +25,7 @@ from ...network import BitErrors, DelayChannel, ErrorModel, ModemSettings, RateE
 from ...schema import REQUIRED_BY_DTD, Spec, element
 from ...world import DeviceWorld
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
-from .comms_channels import MAX_MS, custom_channel
+from .comms_channels import MAX_DELAY_MS, custom_channel_name
 from .comms_device import (
     CommsDevice,
     CommsMeshSpec,
@@ -37,120 +37,120 @@ from .comms_device import (
 
 @dataclass(frozen=True, kw_only=True)
 class JitterSpec(Spec):
-    """A ``<jitter>``: delays that vary, uniformly distributed from 0."""
+    """A ``<jitter>``: random delays, uniformly distributed from 0."""
 
-    tx: float = element(default=0.0, minimum=0, maximum=MAX_MS)
-    """Largest delay when sending [ms]."""
-    rx: float = element(default=0.0, original=REQUIRED_BY_DTD, minimum=0, maximum=MAX_MS)
-    """Largest delay when receiving [ms]."""
+    tx: float = element(default=0.0, minimum=0, maximum=MAX_DELAY_MS)
+    """The largest delay of sending [ms]."""
+    rx: float = element(default=0.0, original=REQUIRED_BY_DTD, minimum=0, maximum=MAX_DELAY_MS)
+    """The largest delay of receiving [ms]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RateErrorModelSpec(Spec):
-    """A ``<rateErrorModel>``: how likely a part of a packet, and so the packet, is damaged."""
+    """A ``<rateErrorModel>``: the probability of damage to a part, and so to the packet."""
 
     error_unit: Unit = element(default="bit", original=REQUIRED_BY_DTD)
-    """What the rate is of."""
+    """The unit to which the rate applies."""
     error_rate_expr: str = element(default="0.01*m", original=REQUIRED_BY_DTD)
-    """Its probability as a formula in the distance m [m], in the language of scores."""
+    """The probability as a formula in the distance m [m], in the language of scores."""
 
     def parse(self) -> Callable[[float], float]:
-        """Return the rate as a function of the distance [m]; where it has no value it is 1.
+        """Return the rate as a function of the distance [m]; 1 where the formula has no value.
 
         Raises:
-            ScoreError: the formula is wrong; shows where.
+            ScoreError: the formula is invalid; the error shows the position.
         """
-        parsed = expression.parse(self.error_rate_expr, ["m"], kind="variable")
+        formula = expression.parse(self.error_rate_expr, ["m"], kind="variable")
 
-        def rate(metres: float) -> float:
-            value = parsed.evaluate({"m": metres})
+        def rate(distance: float) -> float:
+            value = formula.evaluate({"m": distance})
             return 1.0 if value is None else value
 
         return rate
 
     def bind(self) -> ErrorModel:
-        """Make the model."""
+        """Create the model."""
         return RateErrors(rate=self.parse(), unit=self.error_unit)
 
 
 @dataclass(frozen=True, kw_only=True)
 class CustomCommsDeviceSpec(DeviceSpec):
-    """A ``<CustomCommsDevice>``; half duplex where it sends on the channel it listens to."""
+    """A ``<CustomCommsDevice>``; half duplex if it sends and receives on one channel."""
 
     message_type: ClassVar[type] = Pose
     is_left_out: ClassVar[bool] = True
 
     dccomms_id: str
-    """Its name, which begins its topics ``/tx`` and ``/rx``."""
+    """The name of the device, which begins its topics ``/tx`` and ``/rx``."""
     tx_channel_id: int
-    """The ``<CustomCommsChannel>`` it sends on."""
+    """The id of the ``<CustomCommsChannel>`` on which it sends."""
     rx_channel_id: int
-    """The ``<CustomCommsChannel>`` it listens to."""
+    """The id of the ``<CustomCommsChannel>`` on which it receives."""
     relative_to: str
-    """The link it rides on."""
+    """The link on which the device is mounted."""
     mac: int = element(minimum=0, maximum=65535)
-    """Its address."""
+    """The address of the device."""
     mac_protocol: MacProtocolSpec | None = None
-    """Medium access protocol."""
+    """The medium access protocol."""
     bitrate: float = element(default=1000.0, original=REQUIRED_BY_DTD, minimum=1e-3, maximum=1e12)
-    """How fast it sends [bit/s]."""
+    """The bit rate [bit/s]."""
     tx_fifo_size: int = element(default=500000, minimum=0)
-    """Size of the transmission queue [byte]."""
+    """The size of the transmission queue [byte]."""
     tf_id: str = ""
-    """Name of its frame; ``<vehicle>/<device>`` when empty."""
+    """The name of the device's frame; ``<vehicle>/<device>`` when empty."""
     relative_tf_id: str = ""
-    """Name of the frame it rides on; ``<vehicle>/<relativeTo>`` when empty."""
+    """The name of the link's frame; ``<vehicle>/<relativeTo>`` when empty."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Position of the device in the link's frame [m]."""
+    """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
+    """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     mesh: CommsMeshSpec | None = None
-    """Its body."""
-    intrinsic_delay: float = element(default=0.0, minimum=0, maximum=MAX_MS)
-    """Between the order to send a packet and its sending [ms]."""
+    """The mesh of the device."""
+    intrinsic_delay: float = element(default=0.0, minimum=0, maximum=MAX_DELAY_MS)
+    """The delay between the order to send a packet and its sending [ms]."""
     pr_time_inc_per_meter: float = 0.0
-    """Allowed by the grammar and never read by the original [ms/m]."""
+    """A delay per distance [ms/m]: in the grammar, and not read by the original."""
     jitter: JitterSpec | None = None
-    """Variation of the delay."""
+    """The random delays."""
     max_distance: float = element(default=99999999.0, minimum=0)
-    """Longest distance it reaches [m]."""
+    """The greatest range [m]."""
     min_distance: float = element(default=0.0, minimum=0)
-    """Shortest distance it reaches [m]."""
+    """The smallest range [m]."""
     rate_error_model: RateErrorModelSpec | None = None
-    """How likely a piece is damaged; without it nothing is."""
+    """The probability of damage; without it no packet is damaged."""
     tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
-    """Packs what is sent."""
+    """The packet builder of the transmitter."""
     rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
-    """Unpacks what is received."""
+    """The packet builder of the receiver."""
     log_level: str = "off"
-    """Read and not used."""
+    """The log level: read and not used."""
     disable: bool = False
-    """Whether only its body is made."""
+    """A flag: only the mesh of the device is created."""
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the device."""
         return self.dccomms_id
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """Its topics, besides that of its interface."""
+        """The topics of the device, besides that of its interface."""
         return () if self.disable else packet_topics(self.name)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> CommsDevice:
-        """Mount it and let it take part; raises UnknownName if there is no such link."""
-        settings = None if self.disable else self._settings(world, vehicle.name)
+        """Mount and connect the device; raises UnknownName if there is no such link."""
+        settings = None if self.disable else self._modem_settings(world, vehicle.name)
         return CommsDevice(self, world, vehicle, settings)
 
-    def _settings(self, world: DeviceWorld, vehicle: str) -> ModemSettings:
-        sends_on = custom_channel(self.tx_channel_id)
+    def _modem_settings(self, world: DeviceWorld, vehicle: str) -> ModemSettings:
+        sends_on = custom_channel_name(self.tx_channel_id)
         channel = world.network.channels.get(sends_on, DelayChannel())
         jitter, model = self.jitter or JitterSpec(), self.rate_error_model
         settings = ModemSettings(
             name=f"{vehicle}/{self.dccomms_id}",
             address=self.mac,
             sends_on=sends_on,
-            listens_to=custom_channel(self.rx_channel_id),
+            listens_to=custom_channel_name(self.rx_channel_id),
             channel=channel,
             errors=BitErrors() if model is None else model.bind(),
             bit_rate=self.bitrate,
