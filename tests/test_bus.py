@@ -105,13 +105,13 @@ def test_a_closed_inbox_costs_the_publisher_nothing() -> None:
     inbox = bus.inbox("a", Float32MultiArray)
     inbox.close()
     assert not bus.has_readers("a")
-    assert inbox.last is None
+    assert inbox.last_message is None
     assert np.array_equal(floats([1.0]).data, [1.0])
 
 
 def test_an_inbox_that_nobody_looks_into_keeps_the_newest(monkeypatch: pytest.MonkeyPatch) -> None:
     bus = Bus()
-    inbox, publish = bus.inbox("a", String, n_kept=2), bus.publisher("a", String)
+    inbox, publish = bus.inbox("a", String, max_messages=2), bus.publisher("a", String)
 
     def kept(*words: str) -> list[str]:
         for word in words:
@@ -120,7 +120,7 @@ def test_an_inbox_that_nobody_looks_into_keeps_the_newest(monkeypatch: pytest.Mo
         return [message.data for message in inbox.take()]
 
     assert kept("a", "b", "c") == ["b", "c"]
-    monkeypatch.setattr("uwsim.base.inbox.MAX_BYTES_KEPT", 200)
+    monkeypatch.setattr("uwsim.base.inbox.MAX_BYTES", 200)
     assert kept("a", "b" * 150, "c" * 150) == ["c" * 150]
     assert kept("d" * 300) == ["d" * 300]
     assert kept("e", "f") == ["e", "f"]

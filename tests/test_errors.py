@@ -35,17 +35,17 @@ def test_an_error_sent_home_by_a_worker_is_the_one_that_was_raised(error: UwsimE
 
 def test_errors_are_kept_in_order_each_once_and_a_single_one_as_it_is() -> None:
     none, one, many = ErrorCollector(), ErrorCollector(), ErrorCollector()
-    none.check()
+    none.raise_errors()
     for _ in range(2):
         with one.collect():
             raise BadSetting("a")
     with pytest.raises(BadSetting, match="a"):
-        one.check()
+        one.raise_errors()
     for error in (BadSetting("b"), SeveralErrors([NeverStarted("c"), BadSetting("b")])):
         with many.collect():
             raise error
     with pytest.raises(SeveralErrors) as caught:
-        many.check()
+        many.raise_errors()
     assert list(map(str, caught.value.errors)) == ["b", "c"]
     with pytest.raises(KeyError), many.collect():
         raise KeyError

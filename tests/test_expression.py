@@ -77,8 +77,8 @@ def test_a_measure_may_be_called_like_a_function() -> None:
 def test_what_is_used_and_not_finite_gives_no_value_in_any_order(text: str) -> None:
     score = parse(text, []).score({})
     assert score.value is None
-    assert score.why is not None
-    assert ", from column " in score.why
+    assert score.reason is not None
+    assert ", from column " in score.reason
 
 
 @pytest.mark.parametrize("text", ["if(1, 2, 0/0)", "0 ? 1/0 : 2", "1 < 2 ? 2 : max(1, 1/0)"])
@@ -97,7 +97,7 @@ def test_nothing_measured_gives_no_score_and_says_which_measure() -> None:
         {"corners": None, "centroid": 1.0}
     )
     assert score.value is None
-    assert score.why == "no value for corners"
+    assert score.reason == "no value for corners"
 
 
 def test_a_measure_that_is_not_in_the_function_may_be_missing() -> None:
@@ -108,8 +108,8 @@ def test_a_measure_that_is_not_in_the_function_may_be_missing() -> None:
 def test_what_is_not_a_finite_number_is_no_score_and_has_a_reason(text: str) -> None:
     score = parse(text, []).score({})
     assert score.value is None
-    assert score.why is not None
-    assert "the function gives" in score.why
+    assert score.reason is not None
+    assert "the function gives" in score.reason
 
 
 def test_a_branch_that_is_not_taken_may_divide_by_zero() -> None:

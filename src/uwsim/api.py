@@ -160,7 +160,7 @@ def _execute_request(
         executor, plans = plan_all([request], str(workers), CALLBACK_LIMIT, wrong)
         with wrong.collect():
             check_directory(directory, resume=False, overwrite=False)
-        wrong.check()
+        wrong.raise_errors()
         execution = prepare_execution(plans, executor, directory, workers=str(workers))
         open_jobs = partial(BackgroundProcess if workers else Jobs, load_reporter)
         (result,) = execute(

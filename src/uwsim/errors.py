@@ -191,7 +191,7 @@ class ErrorCollector:
     """Collects the errors of one call, so that all of them are reported at once."""
 
     def __init__(self) -> None:
-        self._found: list[UwsimError] = []
+        self._errors: list[UwsimError] = []
 
     @contextmanager
     def collect(self) -> Iterator[None]:
@@ -199,18 +199,18 @@ class ErrorCollector:
         try:
             yield
         except SeveralErrors as error:
-            self._found += error.errors
+            self._errors += error.errors
         except UwsimError as error:
-            self._found.append(error)
+            self._errors.append(error)
 
-    def check(self) -> None:
+    def raise_errors(self) -> None:
         """Raise the kept errors, if any: one as it is, several as `SeveralErrors`."""
-        first: dict[str, UwsimError] = {}
-        for error in self._found:
-            first.setdefault(str(error), error)
-        found = list(first.values())
-        if found:
-            raise found[0] if len(found) == 1 else SeveralErrors(found)
+        errors_by_text: dict[str, UwsimError] = {}
+        for error in self._errors:
+            errors_by_text.setdefault(str(error), error)
+        errors = list(errors_by_text.values())
+        if errors:
+            raise errors[0] if len(errors) == 1 else SeveralErrors(errors)
 
 
 def choices(name: str, valid_names: Iterable[str], *, heading: str = "Known") -> str:
@@ -219,8 +219,10 @@ def choices(name: str, valid_names: Iterable[str], *, heading: str = "Known") ->
     suggestion = did_you_mean(name, names)
     if len(names) <= MAX_LISTED_NAMES:
         return f"{suggestion} {heading}: {', '.join(names) or 'none'}"
-    near = difflib.get_close_matches(name[:MAX_NAME_LENGTH], names, n=N_NEAREST, cutoff=0.0)
-    return f"{suggestion} Nearest of {len(names)}: {', '.join(near)}"
+    nearest_names = difflib.get_close_matches(
+        name[:MAX_NAME_LENGTH], names, n=N_NEAREST, cutoff=0.0
+    )
+    return f"{suggestion} Nearest of {len(names)}: {', '.join(nearest_names)}"
 
 
 def type_and_text(error: BaseException) -> str:
@@ -242,6 +244,6 @@ def did_you_mean(name: str, valid_names: Iterable[str]) -> str:
     if len(name) > MAX_NAME_LENGTH:
         return ""
     names = list(valid_names)
-    by_lower = {candidate.lower(): candidate for candidate in names}
-    close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
-    return f" Did you mean {by_lower[close[0]]!r}?" if close else ""
+    names_by_lower = {candidate.lower(): candidate for candidate in names}
+    close_names = difflib.get_close_matches(name.lower(), names_by_lower, n=1, cutoff=0.6)
+    return f" Did you mean {names_by_lower[close_names[0]]!r}?" if close_names else ""

@@ -20,7 +20,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def write(name: str, age: float) -> Path:
     """Keep 2000 bytes that were read some seconds ago."""
-    file = disk_cache.folder("things") / name
+    file = disk_cache.cache_folder("things") / name
     disk_cache.write(file, bytes(2000))
     facts = file.stat()
     os.utime(file, ns=(facts.st_atime_ns, facts.st_mtime_ns - round(1e9 * age)))
@@ -28,7 +28,7 @@ def write(name: str, age: float) -> Path:
 
 
 def test_what_was_read_last_stays_and_the_rest_goes(cache: Path) -> None:
-    other = disk_cache.folder("other") / "file"
+    other = disk_cache.cache_folder("other") / "file"
     disk_cache.write(other, bytes(9000))
     files = [write(f"{k % 2}/file{k}", age=100.0 - k) for k in range(4)]
     assert disk_cache.read(files[0]) is not None

@@ -51,7 +51,7 @@ def test_different_names_are_different_files_also_where_case_does_not_count(
 
 
 def test_a_file_that_is_there_already_is_not_taken() -> None:
-    assert file_names(["Plots", "esm"], taken=["plots"]) == {
+    assert file_names(["Plots", "esm"], existing_names=["plots"]) == {
         "Plots": "Plots-3dea533b",
         "esm": "esm",
     }

@@ -6,7 +6,7 @@ import pytest
 
 from uwsim.base.files.input_files import (
     InputFile,
-    hash_of,
+    compute_hash,
     hashes_by_name,
     portable_name,
     read_bytes,
@@ -33,7 +33,7 @@ def test_what_is_read_inside_is_recorded_with_its_hash(tmp_path: Path) -> None:
         assert read_bytes(file, name="data/sea.csv") == b"x,u\n0,1\n"
         read_bytes(file, name="data/sea.csv")
     read_bytes(file)
-    assert inner == outer == [InputFile("data/sea.csv", hash_of(file))]
+    assert inner == outer == [InputFile("data/sea.csv", compute_hash(file))]
 
 
 def test_a_file_above_the_limit_is_refused(tmp_path: Path) -> None:

@@ -135,4 +135,4 @@ def test_a_message_of_rosbags_own_class_fits() -> None:
 
 @pytest.mark.parametrize("kind", [messages.TwistStamped, messages.PoseStamped, messages.Bool])
 def test_a_message_without_arrays_has_nothing_to_freeze(kind: type) -> None:
-    assert message_fields._with_arrays(kind) == ()
+    assert message_fields._array_fields(kind) == ()

@@ -42,9 +42,9 @@ def test_the_generator_goes_on_in_python_where_compiled_code_has_stopped() -> No
     for n in (1, 2, 3, 4, 5):
         drawn(generator, n)
         other.standard_normal(n), other.random(n)
-        assert GeneratorState.by(generator) == GeneratorState.by(other)
+        assert GeneratorState.from_generator(generator) == GeneratorState.from_generator(other)
     assert generator.integers(1 << 40) == other.integers(1 << 40)
-    then = GeneratorState.by(generator)
+    then = GeneratorState.from_generator(generator)
     first = drawn(generator, 10)[0]
     then.set(generator)
     assert drawn(generator, 10)[0].tobytes() == first.tobytes()

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 
 from uwsim.base.numerics import compiling
-from uwsim.base.numerics.jit import Signatures
+from uwsim.base.numerics.jit import CompiledFiles
 
 SOURCE = """
 from uwsim.base.numerics import jit
@@ -102,7 +102,7 @@ def test_what_calls_a_module_that_was_moved_is_compiled_anew(
     moved = ModuleType("moved")
     moved.Compiled = type("Compiled", (), {"__module__": "moved"})  # type: ignore[attr-defined]
     monkeypatch.setitem(sys.modules, "moved", moved)
-    signatures = Signatures(folder=tmp_path, base="twice", stamp=lambda: "the same")
+    signatures = CompiledFiles(folder=tmp_path, base="twice", stamp=lambda: "the same")
     signatures.save("key", moved.Compiled())
     assert signatures.load("key") is not None
     monkeypatch.delitem(sys.modules, "moved")
@@ -257,7 +257,7 @@ from uwsim.base.numerics import jit
 def thrice(x):
     return 3.0 * x
 
-COMPILED = jit.c_function(thrice, types.float64(types.float64))
+COMPILED = jit.compile_c_function(thrice, types.float64(types.float64))
 """
     (cache.parent / "doubles.py").write_text(source)
     call = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)

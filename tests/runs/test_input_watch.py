@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.short_trial import INIT, make_plan, with_algorithm
-from uwsim.base.files.input_files import InputFile, hash_of
+from uwsim.base.files.input_files import InputFile, compute_hash
 from uwsim.bus import Node
 from uwsim.errors import RunFailed
 from uwsim.results.inputs import Inputs
@@ -22,7 +22,7 @@ LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</fi
 
 
 def file_of(path: Path) -> InputFile:
-    return InputFile(path.name, hash_of(path), path)
+    return InputFile(path.name, compute_hash(path), path)
 
 
 class Edits:

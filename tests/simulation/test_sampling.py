@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from uwsim.base.sampling import Sample, Sampling, addresses_in, gathering, sample_step
+from uwsim.base.sampling import Sample, Sampling, gather_sampler, number_addresses, sample_step
 from uwsim.bus import Bus
 from uwsim.simulation.schedule import Schedule
 
@@ -25,8 +25,9 @@ def test_a_camera_takes_its_rate_times_the_time_however_long_it_runs() -> None:
 def test_a_sample_that_is_not_needed_is_neither_taken_nor_published() -> None:
     """Also where a reader comes during the step: there is nothing to publish."""
     values, is_read, calls = np.array([3.0]), [False], []
-    sampler = gathering(addresses_in(values), prepare=lambda _: None, is_alone=lambda _: True)
-    sample, schedule = Sample.of(sampler), Schedule(Bus(), 0.002)
+    prepare, is_alone = (lambda _: None), (lambda _: True)
+    sampler = gather_sampler(number_addresses(values), prepare=prepare, is_alone=is_alone)
+    sample, schedule = Sample.before_first(sampler), Schedule(Bus(), 0.002)
     schedule.every(100.0, lambda: is_read.__setitem__(0, True))
     sampling = Sampling(sampler, sample, lambda: is_read[0])
     schedule.every(100.0, lambda: calls.append(sample.numbers.tolist()), sampling=sampling)

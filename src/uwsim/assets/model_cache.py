@@ -33,7 +33,7 @@ class CacheMiss(Exception):
 @cache
 def generated_model(name: str) -> Model:
     """Return the generated model of that name in `STAND_INS`, from the cache if possible."""
-    file = disk_cache.folder("models") / _key() / (name.replace("/", "-") + ".npz")
+    file = disk_cache.cache_folder("models") / _key() / (name.replace("/", "-") + ".npz")
     try:
         return _read(name, file)
     except CacheMiss:

@@ -59,12 +59,12 @@ def compatibility(names: Iterable[str]) -> frozenset[str]:
     Raises:
         UnknownName: a name is not in the table.
     """
-    asked: set[str] = set()
+    quirks: set[str] = set()
     for name in names:
         if name == "uwsim":
-            asked.update(COMPATIBILITY.keys() - OLDER_QUIRKS)
+            quirks.update(COMPATIBILITY.keys() - OLDER_QUIRKS)
         elif name in COMPATIBILITY:
-            asked.add(name)
+            quirks.add(name)
         else:
             raise UnknownName("compatibility", name, [*COMPATIBILITY, "uwsim"])
-    return frozenset(asked)
+    return frozenset(quirks)

@@ -11,13 +11,13 @@ import numpy as np
 
 def digest_of(spec: object) -> str:
     """Return a hash of what a spec says, wherever its file lies."""
-    return hashlib.sha256(repr(_plain(spec)).encode()).hexdigest()
+    return hashlib.sha256(repr(_plain_value(spec)).encode()).hexdigest()
 
 
-def _plain(value: Any) -> object:
+def _plain_value(value: Any) -> object:
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        fields = [each.name for each in dataclasses.fields(value) if each.compare]
-        return type(value).__name__, [(name, _plain(getattr(value, name))) for name in fields]
+        fields = [field.name for field in dataclasses.fields(value) if field.compare]
+        return type(value).__name__, [(name, _plain_value(getattr(value, name))) for name in fields]
     if isinstance(value, list | tuple):
-        return [_plain(each) for each in value]
+        return [_plain_value(entry) for entry in value]
     return value.tolist() if isinstance(value, np.ndarray) else value

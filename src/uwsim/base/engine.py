@@ -17,6 +17,6 @@ with set_environment({"MUJOCO_GL": "disable"}), block_interrupts():
 
 def model_bytes(model: mujoco.MjModel) -> bytes:
     """Return a model of the engine as bytes, the same for the same numbers."""
-    packed = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
-    mujoco.mj_saveModel(model, None, packed)
-    return packed.tobytes()
+    buffer = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, buffer)
+    return buffer.tobytes()

@@ -14,7 +14,9 @@ CLIENT_SECRET = "UWSIM_CLIENT_SECRET"
 
 def remove_secrets(variables: Mapping[str, str]) -> dict[str, str]:
     """Return the variables without those that hold secrets, for a process that needs none."""
-    return {k: v for k, v in variables.items() if k not in (WEB_TOKEN, CLIENT_SECRET)}
+    return {
+        name: value for name, value in variables.items() if name not in (WEB_TOKEN, CLIENT_SECRET)
+    }
 
 
 def select_unset(variables: Mapping[str, str]) -> dict[str, str]:
@@ -25,10 +27,10 @@ def select_unset(variables: Mapping[str, str]) -> dict[str, str]:
 @contextmanager
 def set_environment(variables: Mapping[str, str]) -> Iterator[None]:
     """Set the variables, where the user has not, for as long as the block lasts."""
-    ours = select_unset(variables)
-    os.environ.update(ours)
+    unset_variables = select_unset(variables)
+    os.environ.update(unset_variables)
     try:
         yield
     finally:
-        for name in ours:
+        for name in unset_variables:
             del os.environ[name]

@@ -84,15 +84,15 @@ class ScoreError(UwsimError):
     def __init__(self, text: str, column: int, message: str) -> None:
         self.text, self.column, self.message = text, column, message
         """Column from 0."""
-        super().__init__(f"{message}\n{self.pointed_at()}")
+        super().__init__(f"{message}\n{self.marked_text()}")
 
-    def pointed_at(self) -> str:
+    def marked_text(self) -> str:
         """The text, and on the next line a caret under the wrong character; long ones are cut."""
         start = max(0, self.column - CONTEXT_LENGTH)
-        before = "..." if start else ""
-        after = "..." if len(self.text) > self.column + CONTEXT_LENGTH else ""
-        piece = before + _one_line(self.text[start : self.column + CONTEXT_LENGTH]) + after
-        return f"  {piece}\n  {' ' * (len(before) + self.column - start)}^"
+        prefix = "..." if start else ""
+        suffix = "..." if len(self.text) > self.column + CONTEXT_LENGTH else ""
+        piece = prefix + _one_line(self.text[start : self.column + CONTEXT_LENGTH]) + suffix
+        return f"  {piece}\n  {' ' * (len(prefix) + self.column - start)}^"
 
 
 @dataclass(frozen=True)
@@ -101,7 +101,7 @@ class Score:
 
     value: float | None
     """The number; None when there is none."""
-    why: str | None = None
+    reason: str | None = None
     """Why there is none."""
 
 
@@ -110,7 +110,7 @@ class _Step:
     """Take the topmost numbers off the stack, put one on it."""
 
     column: int
-    takes: int
+    n_operands: int
     function: Function | None = None
     constant: float | None = None
     name: str = ""
@@ -133,40 +133,42 @@ class Expression:
 
     def score(self, values: Mapping[str, float | None]) -> Score:
         """Return the value, or why there is none."""
-        absent = [name for name in self.names if values[name] is None]
-        if absent:
-            return Score(None, f"no value for {', '.join(absent)}")
+        missing_names = [name for name in self.names if values[name] is None]
+        if missing_names:
+            return Score(None, f"no value for {', '.join(missing_names)}")
         stack: list[tuple[float, _Step | None]] = []  # a number; which step made it not finite
         with np.errstate(all="ignore"):
             for step in self.steps:
-                taken = stack[len(stack) - step.takes :]
-                del stack[len(stack) - step.takes :]
-                stack.append(self._next(step, taken, values))
-        [(result, blame)] = stack
-        if blame is None:
+                operands = stack[len(stack) - step.n_operands :]
+                del stack[len(stack) - step.n_operands :]
+                stack.append(self._apply_step(step, operands, values))
+        [(result, faulty_step)] = stack
+        if faulty_step is None:
             return Score(result)
-        place = f", from column {blame.column + 1} of {self.text!r} on"
+        place = f", from column {faulty_step.column + 1} of {self.text!r} on"
         return Score(None, f"the function gives {result}{place}")
 
-    def _next(
+    def _apply_step(
         self,
         step: _Step,
-        taken: list[tuple[float, _Step | None]],
+        operands: list[tuple[float, _Step | None]],
         values: Mapping[str, float | None],
     ) -> tuple[float, _Step | None]:
         """What a step makes of the numbers it takes; the first that is not finite is passed on."""
-        if step.function is _if and taken[0][1] is None:
-            return taken[1] if taken[0][0] != 0.0 else taken[2]
-        for number, blame in taken:
-            if blame is not None:
-                return number, blame
-        result = self._result(step, [number for number, _ in taken], values)
+        if step.function is _choose and operands[0][1] is None:
+            return operands[1] if operands[0][0] != 0.0 else operands[2]
+        for number, faulty_step in operands:
+            if faulty_step is not None:
+                return number, faulty_step
+        result = self._compute_step(step, [number for number, _ in operands], values)
         return result, None if math.isfinite(result) else step
 
     @staticmethod
-    def _result(step: _Step, taken: list[float], values: Mapping[str, float | None]) -> float:
+    def _compute_step(
+        step: _Step, operands: list[float], values: Mapping[str, float | None]
+    ) -> float:
         if step.function is not None:
-            return float(step.function(*(np.float64(number) for number in taken)))
+            return float(step.function(*(np.float64(number) for number in operands)))
         if step.constant is not None:
             return step.constant
         value = values[step.name]
@@ -193,8 +195,8 @@ def parse(text: str, names: Collection[str], *, kind: str = "measure") -> Expres
         raise ScoreError(text[:60] + " ...", 0, f"longer than {MAX_LENGTH} characters")
     text = _one_line(text)
     _check_depth(text)
-    steps, used = _compile(_tree(text), text, tuple(names), kind)
-    return Expression(text, tuple(used), tuple(steps))
+    steps, names_used = _compile(_tree(text), text, tuple(names), kind)
+    return Expression(text, tuple(names_used), tuple(steps))
 
 
 def _tree(text: str) -> lark.Tree[Any]:
@@ -237,10 +239,10 @@ def _compile(
 ) -> tuple[list[_Step], dict[str, None]]:
     """Turn a syntax tree into steps, without recursion: chains may be thousands long."""
     steps: list[_Step] = []
-    used: dict[str, None] = {}
-    todo: list[lark.Tree[Any] | _Step] = [tree]
-    while todo:
-        node = todo.pop()
+    names_used: dict[str, None] = {}
+    stack: list[lark.Tree[Any] | _Step] = [tree]
+    while stack:
+        node = stack.pop()
         if isinstance(node, _Step):
             steps.append(node)
             continue
@@ -249,14 +251,14 @@ def _compile(
         if node.data == "number":
             steps.append(_Step(column, 0, constant=_number(str(parts[0]), column, text)))
         elif node.data == "name":
-            steps.append(_name(str(parts[0]), column, text, names, kind, used))
+            steps.append(_name(str(parts[0]), column, text, names, kind, names_used))
         else:
             tokens = [part for part in parts if isinstance(part, str)]  # lark's are texts
             operands = [part for part in parts if not isinstance(part, str)]
             if node.data != "start":
-                todo.append(_operation(node.data, tokens, len(operands), column, text))
-            todo.extend(reversed(operands))
-    return steps, used
+                stack.append(_operation(node.data, tokens, len(operands), column, text))
+            stack.extend(reversed(operands))
+    return steps, names_used
 
 
 def _number(word: str, column: int, text: str) -> float:
@@ -267,40 +269,47 @@ def _number(word: str, column: int, text: str) -> float:
 
 
 def _name(
-    name: str, column: int, text: str, names: tuple[str, ...], kind: str, used: dict[str, None]
+    name: str,
+    column: int,
+    text: str,
+    names: tuple[str, ...],
+    kind: str,
+    names_used: dict[str, None],
 ) -> _Step:
     if name in names:
-        used[name] = None
+        names_used[name] = None
         return _Step(column, 0, name=name)
     if name in CONSTANTS:
         return _Step(column, 0, constant=CONSTANTS[name])
     if name in FUNCTIONS:
         raise ScoreError(text, column, f"{name} is a function; expected {name}(...)")
-    known = ", ".join(names) or "none"
-    near = did_you_mean(name, [*names, *CONSTANTS])
-    raise ScoreError(text, column, f"no {kind} is called {name!r}.{near} Known: {known}")
+    valid_names = ", ".join(names) or "none"
+    suggestion = did_you_mean(name, [*names, *CONSTANTS])
+    raise ScoreError(
+        text, column, f"no {kind} is called {name!r}.{suggestion} Known: {valid_names}"
+    )
 
 
 def _operation(kind: str, tokens: list[Any], count: int, column: int, text: str) -> _Step:
     if kind == "choice":
-        return _Step(column, 3, _if)
+        return _Step(column, 3, _choose)
     if kind == "signed":
         return _Step(column, 1, np.negative if tokens[0] == "-" else np.positive)
     if kind == "binary":
         return _Step(tokens[0].start_pos or 0, 2, OPERATORS[str(tokens[0])])
     name = str(tokens[0])
     if name not in FUNCTIONS:
-        near = did_you_mean(name, FUNCTIONS) or f" Known: {', '.join(FUNCTIONS)}"
-        raise ScoreError(text, column, f"no function is called {name!r}.{near}")
-    wanted, function = FUNCTIONS[name]
-    if count != wanted if wanted is not None else count == 0:
-        expected = "at least 1 argument" if wanted is None else f"{wanted} argument(s)"
+        suggestion = did_you_mean(name, FUNCTIONS) or f" Known: {', '.join(FUNCTIONS)}"
+        raise ScoreError(text, column, f"no function is called {name!r}.{suggestion}")
+    n_expected, function = FUNCTIONS[name]
+    if count != n_expected if n_expected is not None else count == 0:
+        expected = "at least 1 argument" if n_expected is None else f"{n_expected} argument(s)"
         raise ScoreError(text, column, f"{name} takes {expected}, not {count}")
     return _Step(column, count, function)
 
 
-def _if(condition: float, then: float, otherwise: float) -> float:
-    return then if condition != 0.0 else otherwise
+def _choose(condition: float, value_if_true: float, value_if_false: float) -> float:
+    return value_if_true if condition != 0.0 else value_if_false
 
 
 def _sum(*values: float) -> float:
@@ -348,7 +357,7 @@ FUNCTIONS: dict[str, tuple[int | None, Function]] = {
     "cos": (1, np.cos),
     "cosh": (1, elementwise.cosh),
     "exp": (1, elementwise.exp),
-    "if": (3, _if),
+    "if": (3, _choose),
     "ln": (1, elementwise.log),
     "log": (1, elementwise.log10),
     "log10": (1, elementwise.log10),

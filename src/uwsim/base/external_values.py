@@ -85,8 +85,8 @@ def read_quaternion(message: QuaternionMessage) -> Array | None:
         scaling, squares of components below 1e-162 or above 1e154 are 0 or infinite.
     """
     wxyz = np.array([message.w, message.x, message.y, message.z])
-    largest = float(np.abs(wxyz).max())
-    return wxyz / largest if 0.0 < largest < math.inf else None
+    max_component = float(np.abs(wxyz).max())
+    return wxyz / max_component if 0.0 < max_component < math.inf else None
 
 
 def read_pose(message: PoseMessage) -> Pose | None:

@@ -51,9 +51,17 @@ def write_rotation(roll: float, pitch: float, yaw: float, rotation: Array) -> No
     """Write what `rotation_from_rpy` returns into (3, 3)."""
     a, b, c = math.cos(roll), math.cos(pitch), math.cos(yaw)
     u, v, w = math.sin(roll), math.sin(pitch), math.sin(yaw)
-    right, below = c * v, w * v
-    rotation[0, 0], rotation[0, 1], rotation[0, 2] = c * b, right * u - w * a, w * u + right * a
-    rotation[1, 0], rotation[1, 1], rotation[1, 2] = w * b, c * a + below * u, below * a - c * u
+    cos_yaw_sin_pitch, sin_yaw_sin_pitch = c * v, w * v
+    rotation[0, 0], rotation[0, 1], rotation[0, 2] = (
+        c * b,
+        cos_yaw_sin_pitch * u - w * a,
+        w * u + cos_yaw_sin_pitch * a,
+    )
+    rotation[1, 0], rotation[1, 1], rotation[1, 2] = (
+        w * b,
+        c * a + sin_yaw_sin_pitch * u,
+        sin_yaw_sin_pitch * a - c * u,
+    )
     rotation[2, 0], rotation[2, 1], rotation[2, 2] = -v, b * u, b * a
     rotation += 0.0  # no zero is negative
 
@@ -82,15 +90,15 @@ def rotation_about(axis: Array, angle: float) -> Array:
     """Rotation by ``angle`` [rad] about the (not necessarily unit) ``axis`` (3,), Rodrigues."""
     unit = np.asarray(axis, dtype=np.float64) / length(axis)
     k = np.array([[0.0, -unit[2], unit[1]], [unit[2], 0.0, -unit[0]], [-unit[1], unit[0], 0.0]])
-    turned: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * product(k, k)
-    return turned
+    rotation: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * product(k, k)
+    return rotation
 
 
 def quaternion_from_rotation(rotation: Array) -> Array:
     """Unit quaternion wxyz, w >= 0, of a rotation matrix (3, 3) (Shepperd's method), (4,)."""
-    found = np.empty(4)
-    write_quaternion(np.ascontiguousarray(rotation, dtype=np.float64), found)
-    return found
+    quaternion = np.empty(4)
+    write_quaternion(np.ascontiguousarray(rotation, dtype=np.float64), quaternion)
+    return quaternion
 
 
 @njit
@@ -100,12 +108,12 @@ def write_quaternion(rotation: Array, quaternion: Array) -> None:
     yx, yy, yz = rotation[1]
     zx, zy, zz = rotation[2]
     trace = xx + yy + zz
-    most = max(trace, xx, yy, zz)
-    if trace == most:
+    largest_term = max(trace, xx, yy, zz)
+    if trace == largest_term:
         w, x, y, z = 1.0 + trace, zy - yz, xz - zx, yx - xy
-    elif xx == most:
+    elif xx == largest_term:
         w, x, y, z = zy - yz, 1.0 + xx - yy - zz, yx + xy, zx + xz
-    elif yy == most:
+    elif yy == largest_term:
         w, x, y, z = xz - zx, xy + yx, 1.0 + yy - zz - xx, zy + yz
     else:
         w, x, y, z = yx - xy, xz + zx, yz + zy, 1.0 + zz - xx - yy
@@ -270,18 +278,22 @@ class Intrinsics:
             skew=self.skew * factor,
         )
 
-    def project(self, points: Array, *, behind: bool = False) -> Array:
+    def project(self, points: Array, *, includes_behind: bool = False) -> Array:
         """Image coordinates (n, 2) [px] of points in the camera frame (n, 3) [m].
 
-        Points at or behind the camera plane give NaN; with ``behind`` only those in the plane do,
-        and those behind it are projected through the camera's centre, upside down.
+        Points at or behind the camera plane give NaN. With ``includes_behind`` only those in the
+        plane do; those behind it are projected through the camera's centre, upside down.
         """
-        pixels = [self.pixel(x, y, z, behind=behind) for x, y, z in points.tolist()]
+        pixels = [
+            self.pixel(x, y, z, includes_behind=includes_behind) for x, y, z in points.tolist()
+        ]
         return np.array(pixels).reshape(-1, 2)
 
-    def pixel(self, x: float, y: float, z: float, *, behind: bool = False) -> tuple[float, float]:
+    def pixel(
+        self, x: float, y: float, z: float, *, includes_behind: bool = False
+    ) -> tuple[float, float]:
         """Image coordinates u, v [px] of one point, as `project` has them: cheap for a few."""
-        depth = -z if z < 0.0 or (behind and z != 0.0) else math.nan
+        depth = -z if z < 0.0 or (includes_behind and z != 0.0) else math.nan
         return self.cx + (self.fx * x + self.skew * y) / depth, self.cy - self.fy * y / depth
 
     def rays(self) -> Array:

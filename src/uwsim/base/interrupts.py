@@ -87,7 +87,7 @@ def block_interrupts() -> Iterator[None]:
     For this process it waits until the block is left. The system may hand it to another thread,
     which does not block it, and Python would raise it in the main one: that one waits, too.
     """
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    previous_mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     is_outermost = current_thread() is main_thread() and not _is_blocked.is_set()
     if is_outermost:
         _is_blocked.set()
@@ -96,7 +96,7 @@ def block_interrupts() -> Iterator[None]:
     finally:
         if is_outermost:
             _is_blocked.clear()
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+        signal.pthread_sigmask(signal.SIG_SETMASK, previous_mask)
 
 
 def _raise(number: int, frame: FrameType | None) -> None:

@@ -19,15 +19,15 @@ from typing import Any, NamedTuple, TypeVar, cast
 import numpy as np
 
 M = TypeVar("M")
-_FITTING: dict[str, tuple[type, ...]] = {
+_ACCEPTED_TYPES: dict[str, tuple[type, ...]] = {
     "float": (float, int, np.number, np.bool_),
     "int": (int, np.integer, np.bool_),
     "bool": (bool, int, np.bool_),
     "str": (str,),
 }
-_NUMBERS = frozenset((bool, int, float))
-_PLAIN = _NUMBERS | {str}
-_WORDS = {
+_NUMBER_TYPES = frozenset((bool, int, float))
+_SCALAR_TYPES = _NUMBER_TYPES | {str}
+_EXPECTED_TEXTS = {
     "float": "a number",
     "int": "a whole number",
     "bool": "True or False",
@@ -42,22 +42,22 @@ _ARRAY = re.compile(r"np\.ndarray\[.*np\.dtype\[np\.(\w+)\]\]")
 _LIST = re.compile(r"list\[(.*)\]")
 
 
-def find_invalid_field(message: object, of: str = "", *, converts: bool = True) -> str | None:
+def find_invalid_field(message: object, prefix: str = "", *, converts: bool = True) -> str | None:
     """Report the first field of a message that does not fit its definition, or None.
 
-    Lists and tuples given for arrays become arrays, or do not fit (``converts``). ``of`` is the
+    Lists and tuples given for arrays become arrays, or do not fit (``converts``). ``prefix`` is the
     path to a message in another, with a dot behind it.
     """
-    return None if _is_plainly_fit(message) else _check_fields(message, of, converts)
+    return None if _is_valid_quickly(message) else _check_fields(message, prefix, converts)
 
 
-def _check_fields(message: object, of: str, converts: bool) -> str | None:
+def _check_fields(message: object, prefix: str, converts: bool) -> str | None:
     """Report as `find_invalid_field` does, field by field."""
-    for name, kind, inner in _definition(cast(Hashable, message.__class__)):
+    for name, kind, element_type in _definition(cast(Hashable, message.__class__)):
         value = getattr(message, name)
-        wrong: str | None = None
+        error: str | None = None
         if kind == "array" and not isinstance(value, np.ndarray):
-            value = _array(value, inner) if converts else None
+            value = _array(value, element_type) if converts else None
             if value is not None:
                 object.__setattr__(message, name, value)  # of a frozen one, too
         if kind == "array":
@@ -65,40 +65,42 @@ def _check_fields(message: object, of: str, converts: bool) -> str | None:
         elif kind == "list":
             is_fit = isinstance(value, list | tuple)
             for i, item in enumerate(value if is_fit else ()):
-                if inner == "str":
+                if element_type == "str":
                     is_fit = is_fit and isinstance(item, str)
-                elif wrong is None and (is_fit := is_fit and _is_message(item, inner)):
-                    wrong = find_invalid_field(item, f"{of}{name}[{i}].", converts=converts)
+                elif error is None and (is_fit := is_fit and _is_message(item, element_type)):
+                    error = find_invalid_field(item, f"{prefix}{name}[{i}].", converts=converts)
         elif kind == "message":
-            is_fit = _is_message(value, inner)
-            wrong = find_invalid_field(value, f"{of}{name}.", converts=converts) if is_fit else None
+            is_fit = _is_message(value, element_type)
+            error = (
+                find_invalid_field(value, f"{prefix}{name}.", converts=converts) if is_fit else None
+            )
         else:
-            is_fit = isinstance(value, _FITTING[kind])
+            is_fit = isinstance(value, _ACCEPTED_TYPES[kind])
         if not is_fit:
             text = " ".join(repr(getattr(message, name)).split())
             text = text if len(text) <= 60 else text[:57] + "..."
-            return f"{of}{name} is {text}, expected {_WORDS[kind]}"
-        if wrong is not None:
-            return wrong
+            return f"{prefix}{name} is {text}, expected {_EXPECTED_TEXTS[kind]}"
+        if error is not None:
+            return error
     return None
 
 
 def check_and_freeze(message: object) -> str | None:
     """Report as `find_invalid_field` does; make the arrays of a valid message read-only."""
-    if _is_plainly_fit(message, freezes=True):
+    if _is_valid_quickly(message, freezes=True):
         return None
-    wrong = _check_fields(message, "", converts=True)
-    if wrong is None:
+    error = _check_fields(message, "", converts=True)
+    if error is None:
         freeze(message)
-    return wrong
+    return error
 
 
-def _is_plainly_fit(message: object, *, freezes: bool = False) -> bool:
+def _is_valid_quickly(message: object, *, freezes: bool = False) -> bool:
     """Whether each field has exactly its type, in one look; False for messages in lists and doubts.
 
     With ``freezes`` the arrays of one that has are read-only from now on.
     """
-    parts = _parts(cast(Hashable, message.__class__))
+    parts = _make_getters(cast(Hashable, message.__class__))
     if parts is None:
         return False
     try:
@@ -132,14 +134,14 @@ def find_invalid_number(
     Returns:
         What was found, and what was expected, with what becomes of it; None: all is well.
     """
-    values = _values_at(tuple(paths))(message)
+    values = _getter(tuple(paths))(message)
     for value in values if len(paths) > 1 else (values,):
         if isinstance(value, np.ndarray):
-            is_usual = are_within(value, limit)
+            is_within = are_within(value, limit)
         else:
-            is_usual = -limit <= value <= limit
-        if not is_usual:
-            return _odd_number(message, paths, limit)
+            is_within = -limit <= value <= limit
+        if not is_within:
+            return _describe_invalid_number(message, paths, limit)
     return None
 
 
@@ -150,33 +152,38 @@ def are_within(values: np.ndarray[Any, Any], limit: float) -> bool:
     return bool(np.abs(values).max() <= limit)
 
 
-def _odd_number(message: object, paths: Sequence[str], limit: float) -> tuple[str, str] | None:
+def _describe_invalid_number(
+    message: object, paths: Sequence[str], limit: float
+) -> tuple[str, str] | None:
     """The same, where there is one."""
-    beyond: tuple[str, str] | None = None
+    excess: tuple[str, str] | None = None
     for path in paths:
         value = operator.attrgetter(path)(message)
         numbers = value.ravel().tolist() if isinstance(value, np.ndarray) else [value]
         for index, number in enumerate(numbers):
             if -limit <= number <= limit:
                 continue
-            at = f"{path}[{index}]" if isinstance(value, np.ndarray) else path
+            place = f"{path}[{index}]" if isinstance(value, np.ndarray) else path
             if not math.isfinite(number):
-                return f"{at} is {number}", "a finite number; it is not followed"
-            if beyond is None:
-                most = f"{limit:g}"
-                beyond = f"{at} is {number:g}", f"-{most} to {most}; the nearest is taken"
-    return beyond
+                return f"{place} is {number}", "a finite number; it is not followed"
+            if excess is None:
+                limit_text = f"{limit:g}"
+                excess = (
+                    f"{place} is {number:g}",
+                    f"-{limit_text} to {limit_text}; the nearest is taken",
+                )
+    return excess
 
 
 @functools.cache
-def _values_at(paths: tuple[str, ...]) -> Callable[[object], Any]:
+def _getter(paths: tuple[str, ...]) -> Callable[[object], Any]:
     """What reads the values at some paths; of one path, the value itself."""
     return operator.attrgetter(*paths)
 
 
 def freeze(message: M) -> M:
     """Make every array inside a message read-only, and return it."""
-    for name in _with_arrays(cast(Hashable, message.__class__)):
+    for name in _array_fields(cast(Hashable, message.__class__)):
         _freeze_value(getattr(message, name))
     return message
 
@@ -194,22 +201,22 @@ def _freeze_value(value: object) -> None:
 def copy_message(message: M) -> M:
     """Return the same message with arrays, lists and messages of its own."""
     if hasattr(message, "__dict__"):
-        own: M = object.__new__(message.__class__)
-        vars(own).update(vars(message))
+        copied_message: M = object.__new__(message.__class__)
+        vars(copied_message).update(vars(message))
     else:
-        own = copy.copy(message)
-    for name in _names(cast(Hashable, message.__class__)):
+        copied_message = copy.copy(message)
+    for name in _field_names(cast(Hashable, message.__class__)):
         value = getattr(message, name)
-        if value.__class__ not in _PLAIN:
-            object.__setattr__(own, name, _copied_value(value))  # of a frozen one, too
-    return own
+        if value.__class__ not in _SCALAR_TYPES:
+            object.__setattr__(copied_message, name, _copy_value(value))  # of a frozen one, too
+    return copied_message
 
 
-def _copied_value(value: object) -> object:
+def _copy_value(value: object) -> object:
     if isinstance(value, np.ndarray):
         return np.array(value)
     if isinstance(value, list | tuple):
-        items = [_copied_value(item) for item in value]
+        items = [_copy_value(item) for item in value]
         return items if isinstance(value, list) else tuple(items)
     return copy_message(value) if dataclasses.is_dataclass(value) else value
 
@@ -220,39 +227,43 @@ def size_of(value: object) -> int:
         return value.nbytes
     if isinstance(value, str):
         return len(value)
-    if value.__class__ in _PLAIN:
+    if value.__class__ in _SCALAR_TYPES:
         return sys.getsizeof(value)
     if isinstance(value, list | tuple):
         return sum(map(size_of, value))
     if dataclasses.is_dataclass(value):
         size = 0
-        for name in _names(cast(Hashable, value.__class__)):
+        for name in _field_names(cast(Hashable, value.__class__)):
             part = getattr(value, name)
-            size += sys.getsizeof(part) if part.__class__ in _NUMBERS else size_of(part)
+            size += sys.getsizeof(part) if part.__class__ in _NUMBER_TYPES else size_of(part)
         return size
     return sys.getsizeof(value)
 
 
 @functools.cache
-def _names(cls: Hashable) -> tuple[str, ...]:
+def _field_names(cls: Hashable) -> tuple[str, ...]:
     return tuple(field.name for field in dataclasses.fields(cast("Any", cls)))
 
 
 @functools.cache
-def _with_arrays(cls: Hashable) -> tuple[str, ...]:
+def _array_fields(cls: Hashable) -> tuple[str, ...]:
     """Fields that are, or may hold, arrays; those of a message that none of its fields has not."""
     assert isinstance(cls, type)
     kinds = {name: kind for name, kind, _ in _definition(cls)}
-    found = []
+    names = []
     for field in dataclasses.fields(cls):
-        inner = _class_in(cls, str(field.type)) if kinds.get(field.name) == "message" else None
-        is_plain = kinds.get(field.name) in _FITTING or str(field.type).startswith("ClassVar")
-        if not is_plain and (inner is None or _with_arrays(cast(Hashable, inner))):
-            found.append(field.name)
-    return tuple(found)
+        message_class = (
+            _class_in(cls, str(field.type)) if kinds.get(field.name) == "message" else None
+        )
+        is_plain = kinds.get(field.name) in _ACCEPTED_TYPES or str(field.type).startswith(
+            "ClassVar"
+        )
+        if not is_plain and (message_class is None or _array_fields(cast(Hashable, message_class))):
+            names.append(field.name)
+    return tuple(names)
 
 
-class _Parts(NamedTuple):
+class _Getters(NamedTuple):
     """What reads the fields of a message, and those of messages in it, by their kinds."""
 
     values: Callable[[object], tuple[Any, ...]]
@@ -268,7 +279,7 @@ class _Parts(NamedTuple):
 
 
 @functools.cache
-def _parts(cls: Hashable) -> _Parts | None:
+def _make_getters(cls: Hashable) -> _Getters | None:
     """Return what reads the fields of a message class; None if the class of a part is unknown."""
     paths = _paths(cls)
     if paths is None:
@@ -276,12 +287,19 @@ def _parts(cls: Hashable) -> _Parts | None:
     values = [path for path, kind, _ in paths if kind not in ("array", "texts")]
     types = tuple(type_ for _, kind, type_ in paths if kind not in ("array", "texts"))
     arrays, texts, lists = (
-        [path for path, kind, _ in paths if kind == wanted] for wanted in ("array", "texts", "list")
+        [path for path, kind, _ in paths if kind == part_kind]
+        for part_kind in ("array", "texts", "list")
     )
-    return _Parts(_reader(values), types, _reader(arrays), _reader(texts), _reader(lists))
+    return _Getters(
+        _tuple_getter(values),
+        types,
+        _tuple_getter(arrays),
+        _tuple_getter(texts),
+        _tuple_getter(lists),
+    )
 
 
-def _reader(paths: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
+def _tuple_getter(paths: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
     """Return what reads the values at some paths."""
     if len(paths) > 1:
         return operator.attrgetter(*paths)
@@ -297,57 +315,59 @@ def _paths(cls: Hashable) -> list[tuple[str, str, type]] | None:
     The kind is ``array``, ``texts`` or ``list`` (of messages), else empty.
     """
     assert isinstance(cls, type)
-    found: list[tuple[str, str, type]] = []
-    for name, kind, inner in _definition(cls):
-        if kind in _FITTING:
-            found.append((name, "", _FITTING[kind][0]))
+    paths: list[tuple[str, str, type]] = []
+    for name, kind, element_type in _definition(cls):
+        if kind in _ACCEPTED_TYPES:
+            paths.append((name, "", _ACCEPTED_TYPES[kind][0]))
         elif kind == "array":
-            found.append((name, "array", np.ndarray))
+            paths.append((name, "array", np.ndarray))
         elif kind == "list":
-            found.append((name, "texts" if inner == "str" else "list", list))
+            paths.append((name, "texts" if element_type == "str" else "list", list))
         else:
-            declared = next(field.type for field in dataclasses.fields(cls) if field.name == name)
-            part = _class_in(cls, str(declared))
-            within = None if part is None else _paths(cast(Hashable, part))
-            if part is None or within is None:
+            annotation = next(field.type for field in dataclasses.fields(cls) if field.name == name)
+            part_class = _class_in(cls, str(annotation))
+            part_paths = None if part_class is None else _paths(cast(Hashable, part_class))
+            if part_class is None or part_paths is None:
                 return None
-            found.append((name, "", part))
-            found += [(f"{name}.{path}", of, type_) for path, of, type_ in within]
-    return found
+            paths.append((name, "", part_class))
+            paths += [(f"{name}.{path}", part_kind, type_) for path, part_kind, type_ in part_paths]
+    return paths
 
 
 @functools.cache
 def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
-    """Field, kind (a key of `_WORDS`), and what is in it.
+    """Field, kind (a key of `_EXPECTED_TEXTS`), and what is in it.
 
     That is the dtype of an array, ``str`` or the message type of a list, the type of a message.
     """
     assert isinstance(cls, type)
-    found = []
+    definition = []
     for field in dataclasses.fields(cls):
-        message = str(field.type)
-        if array := _ARRAY.fullmatch(message):
-            found.append((field.name, "array", array[1]))
-        elif inner := _LIST.fullmatch(message):
-            found.append((field.name, "list", _message_type(cls, inner[1])))
-        elif message in _FITTING:
-            found.append((field.name, message, ""))
-        elif message.isidentifier():  # the name of another message
-            found.append((field.name, "message", _message_type(cls, message)))
-    return tuple(found)
+        annotation = str(field.type)
+        if array_match := _ARRAY.fullmatch(annotation):
+            definition.append((field.name, "array", array_match[1]))
+        elif element_match := _LIST.fullmatch(annotation):
+            definition.append((field.name, "list", _message_type(cls, element_match[1])))
+        elif annotation in _ACCEPTED_TYPES:
+            definition.append((field.name, annotation, ""))
+        elif annotation.isidentifier():  # the name of another message
+            definition.append((field.name, "message", _message_type(cls, annotation)))
+    return tuple(definition)
 
 
-def _message_type(cls: type, message: str) -> str:
+def _message_type(cls: type, annotation: str) -> str:
     """ROS's name of a message that a definition mentions; ``str`` stays."""
-    name = message.rpartition(".")[2]
-    found = _class_in(cls, message)
-    return str(getattr(found, "__msgtype__", name.replace("__", "/")))
+    name = annotation.rpartition(".")[2]
+    message_class = _class_in(cls, annotation)
+    return str(getattr(message_class, "__msgtype__", name.replace("__", "/")))
 
 
-def _class_in(cls: type, message: str) -> type | None:
+def _class_in(cls: type, annotation: str) -> type | None:
     """The class of a message that a definition mentions; None if its module does not have it."""
-    found = getattr(sys.modules[cls.__module__], message.rpartition(".")[2], None)
-    return found if dataclasses.is_dataclass(found) and isinstance(found, type) else None
+    attribute = getattr(sys.modules[cls.__module__], annotation.rpartition(".")[2], None)
+    return (
+        attribute if dataclasses.is_dataclass(attribute) and isinstance(attribute, type) else None
+    )
 
 
 def _array(value: object, dtype: str) -> np.ndarray[Any, Any] | None:

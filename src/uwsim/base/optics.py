@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-EXPONENT_SEEN = math.log(50.0)
+CONTRAST_EXPONENT = math.log(50.0)
 """Exponent of the contrast threshold of 2 %, below which nothing is seen."""
 DENSITY = "density"
 LENGTHS: dict[str, Callable[[float], float]] = {
     "attenuationLength": lambda length: 1.0 / length,
-    "visibilityRange": lambda length: math.sqrt(EXPONENT_SEEN) / length,
+    "visibilityRange": lambda length: math.sqrt(CONTRAST_EXPONENT) / length,
 }
 """``u:unit`` -> fog density [1/m] of a length [m], and the same the other way round."""

@@ -14,7 +14,7 @@ ESCAPED_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
 BRACKET = re.compile(r'[\[\]{}]|"[^"\\]*(?:\\.[^"\\]*)*(?:"|\\?\Z)', re.S)
 """A bracket, or a string, whose brackets do not count. One without an end goes on to the end of the
 text: otherwise each of its quotes would be tried, in a time that grows with the square."""
-STEP = {"[": 1, "{": 1, "]": -1, "}": -1}
+DEPTH_STEPS = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 
 def read_peer_json(text: str) -> Any:
@@ -26,16 +26,16 @@ def read_peer_json(text: str) -> Any:
     """
     if text.count("[") + text.count("{") > MAX_DEPTH and _depth(text) > MAX_DEPTH:
         raise ValueError(f"it is nested more than {MAX_DEPTH} deep")
-    found = json.loads(text)
+    value = json.loads(text)
     if ESCAPED_SURROGATE.search(text):
         try:
-            json.dumps(found, ensure_ascii=False).encode()
+            json.dumps(value, ensure_ascii=False).encode()
         except UnicodeEncodeError:
             raise ValueError("it has half of a surrogate pair, which is no character") from None
-    return found
+    return value
 
 
 def _depth(text: str) -> int:
     """Return how deep the brackets of a text are nested."""
-    steps = (STEP.get(found[0], 0) for found in BRACKET.finditer(text))
+    steps = (DEPTH_STEPS.get(bracket[0], 0) for bracket in BRACKET.finditer(text))
     return max(accumulate(steps), default=0)

@@ -116,11 +116,11 @@ class GeneratorState(Item):
     """Its counter, key and buffer, little-endian words of 64 bits."""
     position: int
     """How many words of the buffer are drawn."""
-    half: int | None
+    half_word: int | None
     """The half of a word that is left."""
 
     @staticmethod
-    def by(generator: np.random.Generator) -> GeneratorState:
+    def from_generator(generator: np.random.Generator) -> GeneratorState:
         """Read it from a generator of `uwsim.base.rng.stream`."""
         state: Any = generator.bit_generator.state
         counter, key = state["state"].values()
@@ -136,71 +136,71 @@ class GeneratorState(Item):
             "state": {"counter": words[:4], "key": words[4:6]},
             "buffer": words[6:],
             "buffer_pos": self.position,
-            "has_uint32": int(self.half is not None),
-            "uinteger": self.half or 0,
+            "has_uint32": int(self.half_word is not None),
+            "uinteger": self.half_word or 0,
         }
 
 
 def copy_value(value: Any) -> Any:
     """Return a value that shares nothing that changes with this one."""
-    return _COPIES[type(value)](value)
+    return _COPIERS[type(value)](value)
 
 
 def copy_record(record: R) -> R:
     """Return a record of values alone."""
-    copy: R = _COPIES[type(record)](record)
+    copy: R = _COPIERS[type(record)](record)
     return copy
 
 
 def changing_fields(kind: type) -> tuple[int, ...]:
     """Return the places of the fields of a dataclass that may hold more than a number or a text."""
     return tuple(
-        place
-        for place, each in enumerate(dataclasses.fields(kind))
-        if not _SCALAR_TYPES.issuperset(str(each.type).split(" | "))
+        index
+        for index, field in enumerate(dataclasses.fields(kind))
+        if not _SCALAR_TYPES.issuperset(str(field.type).split(" | "))
     )
 
 
-def fields_of(record: object) -> tuple[Any, ...]:
+def field_values(record: object) -> tuple[Any, ...]:
     """Return the values of the fields of a dataclass with slots, as they are."""
-    found: tuple[Any, ...] = _FIELDS[type(record)](record)
-    return found
+    values: tuple[Any, ...] = _FIELD_GETTERS[type(record)](record)
+    return values
 
 
-class _Fields(dict[type, Callable[[Any], Any]]):
+class _FieldGetters(dict[type, Callable[[Any], Any]]):
     """What returns the values of the fields, by the type of dataclass."""
 
-    def __missing__(self, kind: type) -> Callable[[Any], Any]:
-        names = [each.name for each in dataclasses.fields(kind)]
-        self[kind] = read = attrgetter(*names) if names else lambda record: ()
+    def __missing__(self, record_type: type) -> Callable[[Any], Any]:
+        names = [field.name for field in dataclasses.fields(record_type)]
+        self[record_type] = read = attrgetter(*names) if names else lambda record: ()
         if len(names) == 1:
-            self[kind] = lambda record: (read(record),)
-        return self[kind]
+            self[record_type] = lambda record: (read(record),)
+        return self[record_type]
 
 
-class _Copies(dict[type, Callable[[Any], Any]]):
+class _Copiers(dict[type, Callable[[Any], Any]]):
     """What copies a value, by its type."""
 
-    def __missing__(self, kind: type) -> Callable[[Any], Any]:
-        self[kind] = _return_unchanged
-        if issubclass(kind, Record):
-            self[kind] = _record_copier(kind)
-        elif issubclass(kind, ExternalValue):
-            self[kind] = kind.value
-        return self[kind]
+    def __missing__(self, value_type: type) -> Callable[[Any], Any]:
+        self[value_type] = _return_unchanged
+        if issubclass(value_type, Record):
+            self[value_type] = _record_copier(value_type)
+        elif issubclass(value_type, ExternalValue):
+            self[value_type] = value_type.value
+        return self[value_type]
 
 
 def _record_copier(kind: type[Any]) -> Callable[[Any], Any]:
     """Return what copies the records of a class: of most fields there is nothing to copy."""
-    fields, places, copies = _FIELDS[kind], changing_fields(kind), _COPIES
-    if not places:
+    fields, indices, copiers = _FIELD_GETTERS[kind], changing_fields(kind), _COPIERS
+    if not indices:
         return lambda record: kind(*fields(record))
 
     def copy(record: Any) -> Any:
         values = [*fields(record)]
-        for place in places:
-            value = values[place]
-            values[place] = copies[type(value)](value)
+        for index in indices:
+            value = values[index]
+            values[index] = copiers[type(value)](value)
         return kind(*values)
 
     return copy
@@ -215,14 +215,14 @@ def _copy_array(value: Any) -> Any:
 
 
 _SCALAR_TYPES = {"int", "float", "bool", "str", "bytes", "None"}
-_FIELDS = _Fields()
-_COPIES: _Copies = _Copies(
+_FIELD_GETTERS = _FieldGetters()
+_COPIERS: _Copiers = _Copiers(
     {
         NoState: _return_unchanged,
         np.ndarray: _copy_array,
-        np.random.Generator: GeneratorState.by,
-        list: lambda value: [_COPIES[type(each)](each) for each in value],
-        dict: lambda value: {key: _COPIES[type(each)](each) for key, each in value.items()},
+        np.random.Generator: GeneratorState.from_generator,
+        list: lambda value: [_COPIERS[type(each)](each) for each in value],
+        dict: lambda value: {key: _COPIERS[type(each)](each) for key, each in value.items()},
         deque: lambda value: deque(map(copy_value, value), value.maxlen),
     }
 )
@@ -236,7 +236,7 @@ def assign(record: Record, values: Record) -> None:
     """
     if type(record) is not type(values):
         raise wrong_scene_error()
-    assign_fields(record, dict(zip(values.__slots__, fields_of(values), strict=True)))
+    assign_fields(record, dict(zip(values.__slots__, field_values(values), strict=True)))
 
 
 def copy_fields(record: Record, names: Collection[str]) -> dict[str, Any]:
@@ -250,60 +250,63 @@ def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
     Raises:
         UwsimError: they are those of another part.
     """
-    for name, then in values.items():
-        if not _is_assigned(getattr(record, name), then):
-            setattr(record, name, copy_value(then))
+    for name, new_value in values.items():
+        if not _assign_in_place(getattr(record, name), new_value):
+            setattr(record, name, copy_value(new_value))
 
 
-def _is_assigned(now: Any, then: Any) -> bool:
+def _assign_in_place(old_value: Any, new_value: Any) -> bool:
     """Write a value into what holds it; False where the field must be set instead."""
-    if _is_parts(now):
-        assign(now, then)
-    elif isinstance(now, np.random.Generator):
-        _require_type(then, GeneratorState).set(now)
-    elif isinstance(now, ExternalValue):
-        now.set(then)
-    elif isinstance(now, np.ndarray) and now.flags.writeable:
-        if not isinstance(then, np.ndarray) or (then.shape, then.dtype) != (now.shape, now.dtype):
+    if _is_part_record(old_value):
+        assign(old_value, new_value)
+    elif isinstance(old_value, np.random.Generator):
+        _require_type(new_value, GeneratorState).set(old_value)
+    elif isinstance(old_value, ExternalValue):
+        old_value.set(new_value)
+    elif isinstance(old_value, np.ndarray) and old_value.flags.writeable:
+        if not isinstance(new_value, np.ndarray) or (new_value.shape, new_value.dtype) != (
+            old_value.shape,
+            old_value.dtype,
+        ):
             return False
-        now[...] = then
-    elif isinstance(now, dict) and any(map(_is_parts, now.values())):
-        if list(_require_type(then, dict)) != list(now):
+        old_value[...] = new_value
+    elif isinstance(old_value, dict) and any(map(_is_part_record, old_value.values())):
+        if list(_require_type(new_value, dict)) != list(old_value):
             raise wrong_scene_error()
-        for key, each in now.items():
-            assign(each, then[key])
-    elif isinstance(now, list) and any(map(_is_parts, now)):
-        if len(_require_type(then, list)) != len(now):
+        for key, part in old_value.items():
+            assign(part, new_value[key])
+    elif isinstance(old_value, list) and any(map(_is_part_record, old_value)):
+        if len(_require_type(new_value, list)) != len(old_value):
             raise wrong_scene_error()
-        for each, values in zip(now, then, strict=True):
-            assign(each, values)
+        for part, values in zip(old_value, new_value, strict=True):
+            assign(part, values)
     else:
         return False
     return True
 
 
-def _is_parts(value: object) -> bool:
+def _is_part_record(value: object) -> bool:
     """Whether it is the record of a part."""
     return isinstance(value, Record) and not isinstance(value, Item)
 
 
-def is_same(first: Any, second: Any) -> bool:
+def are_equal(value: Any, other: Any) -> bool:
     """Whether two copied values are the same to the bit; nan is the same as nan."""
-    if type(first) is not type(second):
+    if type(value) is not type(other):
         return False
-    if isinstance(first, np.ndarray):
-        is_alike = (first.shape, first.dtype) == (second.shape, second.dtype)
-        return is_alike and first.tobytes() == second.tobytes()
-    if isinstance(first, Record):
-        return all(is_same(getattr(first, n), getattr(second, n)) for n in first.__slots__)
-    if dataclasses.is_dataclass(first):
-        fields = [each.name for each in dataclasses.fields(first) if each.compare]
-        return all(is_same(getattr(first, name), getattr(second, name)) for name in fields)
-    if isinstance(first, dict):
-        return list(first) == list(second) and all(is_same(first[k], second[k]) for k in first)
-    if isinstance(first, list | tuple | deque):
-        return len(first) == len(second) and all(map(is_same, first, second))
-    return bool(first == second) or (first != first and second != second)
+    if isinstance(value, np.ndarray):
+        has_same_type = (value.shape, value.dtype) == (other.shape, other.dtype)
+        return has_same_type and value.tobytes() == other.tobytes()
+    if isinstance(value, Record):
+        return all(are_equal(getattr(value, n), getattr(other, n)) for n in value.__slots__)
+    if dataclasses.is_dataclass(value):
+        fields = [field.name for field in dataclasses.fields(value) if field.compare]
+        return all(are_equal(getattr(value, name), getattr(other, name)) for name in fields)
+    if isinstance(value, dict):
+        return list(value) == list(other) and all(are_equal(value[k], other[k]) for k in value)
+    if isinstance(value, list | tuple | deque):
+        return len(value) == len(other) and all(map(are_equal, value, other))
+    return bool(value == other) or (value != value and other != other)
 
 
 def wrong_scene_error() -> UwsimError:

@@ -69,7 +69,7 @@ def take_due(tables: Records, step: int) -> None:
     """Count the timers that are due at a step, and take the samples of those with a sampler."""
     table = tables[0]
     timers = carray(pointer(table.timers), (table.n,), TIMER)
-    least = NO_STEP
+    next_due = NO_STEP
     for i in range(table.n):
         timer = timers[i]
         counts = view_int64s(timer.counts, 3)
@@ -81,8 +81,8 @@ def take_due(tables: Records, step: int) -> None:
                 time = step * table.timestep
                 view_doubles(timer.values, 1)[0] = time
                 call(timer.function, timer.parameters, timer.values + 8, time)
-        least = min(least, counts[DUE])
-    view_int64s(table.due, 1)[0] = least
+        next_due = min(next_due, counts[DUE])
+    view_int64s(table.due, 1)[0] = next_due
 
 
 @dataclass(slots=True)
@@ -118,11 +118,11 @@ class SampleTimer:
             self._call()
 
 
-def _always(until: float) -> bool:
+def _needs_no_preparation(end: float) -> bool:
     return True
 
 
-def _nothing(time: float) -> None:
+def _prepare_nothing(time: float) -> None:
     """Prepare nothing."""
 
 
@@ -136,13 +136,13 @@ class Sampler:
     """The array that the function reads at its address."""
     n_values: int
     """How many numbers it writes."""
-    prepare: Callable[[float], None] = _nothing
+    prepare: Callable[[float], None] = _prepare_nothing
     """Brings up to date, in Python, what the function reads; called with the time [s] of samples in
     Python, before these."""
-    is_alone: Callable[[float], bool] = _always
+    is_alone: Callable[[float], bool] = _needs_no_preparation
     """Says whether the function needs no preparation in steps that compiled code takes until a time
     [s]."""
-    kept: tuple[object, ...] = field(default=())
+    memory_owners: tuple[object, ...] = field(default=())
     """What the parameters have the addresses of."""
 
     def take(self, time: float) -> Array:
@@ -159,7 +159,7 @@ class Sample(Record):
     """Its time [s], NaN before the first, and the numbers of its `Sampler`, (1 + n,)."""
 
     @staticmethod
-    def of(sampler: Sampler) -> Sample:
+    def before_first(sampler: Sampler) -> Sample:
         """Return that of a sampler that has not taken one."""
         return Sample(np.full(1 + sampler.n_values, math.nan))
 
@@ -176,22 +176,22 @@ class Sampling:
     """A check whether a sample is needed now; None where each sample changes the sensor."""
 
 
-NUMBERS = np.dtype([("addresses", np.int64), ("n", np.int64)])
+ADDRESSES = np.dtype([("addresses", np.int64), ("n", np.int64)])
 """The address of the addresses of some doubles, and how many these are."""
 Addresses = npt.NDArray[np.int64]
 
 
 def number_addresses(
-    array: npt.NDArray[np.float64], places: npt.ArrayLike | None = None
+    array: npt.NDArray[np.float64], numbers: npt.ArrayLike | None = None
 ) -> Addresses:
     """Return the addresses of numbers of a contiguous array, which has to live on, (n,).
 
     Args:
         array: whose numbers these are.
-        places: which, counted through the array by rows; None: all.
+        numbers: which, counted through the array by rows; None: all.
     """
-    chosen = np.arange(array.size) if places is None else np.asarray(places, dtype=np.int64)
-    return address_of(array) + array.itemsize * chosen.ravel()
+    indices = np.arange(array.size) if numbers is None else np.asarray(numbers, dtype=np.int64)
+    return address_of(array) + array.itemsize * indices.ravel()
 
 
 def gather_sampler(
@@ -207,7 +207,7 @@ def gather_sampler(
         prepare: as in `Sampler`.
         is_alone: as in `Sampler`.
     """
-    row = np.zeros(1, NUMBERS)
+    row = np.zeros(1, ADDRESSES)
     row["addresses"], row["n"] = address_of(addresses), len(addresses)
     return Sampler(
         function=function_address(gather),
@@ -215,13 +215,16 @@ def gather_sampler(
         n_values=len(addresses),
         prepare=prepare,
         is_alone=is_alone,
-        kept=(addresses,),
+        memory_owners=(addresses,),
     )
 
 
 def gather(parameters: int, values: int, time: float) -> None:
     """Copy numbers from their addresses; see `uwsim.base.numerics.calls`."""
-    numbers = carray(pointer(parameters), (1,), NUMBERS)[0]
-    addresses, found = view_int64s(numbers.addresses, numbers.n), view_doubles(values, numbers.n)
+    numbers = carray(pointer(parameters), (1,), ADDRESSES)[0]
+    addresses, values_read = (
+        view_int64s(numbers.addresses, numbers.n),
+        view_doubles(values, numbers.n),
+    )
     for i in range(numbers.n):
-        found[i] = read_double(addresses[i])
+        values_read[i] = read_double(addresses[i])

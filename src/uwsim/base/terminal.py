@@ -22,9 +22,9 @@ def warn(message: str) -> None:
     print(clean_text(f"uwsim: warning: {message}"), file=sys.stderr)
 
 
-def print_warnings(found: Iterable[Diagnostic]) -> None:
+def print_warnings(diagnostics: Iterable[Diagnostic]) -> None:
     """Print warnings about files; the command continues."""
-    for warning in found:
+    for warning in diagnostics:
         print(clean_text(str(warning)), file=sys.stderr)
 
 
@@ -33,20 +33,20 @@ def ignore_casts() -> None:
 
     For the processes of the commands, all their threads.
     """
-    what = "(overflow|invalid value) encountered in cast"
-    warnings.filterwarnings("ignore", what, RuntimeWarning)
+    pattern = "(overflow|invalid value) encountered in cast"
+    warnings.filterwarnings("ignore", pattern, RuntimeWarning)
 
 
 def clean_text(text: str) -> str:
     """Return a text from an untrusted file without control characters, cut to a readable length."""
-    return "\n".join(_legible(line) for line in text.split("\n"))
+    return "\n".join(_clean_line(line) for line in text.split("\n"))
 
 
-def _legible(line: str) -> str:
-    shown = LONG_WORD.sub(_shortened, line[: 10 * MAX_LINE_LENGTH])
-    if len(shown) > MAX_LINE_LENGTH or len(line) > 10 * MAX_LINE_LENGTH:
-        shown = f"{shown[:MAX_LINE_LENGTH]}…"
-    return escape_control_characters(shown)
+def _clean_line(line: str) -> str:
+    text = LONG_WORD.sub(_shorten, line[: 10 * MAX_LINE_LENGTH])
+    if len(text) > MAX_LINE_LENGTH or len(line) > 10 * MAX_LINE_LENGTH:
+        text = f"{text[:MAX_LINE_LENGTH]}…"
+    return escape_control_characters(text)
 
 
 def escape_control_characters(text: str) -> str:
@@ -68,10 +68,10 @@ LONG_WORD = re.compile(
 """Quoted texts, and long words."""
 
 
-def _shortened(found: re.Match[str]) -> str:
-    text = found[0]
+def _shorten(match: re.Match[str]) -> str:
+    text = match[0]
     if len(text) <= MAX_QUOTE_LENGTH:
         return text
     end = text[-1] if text[0] in "'\"" else ""
-    left_out = len(text) - MAX_QUOTE_LENGTH - len(end)
-    return f"{text[:MAX_QUOTE_LENGTH]}… ({left_out} more letters){end}"
+    n_left_out = len(text) - MAX_QUOTE_LENGTH - len(end)
+    return f"{text[:MAX_QUOTE_LENGTH]}… ({n_left_out} more letters){end}"

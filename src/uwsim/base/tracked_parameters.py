@@ -13,14 +13,14 @@ Value = float | str
 class TrackedParameters(dict[str, Value]):
     """A dict that remembers the names that were asked for; whoever goes through it asks for all."""
 
-    def __init__(self, given: Mapping[str, Value]) -> None:
-        super().__init__(given)
-        self.plain_copy = dict(given)
+    def __init__(self, values: Mapping[str, Value]) -> None:
+        super().__init__(values)
+        self.plain_copy = dict(values)
         """The parameters, to be looked at without asking."""
         self.names_read: dict[str, None] = {}
         """The names that were asked for, in this order, whether or not they were given."""
 
-    def _all(self) -> None:
+    def _record_all(self) -> None:
         self.names_read.update(dict.fromkeys(self.plain_copy))
 
     def __getitem__(self, name: str) -> Value:
@@ -48,27 +48,27 @@ class TrackedParameters(dict[str, Value]):
         return super().setdefault(name, default)
 
     def __iter__(self) -> Iterator[str]:
-        self._all()
+        self._record_all()
         return super().__iter__()
 
     def keys(self) -> Any:
         """Names."""
-        self._all()
+        self._record_all()
         return super().keys()
 
     def values(self) -> Any:
         """Values."""
-        self._all()
+        self._record_all()
         return super().values()
 
     def items(self) -> Any:
         """Names and values."""
-        self._all()
+        self._record_all()
         return super().items()
 
     def copy(self) -> dict[str, Value]:
         """Return a plain dict of them."""
-        self._all()
+        self._record_all()
         return dict(super().items())
 
     def __or__(self, other: Any) -> Any:
@@ -78,23 +78,23 @@ class TrackedParameters(dict[str, Value]):
         return other | self.copy()
 
 
-def describe_unread_parameters(name: str, given: Iterable[str], asked: Iterable[str]) -> str:
+def describe_unread_parameters(name: str, names: Iterable[str], names_read: Iterable[str]) -> str:
     """Say which parameters an algorithm never asked for; empty if it asked for all.
 
     Args:
         name: of the algorithm.
-        given: names of its parameters.
-        asked: the names that it asked for.
+        names: names of its parameters.
+        names_read: the names that it asked for.
     """
-    known = list(asked)
-    unread = [each for each in given if each not in known]
-    if not unread:
+    valid_names = list(names_read)
+    unread_names = [parameter for parameter in names if parameter not in valid_names]
+    if not unread_names:
         return ""
-    which = "parameter" if len(unread) == 1 else "parameters"
-    near = did_you_mean(unread[0], known)
-    asks = f"It read {', '.join(known)}" if known else "It read none"
-    shown = ", ".join(map(repr, unread))
-    return f"algorithm {name!r} never read the {which} {shown}.{near} {asks}"
+    noun = "parameter" if len(unread_names) == 1 else "parameters"
+    suggestion = did_you_mean(unread_names[0], valid_names)
+    reading_text = f"It read {', '.join(valid_names)}" if valid_names else "It read none"
+    unread_text = ", ".join(map(repr, unread_names))
+    return f"algorithm {name!r} never read the {noun} {unread_text}.{suggestion} {reading_text}"
 
 
 def untracked_parameters(parameters: object) -> object:

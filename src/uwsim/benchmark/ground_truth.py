@@ -219,7 +219,9 @@ class _Seen(GroundTruth):
         if key != self._seen_from:
             points = transform_points(self._points, body.rotation, body.position - camera.position)
             seen = product(points, camera.rotation)  # (n, 3) [m], camera frame
-            pixels = self._camera.intrinsics.project(seen, behind=self._unseen)  # (n, 2) [px]
+            pixels = self._camera.intrinsics.project(
+                seen, includes_behind=self._unseen
+            )  # (n, 2) [px]
             is_seen = all(map(math.isfinite, pixels.ravel().tolist()))
             self._seen = self._from_pixels(pixels) if is_seen else None
             self._seen_from = key
@@ -279,7 +281,7 @@ class CentroidFromCamera(GroundTruth):
         camera = self._camera.world_from_camera
         way = self._body.world_from_body.position - camera.position  # (3,) [m]
         x, y, z = rotate_back(camera.rotation, way).tolist()
-        u, v = self._camera.intrinsics.pixel(x, y, z, behind=self._unseen)
+        u, v = self._camera.intrinsics.pixel(x, y, z, includes_behind=self._unseen)
         return (u, v) if math.isfinite(u) and math.isfinite(v) else None
 
 
@@ -374,7 +376,7 @@ class TopicTruth(GroundTruth):
     @property
     def missing(self) -> str:
         """What came instead, if anything."""
-        last, n = self._inbox.last, len(self.components)
+        last, n = self._inbox.last_message, len(self.components)
         if last is None:
             return f"nothing was published on {self._topic!r}"
         if not last.data.size:
@@ -391,7 +393,7 @@ class TopicTruth(GroundTruth):
 
     def read(self) -> Array | None:
         """Return the newest truth, (k,); None before the first, and where there is none."""
-        last = self._inbox.last
+        last = self._inbox.last_message
         numbers = np.zeros(0) if last is None else np.asarray(last.data, dtype=np.float64)
         is_whole = numbers.shape == (len(self.components),) and bool(np.isfinite(numbers).all())
         return numbers if is_whole else None

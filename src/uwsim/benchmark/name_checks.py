@@ -67,5 +67,5 @@ def check_function(
         message = textwrap.shorten(error.message, 300, placeholder=" ...")
         diagnostics.error(
             root.find("function"),
-            f"<function>: {message} (column {error.column + 1})\n{error.pointed_at()}",
+            f"<function>: {message} (column {error.column + 1})\n{error.marked_text()}",
         )

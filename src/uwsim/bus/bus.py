@@ -142,15 +142,15 @@ class Bus:
         return stop
 
     def inbox(
-        self, topic: str, type: type[M], *, latched: bool = False, n_kept: int | None = None
+        self, topic: str, type: type[M], *, latched: bool = False, max_messages: int | None = None
     ) -> Inbox[M]:
         """Return an inbox that collects the messages of ``topic`` from now on.
 
         A ``latched`` one begins with the newest message there was, as a subscriber of ROS does on
         a latched topic. The bus keeps that message from the first time it is asked so. What is not
-        taken out is kept, ``n_kept`` messages at most.
+        taken out is kept, ``max_messages`` messages at most.
         """
-        inbox: Inbox[M] = Inbox(n_kept)
+        inbox: Inbox[M] = Inbox(max_messages)
         if latched:
             entry = self._typed(topic, type)
             name = without_slash(topic)
@@ -161,7 +161,7 @@ class Bus:
             if (newest := self.state.kept.get(name)) is not None:
                 inbox.receive(cast("M", newest), self.step)
         stop = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
-        inbox.stop_with(stop)
+        inbox.set_stop(stop)
         return inbox
 
     def ends(self, topic: str, *, besides: object = None) -> TopicEnds | None:

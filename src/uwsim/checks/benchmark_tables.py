@@ -38,5 +38,5 @@ def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tabl
     for file in files or ():
         with wrong.collect():
             plugins.append(read_plugin(file))
-    wrong.check()
+    wrong.raise_errors()
     return tuple(plugins), with_plugins(bundled_tables(), plugins)

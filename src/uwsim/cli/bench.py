@@ -148,7 +148,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     requests = options.requests(read_levels(options.level, wrong_levels), wrong)
     executor, plans = plan_all(requests, options.by.workers, options.by.callback_limit, wrong)
     with wrong.collect():
-        wrong_levels.check()
+        wrong_levels.raise_errors()
     with wrong.collect():
         check_live(options, plans)
     with wrong.collect():
@@ -159,7 +159,7 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     with wrong.collect():
         if len(plans) == len(options.algorithm or (None,)):
             recordings = recordings_of(options, plans, folders)
-    wrong.check()
+    wrong.raise_errors()
 
     execution = prepare_execution(
         plans,
@@ -260,7 +260,7 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
             raise BadSetting(f"--algorithm {name}: is given twice.")
     from ..results.directory import FOLDERS
 
-    return list(file_names(algorithms, taken=FOLDERS).values())
+    return list(file_names(algorithms, existing_names=FOLDERS).values())
 
 
 class RunOutput:

@@ -184,7 +184,7 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
     for plan in plans:
         ends = (search.start, search.stop, search.tolerance)
         request = search_request(plan, search.over, search.until, ends, chosen, wrong)
-    wrong.check()
+    wrong.raise_errors()
     assert request is not None
     execution = prepare_execution(
         [plan_for(plan) for plan in plans],

@@ -68,7 +68,7 @@ def info(
     for name, value in pairs:
         with wrong.collect():
             spec = apply_setting(spec, name, value)
-    wrong.check()
+    wrong.raise_errors()
     simulation = Simulation(
         compile_scene(spec.nominal, data_path=folders), is_blind=True, runs_code=False
     )

@@ -79,7 +79,7 @@ def play(
             if no_code:
                 refuse_code(spec)
     wanted = wanted_of(what, output, changes, connections, wrong)
-    wrong.check()
+    wrong.raise_errors()
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders)

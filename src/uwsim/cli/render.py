@@ -135,7 +135,7 @@ def render(
         if spec is not None and no_code:
             refuse_code(spec)
     quirks = compatibility_of(changes.compat or [], wrong)
-    wrong.check()
+    wrong.raise_errors()
     assert spec is not None
     assert wanted is not None
     announce_code(spec)

@@ -166,7 +166,7 @@ class FilmOptions:
         with wrong.collect():
             if not 0.01 <= self.speed <= 1000.0:
                 raise BadSetting(f"--speed {self.speed:g}: expected 0.01 to 1000.")
-        wrong.check()
+        wrong.raise_errors()
         return FilmSpec(
             size=size,
             rate=rate,

@@ -81,7 +81,7 @@ def run(
     with wrong.collect():
         live.check()
     wanted = wanted_of(what, output, changes, connections, wrong, is_viewed=live.view)
-    wrong.check()
+    wrong.raise_errors()
     assert spec is not None
     announce_code(spec)
     warn_of_stand_ins(spec, folders)

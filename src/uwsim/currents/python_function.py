@@ -23,7 +23,7 @@ from pathlib import Path
 import numpy as np
 
 from ..base.files.modules import find_module_file
-from ..base.files.python_sources import sources_of
+from ..base.files.python_sources import find_sources
 from ..base.geometry import Array
 from ..errors import BadSetting, did_you_mean, short_repr
 from ..schema import element
@@ -87,7 +87,7 @@ class PythonFunctionSpec(CurrentSpec):
     def files(self, place: Place) -> dict[str, Path]:
         """The file of the module and those that it imports, once it is imported."""
         module = self._names()[0]
-        return sources_of(module) if module in sys.modules else {}
+        return find_sources(module) if module in sys.modules else {}
 
     def _lost(self, module: str | None) -> BadSetting:
         return BadSetting(

@@ -150,10 +150,10 @@ class Battery(Device):
             n_values=0,
             prepare=(lambda _: None) if powers is None else powers.prepare,
             is_alone=self._can_feed_until,
-            kept=(powers, numbers),
+            memory_owners=(powers, numbers),
         )
         """The sampler that integrates the current."""
-        self.state: BatteryRecord = BatteryRecord(numbers, Sample.of(self.sampler))
+        self.state: BatteryRecord = BatteryRecord(numbers, Sample.before_first(self.sampler))
         max_power = 0.0 if actuators is None else actuators.greatest_power
         self._can_overload = bool(set_losses) and spec.hotel_load + max_power > spec.max_load
 

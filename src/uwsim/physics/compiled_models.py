@@ -54,7 +54,7 @@ def cached_model(
         digest = content_digest(inputs)
     except NoContent:
         return build()
-    file = disk_cache.folder("compiled") / f"{digest.hex()[:32]}.mjb"
+    file = disk_cache.cache_folder("compiled") / f"{digest.hex()[:32]}.mjb"
     data = disk_cache.read(file)
     if data is not None:
         return mujoco.MjModel.from_binary_path(NAME, {NAME: data})

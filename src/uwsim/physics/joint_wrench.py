@@ -113,7 +113,7 @@ class JointWrench:
             n_values=6,
             prepare=prepare,
             is_alone=is_alone,
-            kept=(mount, offsets, self),
+            memory_owners=(mount, offsets, self),
         )
 
     def _make_copy(self) -> None:

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 
-from ..base.files.input_files import InputFile, hash_of
+from ..base.files.input_files import InputFile, compute_hash
 from ..errors import RunFailed
 from ..results.inputs import MAX_LINES, short_hash
 
@@ -49,7 +49,7 @@ class Watch:
             stamp = _stamp(file.path)
             if self._sound.get(file.path) == stamp:
                 return ""
-            now = hash_of(file.path)
+            now = compute_hash(file.path)
         except OSError as error:
             return f"{file.path} became unreadable ({error.strerror})"
         if now != file.sha256:

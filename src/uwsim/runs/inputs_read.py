@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from ..base.files.input_files import InputFile, hash_of, hashes_by_name, portable_name, record
-from ..base.files.python_sources import sources_of
+from ..base.files.input_files import InputFile, compute_hash, hashes_by_name, portable_name, record
+from ..base.files.python_sources import find_sources
 from ..benchmark.plugin import attribute_errors_to, hashes
 from ..benchmark.plugin_checks import files_of
 from ..benchmark.updaters import chain
@@ -44,8 +44,8 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
         for name, digest in simulation.world.scenery.made_hashes.items()
     ]
     return Inputs(
-        benchmark=(benchmark.name, hash_of(benchmark)),
-        scene=(scene.name, hash_of(scene)),
+        benchmark=(benchmark.name, compute_hash(benchmark)),
+        scene=(scene.name, compute_hash(scene)),
         assets=hashes_by_name(assets),
         plugins=hashes(plan.plugins) or None,
         algorithm=of_algorithm(plan),
@@ -57,11 +57,13 @@ def of_algorithm(plan: Plan) -> dict[str, str] | None:
     module, colon, _ = plan.algorithm.name.partition(":")
     if not colon:
         return None
-    return hashes_by_name(_hashed(sources_of(module)))
+    return hashes_by_name(_hashed(find_sources(module)))
 
 
 def _hashed(files: Mapping[str, Path]) -> list[InputFile]:
     """Hash and record files that are read later, or by others."""
-    found = [InputFile(portable_name(name), hash_of(path), path) for name, path in files.items()]
+    found = [
+        InputFile(portable_name(name), compute_hash(path), path) for name, path in files.items()
+    ]
     record(found)
     return found

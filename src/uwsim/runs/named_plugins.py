@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..base.files.input_files import hash_of
+from ..base.files.input_files import compute_hash
 from ..errors import AssetNotFound, BadSetting, BenchmarkError
 from ..schema import NAMESPACE, Diagnostics, parse
 
@@ -37,11 +37,11 @@ def named_plugins(benchmark: Path, request: PlanRequest) -> list[Path]:
     names, given = plugin_names(benchmark), request.plugins
     if names and request.no_code:
         raise refused(names[0], str(benchmark))
-    hashes = {hash_of(path) for path in given if path.is_file()}
+    hashes = {compute_hash(path) for path in given if path.is_file()}
     found = []
     for name in names:
         path = _found(name, benchmark, request.data_path)
-        if (digest := hash_of(path)) not in hashes:
+        if (digest := compute_hash(path)) not in hashes:
             hashes.add(digest)
             announce(name, str(benchmark), place=path)
             found.append(path)

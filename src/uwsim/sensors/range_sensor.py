@@ -107,7 +107,7 @@ class RangeSensor(CompiledSensor):
             n_values=1,
             prepare=prepare,
             is_alone=lambda _: mount.is_compiled and rays.is_compiled,
-            kept=(self.state, mount, rays, directions),
+            memory_owners=(self.state, mount, rays, directions),
         )
         """What takes the numbers of a sample."""
 

@@ -162,7 +162,7 @@ def follow_mount(
         n_values=n_values,
         prepare=lambda _: mount.prepare(),
         is_alone=lambda _: mount.is_compiled,
-        kept=(mount, *kept),
+        memory_owners=(mount, *kept),
     )
 
 

@@ -33,4 +33,4 @@ def test_each_wrong_level_is_reported_and_the_others_are_kept() -> None:
     wrong = ErrorCollector()
     assert read_levels(["fog", "fog=1", "current=x"], wrong) == [("fog", 1.0)]
     with pytest.raises(UwsimError, match=r"(?s)'fog': expected NAME.*'current=x'"):
-        wrong.check()
+        wrong.raise_errors()

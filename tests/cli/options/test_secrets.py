@@ -92,4 +92,4 @@ def test_the_secret_is_of_a_client_that_joins(tmp_path: Path) -> None:
         wrong = ErrorCollector()
         options.check(wrong, "0")
         with pytest.raises(BadSetting, match="--client-secret-file is of"):
-            wrong.check()
+            wrong.raise_errors()

@@ -71,7 +71,7 @@ def test_the_time_that_it_integrates_is_that_of_the_simulation(
                 bridge.wait_for(lambda: False, SLEEP_S)
 
             def integrated() -> float:
-                return inbox.last.data if inbox.last is not None else 0.0
+                return inbox.last_message.data if inbox.last_message is not None else 0.0
 
             graph.start(PYTHON, str(program), str(timestep))
             until(lambda: integrated() > 10 * timestep, step)

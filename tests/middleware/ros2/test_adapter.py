@@ -65,10 +65,10 @@ while True:
     rclpy.spin_once(node, timeout_sec=0.02)
 """
     with peer(source, simulator.domain):
-        until(lambda: inbox.last is not None, simulator.step)
-    assert inbox.last is not None
-    assert inbox.last.twist.linear.x == 0.5
-    assert inbox.last.header.stamp.sec == 0, "none given: none"
+        until(lambda: inbox.last_message is not None, simulator.step)
+    assert inbox.last_message is not None
+    assert inbox.last_message.twist.linear.x == 0.5
+    assert inbox.last_message.header.stamp.sec == 0, "none given: none"
 
 
 def test_the_graph_shows_one_node_with_its_endpoints_and_type_hashes(simulator: Simulator) -> None:

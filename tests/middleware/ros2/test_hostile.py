@@ -119,9 +119,9 @@ def test_garbage_on_its_ports_does_not_disturb_it(simulator: Simulator, other: P
                 for start in (b"", b"RTPS", b"RTPS\x02\x01\x01\x10" + bytes(12)):
                     sender.sendto(start + data, ("127.0.0.1", port))
     writer.write(text("still here"))
-    until(lambda: inbox.last is not None, simulator.step)
-    assert inbox.last is not None
-    assert inbox.last.data == "still here"
+    until(lambda: inbox.last_message is not None, simulator.step)
+    assert inbox.last_message is not None
+    assert inbox.last_message.data == "still here"
 
 
 def test_a_sample_that_is_no_message_is_refused_and_reported(simulator: Simulator) -> None:
@@ -228,11 +228,11 @@ def test_a_writer_killed_in_the_middle_of_an_image_does_no_harm(
     inbox = simulator.bus.inbox("picture", Image)
     texts = simulator.bus.inbox("text", String)
     with process(WRITES, simulator.domain) as writer:
-        until(lambda: inbox.last is not None, simulator.step)
+        until(lambda: inbox.last_message is not None, simulator.step)
         writer.kill()
     mine = writer_to(simulator, other, "text")
     mine.write(text("still here"))
-    until(lambda: texts.last is not None, simulator.step)
+    until(lambda: texts.last_message is not None, simulator.step)
     assert all(each.data.size == 960 * 1280 * 3 for each in inbox.take())
 
 

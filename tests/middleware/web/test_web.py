@@ -128,10 +128,10 @@ def test_a_client_publishes(setting: Setting) -> None:
     client = setting.client()
     send(client, op="advertise", topic="/corners", type="std_msgs/msg/Float32MultiArray")
     send(client, op="publish", topic="/corners", msg={"data": [1.5, None]})
-    setting.step_until(lambda: inbox.last is not None)
-    assert inbox.last is not None
-    assert inbox.last.data[0] == 1.5
-    assert np.isnan(inbox.last.data[1])
+    setting.step_until(lambda: inbox.last_message is not None)
+    assert inbox.last_message is not None
+    assert inbox.last_message.data[0] == 1.5
+    assert np.isnan(inbox.last_message.data[1])
 
 
 def test_a_client_calls_services_and_asks_what_there_is(setting: Setting) -> None:
@@ -302,7 +302,7 @@ def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setti
     assert setting.ask(other, service="/rosapi/nodes")["result"] is True
     setting.step_until(lambda: setting.bridge.arrivals.n_arrived["twist"] == 2000)
     setting.bridge.step()
-    assert inbox.last is not None
+    assert inbox.last_message is not None
 
 
 def masked(text: str) -> bytes:
@@ -352,7 +352,7 @@ def test_a_publisher_that_breaks_off_in_the_middle_of_a_frame_is_forgotten(
     frame = masked('{"op": "publish", "topic": "/text", "msg": {"data": "whole"}}')
     broken = setting.client()
     broken.socket.sendall(frame + frame[:20])
-    setting.step_until(lambda: inbox.last is not None)
+    setting.step_until(lambda: inbox.last_message is not None)
     linger = struct.pack("ii", 1, 0)
     broken.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
     broken.socket.shutdown(socket.SHUT_RDWR)

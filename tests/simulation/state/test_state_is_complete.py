@@ -51,7 +51,7 @@ CACHES = {
     "Ground._triangles": "is a form of the model's",
     "ImagePublisher._digest": "is of the images published",
     "Inbox._n_bytes": "what a program has not taken yet",
-    "Inbox._new": "what a program has not taken yet",
+    "Inbox._messages": "what a program has not taken yet",
     "Inbox._sizes": "what a program has not taken yet",
     "Intrinsics.ray_lengths": "is a function of the pinhole",
     "KinematicContacts._laid": "is compared with the poses when it is used",
@@ -114,7 +114,7 @@ class Visitor:
             if isinstance(value, np.ndarray):
                 found[path] = value.tobytes()
             elif isinstance(value, np.random.Generator):
-                found[path] = GeneratorState.by(value)
+                found[path] = GeneratorState.from_generator(value)
             elif value is None or isinstance(value, bool | int | float | str | bytes | np.generic):
                 found[path] = repr(value)
             elif isinstance(value, LEFT_OUT):

@@ -59,7 +59,7 @@ def draw_run_plots(
             continue  # a damaged log has no plot
         logs[path.stem] = log
     order = {column.name: i for i, column in enumerate(result.columns_of_kind("measure"))}
-    files = file_names(logs, taken=[TRACK, ONE_LEVEL])
+    files = file_names(logs, existing_names=[TRACK, ONE_LEVEL])
     for stem, log in sorted(logs.items(), key=lambda each: order.get(each[1].measure, len(order))):
         figure = over_time_plot(result, log)
         if figure is not None:

@@ -150,7 +150,7 @@ def draw_plots(
         column.name
         for column in result.columns_of_kind("score") + result.columns_of_kind("measure")
     ]
-    for name, file in file_names(names, taken=[OVERVIEW]).items():
+    for name, file in file_names(names, existing_names=[OVERVIEW]).items():
         save(value_plot(result, name, control=control), file)
     if len(files) > 1:
         save(small_multiples(result, control=control), OVERVIEW)

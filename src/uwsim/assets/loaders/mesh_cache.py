@@ -31,7 +31,7 @@ _ARRAYS = ("vertices", "normals", "uvs", "triangles", "colour", "two_sided")
 def cache_file(data: bytes, suffix: str) -> Path:
     """Return the path in the cache of the meshes of a file with these bytes."""
     digest = hashlib.sha256(f"{_key()} {suffix} ".encode() + data).hexdigest()
-    return disk_cache.folder("meshes") / f"{digest[:32]}.npz"
+    return disk_cache.cache_folder("meshes") / f"{digest[:32]}.npz"
 
 
 def read(file: Path) -> tuple[Mesh, ...] | None:

@@ -14,16 +14,16 @@ from contextlib import suppress
 from pathlib import Path
 from tempfile import NamedTemporaryFile
 
-DIGEST = 32
+DIGEST_LENGTH = 32
 """Length of a hash, SHA-256 [bytes]."""
-DRAFT = ".part"
+DRAFT_SUFFIX = ".part"
 """How the name of a file ends that is still being written, and begins with its process."""
 
 MAX_BYTES = 512 * 2**20
 """Size of all files of a kind [bytes]."""
 
 
-def folder(kind: str) -> Path:
+def cache_folder(kind: str) -> Path:
     """Where files of a kind are kept: in the user's cache (XDG Base Directory Specification)."""
     home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     return Path(home) / "uwsim" / kind
@@ -38,10 +38,10 @@ def read(file: Path) -> bytes | None:
         data = file.read_bytes()
     except OSError:
         return None
-    if data[:DIGEST] == _digest(file, data[DIGEST:]):
+    if data[:DIGEST_LENGTH] == _digest(file, data[DIGEST_LENGTH:]):
         with suppress(OSError):
             os.utime(file)  # read now: it is removed last
-        return data[DIGEST:]
+        return data[DIGEST_LENGTH:]
     logging.getLogger(__name__).warning(
         "uwsim: warning: %s in the cache is damaged; what it held is made anew.", file
     )
@@ -58,8 +58,10 @@ def write(file: Path, data: bytes) -> None:
     with suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
         _discard_drafts(file.parent)
-        mark = f"{os.getpid()}-"
-        with NamedTemporaryFile(dir=file.parent, prefix=mark, suffix=DRAFT, delete=False) as draft:
+        prefix = f"{os.getpid()}-"
+        with NamedTemporaryFile(
+            dir=file.parent, prefix=prefix, suffix=DRAFT_SUFFIX, delete=False
+        ) as draft:
             try:
                 draft.write(_digest(file, data) + data)
                 draft.flush()
@@ -67,12 +69,12 @@ def write(file: Path, data: bytes) -> None:
             except BaseException:
                 os.unlink(draft.name)
                 raise
-        _keep_within(MAX_BYTES, file)
+        _remove_oldest(MAX_BYTES, file)
 
 
 def _discard_drafts(folder: Path) -> None:
     """Remove drafts of processes that are gone; on another machine one lives, and loses no more."""
-    for draft in folder.glob(f"*-*{DRAFT}"):
+    for draft in folder.glob(f"*-*{DRAFT_SUFFIX}"):
         number = draft.name.partition("-")[0]
         try:
             os.kill(int(number), 0)
@@ -82,18 +84,18 @@ def _discard_drafts(folder: Path) -> None:
             pass  # it lives, and is another user's; or no draft of ours
 
 
-def _keep_within(limit: int, newest: Path) -> None:
+def _remove_oldest(limit: int, new_file: Path) -> None:
     """Remove the files of a kind that were not read for longest until all are within a limit."""
-    root = folder("")
-    if not newest.is_relative_to(root):
+    root = cache_folder("")
+    if not new_file.is_relative_to(root):
         return
-    kind = root / newest.relative_to(root).parts[0]
-    facts = {file: file.stat() for file in kind.rglob("*") if file.is_file()}
-    size = sum(fact.st_size for fact in facts.values())
-    for file in sorted(facts, key=lambda file: facts[file].st_mtime_ns):
+    kind_folder = root / new_file.relative_to(root).parts[0]
+    file_stats = {file: file.stat() for file in kind_folder.rglob("*") if file.is_file()}
+    size = sum(file_stat.st_size for file_stat in file_stats.values())
+    for file in sorted(file_stats, key=lambda file: file_stats[file].st_mtime_ns):
         if size <= limit:
             break
-        size -= facts[file].st_size
+        size -= file_stats[file].st_size
         file.unlink(missing_ok=True)
 
 

@@ -15,11 +15,11 @@ MAX_NAME_LENGTH = 80
 """So many letters of a name stand in that of a file."""
 RESERVED_NAMES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
 """Names that no file on Windows may have."""
-DIGESTS = (8, 16, 32, 64)
+DIGEST_LENGTHS = (8, 16, 32, 64)
 """Digits of a hash that tell two names apart: the first of these that is enough."""
 
 
-def file_names(names: Iterable[str], *, taken: Iterable[str] = ()) -> dict[str, str]:
+def file_names(names: Iterable[str], *, existing_names: Iterable[str] = ()) -> dict[str, str]:
     """Return name -> name of its file, without suffix; different names have different files.
 
     A name that is fit for a file is its own. Of others, what is no letter of ASCII, digit, ``_``,
@@ -28,23 +28,25 @@ def file_names(names: Iterable[str], *, taken: Iterable[str] = ()) -> dict[str, 
 
     Args:
         names: All that are to be files of one folder.
-        taken: Names of files that are there already.
+        existing_names: Names of files that are there already.
     """
-    wanted = {name: _sanitised(name) for name in names}
-    others = {name.casefold() for name in taken}
-    seen = Counter(plain.casefold() for plain in wanted.values())
-    alike = {
+    clean_names = {name: _clean(name) for name in names}
+    existing_lower = {name.casefold() for name in existing_names}
+    counts = Counter(clean_name.casefold() for clean_name in clean_names.values())
+    ambiguous_names = {
         name
-        for name, plain in wanted.items()
-        if len(name) > MAX_NAME_LENGTH or seen[plain.casefold()] > 1 or plain.casefold() in others
+        for name, clean_name in clean_names.items()
+        if len(name) > MAX_NAME_LENGTH
+        or counts[clean_name.casefold()] > 1
+        or clean_name.casefold() in existing_lower
     }
-    for digits in DIGESTS:
-        found = {
-            name: _with_hash(plain, name, digits) if name in alike else plain
-            for name, plain in wanted.items()
+    for digits in DIGEST_LENGTHS:
+        files = {
+            name: _with_hash(clean_name, name, digits) if name in ambiguous_names else clean_name
+            for name, clean_name in clean_names.items()
         }
-        if len({file.casefold() for file in found.values()} - others) == len(found):
-            return found
+        if len({file.casefold() for file in files.values()} - existing_lower) == len(files):
+            return files
     raise AssertionError("equal SHA-256 of different names")
 
 
@@ -53,12 +55,14 @@ def file_name(name: str) -> str:
     return file_names([name])[name]
 
 
-def _sanitised(name: str) -> str:
-    plain = re.sub(r"[^A-Za-z0-9_.-]", "_", name.replace(":", "."))[:MAX_NAME_LENGTH]
-    plain = plain.lstrip(".-").rstrip(".") or "_"
-    return f"_{plain}"[:MAX_NAME_LENGTH] if RESERVED_NAMES.fullmatch(plain) else plain
+def _clean(name: str) -> str:
+    clean_name = re.sub(r"[^A-Za-z0-9_.-]", "_", name.replace(":", "."))[:MAX_NAME_LENGTH]
+    clean_name = clean_name.lstrip(".-").rstrip(".") or "_"
+    return (
+        f"_{clean_name}"[:MAX_NAME_LENGTH] if RESERVED_NAMES.fullmatch(clean_name) else clean_name
+    )
 
 
-def _with_hash(plain: str, name: str, digits: int) -> str:
+def _with_hash(clean_name: str, name: str, digits: int) -> str:
     digest = hashlib.sha256(name.encode("utf-8", "surrogatepass")).hexdigest()
-    return f"{plain[: MAX_NAME_LENGTH - digits - 1]}-{digest[:digits]}"
+    return f"{clean_name[: MAX_NAME_LENGTH - digits - 1]}-{digest[:digits]}"

@@ -24,7 +24,7 @@ from ...errors import AssetError
 
 MAX_BYTES = 512 * 2**20
 """Files above this size [bytes] are refused, unless the reader knows a smaller limit."""
-PIECE = 1 << 20
+CHUNK_SIZE = 1 << 20
 
 
 @dataclass(frozen=True, order=True)
@@ -56,9 +56,9 @@ def record_inputs() -> Iterator[list[InputFile]]:
 def record(files: Iterable[InputFile]) -> None:
     """Say that these files were read: what is kept in memory tells anew what it is made of."""
     for file in files:
-        for known in _records.get():
-            if file not in known:
-                known.append(file)
+        for recorded_files in _records.get():
+            if file not in recorded_files:
+                recorded_files.append(file)
 
 
 def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -> bytes:
@@ -73,14 +73,14 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
         OSError: It cannot be read.
         AssetError: It is larger, or no regular file: a folder, a pipe, a device.
     """
-    facts = path.stat()
-    if not stat.S_ISREG(facts.st_mode):
+    file_stat = path.stat()
+    if not stat.S_ISREG(file_stat.st_mode):
         raise AssetError(f"{path}: is not a regular file.", name=str(name))
-    if facts.st_size > at_most:
+    if file_stat.st_size > at_most:
         raise AssetError(f"{path}: is larger than {at_most / 2**20:.3g} MiB.", name=str(name))
     with path.open("rb") as stream:
-        data = stream.read(facts.st_size + 1)
-    if len(data) != facts.st_size:
+        data = stream.read(file_stat.st_size + 1)
+    if len(data) != file_stat.st_size:
         raise AssetError(f"{path}: changed while it was read.", name=str(name))
     digest = f"sha256:{hashlib.sha256(data).hexdigest()}"
     record([InputFile(portable_name(name or path.name), digest, path)])
@@ -89,11 +89,11 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
 
 def is_inside(path: Path, folders: Iterable[Path]) -> bool:
     """Whether a file lies under one of the folders, links followed."""
-    whole = path.resolve()
-    return any(whole.is_relative_to(folder.resolve()) for folder in folders)
+    resolved_path = path.resolve()
+    return any(resolved_path.is_relative_to(folder.resolve()) for folder in folders)
 
 
-def hash_of(path: Path) -> str:
+def compute_hash(path: Path) -> str:
     """Hash a file; or a folder, by the names and the bytes of its files."""
     digest = hashlib.sha256()
     for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
@@ -101,8 +101,8 @@ def hash_of(path: Path) -> str:
             digest.update(f"{file.relative_to(path).as_posix()}\0".encode())
         if file.is_file():
             with file.open("rb") as stream:
-                while piece := stream.read(PIECE):
-                    digest.update(piece)
+                while chunk := stream.read(CHUNK_SIZE):
+                    digest.update(chunk)
     return f"sha256:{digest.hexdigest()}"
 
 
@@ -115,11 +115,11 @@ def portable_name(name: str | Path) -> str:
 
 def hashes_by_name(files: Iterable[InputFile]) -> dict[str, str]:
     """Return name -> hash, sorted; of several files of one name the second is ``NAME (2)``."""
-    found: dict[str, str] = {}
+    hashes: dict[str, str] = {}
     for file in sorted(set(files)):
         name, n = file.name, 1
-        while name in found:
+        while name in hashes:
             n += 1
             name = f"{file.name} ({n})"
-        found[name] = file.sha256
-    return dict(sorted(found.items()))
+        hashes[name] = file.sha256
+    return dict(sorted(hashes.items()))

@@ -18,15 +18,15 @@ def find_module_file(module: str) -> str:
     origin = ""
     for i, part in enumerate(parts):
         name = ".".join(parts[: i + 1])
-        known = sys.modules.get(name)
-        if known is not None or (i == 0 and part in sys.builtin_module_names):
-            path = getattr(known, "__path__", None)
-            origin = getattr(known, "__file__", None) or ""
+        loaded_module = sys.modules.get(name)
+        if loaded_module is not None or (i == 0 and part in sys.builtin_module_names):
+            path = getattr(loaded_module, "__path__", None)
+            origin = getattr(loaded_module, "__file__", None) or ""
             continue
         is_in_none = i > 0 and path is None  # what it should be in is no package
-        found = None if is_in_none else PathFinder.find_spec(name, path)
-        if found is None:
+        spec = None if is_in_none else PathFinder.find_spec(name, path)
+        if spec is None:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-        path = found.submodule_search_locations
-        origin = found.origin or ""
+        path = spec.submodule_search_locations
+        origin = spec.origin or ""
     return origin

@@ -22,36 +22,36 @@ MAX_MODULES = 2000
 """So many modules are followed."""
 
 
-def sources_of(module: str) -> dict[str, Path]:
+def find_sources(module: str) -> dict[str, Path]:
     """Return name -> file of a module that is imported, and of what it imports, sorted by name.
 
     A name is that of the module as a path, ``package/module.py``. Of what is installed only the
     package that the module is in counts.
     """
     top = module.partition(".")[0]
-    found: dict[str, Path] = {}
-    todo, seen = [module], {""}
-    while todo and len(seen) < MAX_MODULES:
-        name = todo.pop()
-        if name in seen:
+    sources: dict[str, Path] = {}
+    names_left, names_seen = [module], {""}
+    while names_left and len(names_seen) < MAX_MODULES:
+        name = names_left.pop()
+        if name in names_seen:
             continue
-        seen.add(name)
-        todo.append(name.rpartition(".")[0])
+        names_seen.add(name)
+        names_left.append(name.rpartition(".")[0])
         path = None if name.partition(".")[0] == OWN_PACKAGE else _file_of(name)
-        if path is None or not (name.partition(".")[0] == top or _is_own(path)):
+        if path is None or not (name.partition(".")[0] == top or _is_user_file(path)):
             continue
         stem = f"{name.replace('.', '/')}/__init__" if path.stem == "__init__" else name
-        found[stem.replace(".", "/") + path.suffix] = path
+        sources[stem.replace(".", "/") + path.suffix] = path
         if path.suffix == ".py":
-            todo += _imported(path, name)
-    return dict(sorted(found.items()))
+            names_left += _imported_names(path, name)
+    return dict(sorted(sources.items()))
 
 
 def _file_of(module: str) -> Path | None:
     """The file of a module; None of one that has none, or is not there."""
-    known = sys.modules.get(module)
-    file = getattr(known, "__file__", None)
-    if known is None:
+    loaded_module = sys.modules.get(module)
+    file = getattr(loaded_module, "__file__", None)
+    if loaded_module is None:
         parent, _, _ = module.rpartition(".")
         places: Sequence[str] | None = getattr(sys.modules.get(parent), "__path__", None)
         if parent and places is None:
@@ -63,17 +63,17 @@ def _file_of(module: str) -> Path | None:
     return path if path is not None and path.is_file() else None
 
 
-def _is_own(path: Path) -> bool:
+def _is_user_file(path: Path) -> bool:
     """Whether a file is the user's: neither Python's nor installed."""
-    whole = path.resolve()
+    resolved_path = path.resolve()
     places = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
     places.add(site.getusersitepackages())
-    return not any(part in INSTALL_FOLDERS for part in whole.parts) and not any(
-        whole.is_relative_to(Path(place).resolve()) for place in places if place
+    return not any(part in INSTALL_FOLDERS for part in resolved_path.parts) and not any(
+        resolved_path.is_relative_to(Path(place).resolve()) for place in places if place
     )
 
 
-def _imported(path: Path, module: str) -> Iterator[str]:
+def _imported_names(path: Path, module: str) -> Iterator[str]:
     """Names that may be modules which the file of a module imports, wherever in it."""
     package = module if path.stem == "__init__" else module.rpartition(".")[0]
     try:

@@ -37,14 +37,14 @@ for _ in range(1 if is_over else 30):  # what a killed process has started may s
 
 
 @contextmanager
-def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
+def scratch_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
     """Lend an empty folder, and remove it with all that is in it.
 
     If this process is killed, those with `SCRATCH_VARIABLE` in their environment are killed, too.
 
     Args:
         prefix: how its name begins.
-        where: the folder that it is made in; without one, the system's for temporary files.
+        parent: the folder that it is made in; without one, the system's for temporary files.
 
     Raises:
         RunFailed: it cannot be made.
@@ -56,7 +56,7 @@ def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
         "-c",
         REMOVER,
         prefix,
-        str(where or ""),
+        str(parent or ""),
         SCRATCH_VARIABLE,
     ]
     with subprocess.Popen(
@@ -72,8 +72,10 @@ def scratch_folder(prefix: str, where: Path | None = None) -> Iterator[Path]:
         assert remover.stderr is not None
         folder = remover.stdout.readline().rstrip("\n")
         if not folder:
-            why = remover.stderr.read().strip().splitlines()[-1:] or ["its process was killed"]
-            raise RunFailed(f"No temporary folder can be made: {why[0]}.")
+            error_lines = remover.stderr.read().strip().splitlines()[-1:] or [
+                "its process was killed"
+            ]
+            raise RunFailed(f"No temporary folder can be made: {error_lines[0]}.")
         try:
             yield Path(folder)
         finally:

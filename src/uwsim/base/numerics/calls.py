@@ -2,7 +2,7 @@
 
 A function of this kind is ``void(parameters, values, time)``: it reads what never changes from a
 record at the address ``parameters``, writes numbers at the address ``values``, and gets the time
-[s]. `c_function` of `uwsim.base.numerics.jit` compiles one with the signature `SIGNATURE`.
+[s]. `compile_c_function` of `uwsim.base.numerics.jit` compiles one with the signature `SIGNATURE`.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy.typing as npt
 from numba import types
 from numba.extending import intrinsic
 
-from .jit import c_function, njit
+from .jit import compile_c_function, njit
 from .memory import Floats
 
 ir: Any = importlib.import_module("llvmlite.ir")  # of numba; it has no types
@@ -31,7 +31,7 @@ FUNCTION = np.dtype([("function", np.int64), ("parameters", np.int64)])
 """The addresses of a function and of what it reads; the function is 0 where there is none."""
 
 
-def _nothing(until: float) -> None:
+def _prepare_nothing(end: float) -> None:
     """Prepare nothing."""
 
 
@@ -41,9 +41,9 @@ class CompiledFunction:
 
     addresses: tuple[int, int]
     """The numbers of `FUNCTION`."""
-    prepare: Callable[[float], None] = _nothing
+    prepare: Callable[[float], None] = _prepare_nothing
     """Makes ready what it needs up to a time [s]."""
-    kept: tuple[object, ...] = field(default=())
+    memory_owners: tuple[object, ...] = field(default=())
     """What the addresses are of."""
 
 
@@ -59,7 +59,7 @@ def _call(
     return types.void(types.intp, types.intp, types.intp, types.float64), codegen
 
 
-def _call_both(typingctx: Any, function: Any, first: Any, second: Any) -> Any:
+def _call_both(typingctx: Any, function: Any, first_argument: Any, second_argument: Any) -> Any:
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         word = ir.IntType(64)
         kind = ir.FunctionType(ir.VoidType(), [word, word])
@@ -120,13 +120,13 @@ def evaluate(function: int, parameters: int, n: int, time: float) -> Floats:
 
 
 @functools.cache
-def _compiled(function: Callable[[int, int, float], None]) -> Any:
-    return c_function(function, SIGNATURE)
+def _compile(function: Callable[[int, int, float], None]) -> Any:
+    return compile_c_function(function, SIGNATURE)
 
 
 def function_address(function: Callable[[int, int, float], None]) -> int:
     """Compile a function of the module's level of this kind, once, and return its address."""
-    return int(_compiled(function).address)
+    return int(_compile(function).address)
 
 
 def address_of(array: npt.NDArray[Any]) -> int:

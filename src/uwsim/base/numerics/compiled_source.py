@@ -20,22 +20,22 @@ def source_digest(function: FunctionType) -> str:
     What numba does not compile from Python (functions of numpy, intrinsics) counts by its name.
     """
     digest = hashlib.sha256()
-    waiting, seen = [function], {function}
-    while waiting:
-        one = waiting.pop()
-        for name, value in _named(one):
-            python = getattr(value, "py_func", None)
-            if isinstance(python, FunctionType):
-                value = python.__qualname__
-                if python not in seen:
-                    seen.add(python)
-                    waiting.append(python)
-            digest.update(f"{name}={_constant(value)};".encode())
-        digest.update(_code(one.__code__))
+    functions_left, functions_seen = [function], {function}
+    while functions_left:
+        current_function = functions_left.pop()
+        for name, value in _named_values(current_function):
+            python_function = getattr(value, "py_func", None)
+            if isinstance(python_function, FunctionType):
+                value = python_function.__qualname__
+                if python_function not in functions_seen:
+                    functions_seen.add(python_function)
+                    functions_left.append(python_function)
+            digest.update(f"{name}={_constant_text(value)};".encode())
+        digest.update(_code_bytes(current_function.__code__))
     return digest.hexdigest()
 
 
-def _named(function: FunctionType) -> Iterator[tuple[str, Any]]:
+def _named_values(function: FunctionType) -> Iterator[tuple[str, Any]]:
     """The values of the global names in a function's code, and of attributes of modules."""
     code, names = function.__code__, function.__globals__
     modules = []
@@ -52,7 +52,7 @@ def _named(function: FunctionType) -> Iterator[tuple[str, Any]]:
         yield name, cell.cell_contents
 
 
-def _constant(value: Any) -> str:
+def _constant_text(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return f"{value.dtype}{value.shape}{value.tobytes().hex()}"
     if isinstance(value, np.dtype):
@@ -62,11 +62,13 @@ def _constant(value: Any) -> str:
     return str(getattr(value, "__name__", type(value).__qualname__))
 
 
-def _code(code: CodeType) -> bytes:
+def _code_bytes(code: CodeType) -> bytes:
     constants = []
-    for one in code.co_consts:
-        if isinstance(one, CodeType):
-            constants.append(_code(one).hex())
+    for constant in code.co_consts:
+        if isinstance(constant, CodeType):
+            constants.append(_code_bytes(constant).hex())
         else:  # the order of a set is that of its hashes
-            constants.append(repr(sorted(map(repr, one)) if isinstance(one, frozenset) else one))
+            constants.append(
+                repr(sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant)
+            )
     return code.co_code + repr((code.co_varnames, code.co_names, constants)).encode()

@@ -12,9 +12,9 @@ _listeners: list[Callable[[], None]] = []
 _n_compiled = 0
 
 
-def on_slow_start(tell: Callable[[], None]) -> None:
-    """Have ``tell`` called once if this process compiles `SLOW_START_COUNT` functions."""
-    _listeners[:] = [tell]
+def on_slow_start(callback: Callable[[], None]) -> None:
+    """Have ``callback`` called once if this process compiles `SLOW_START_COUNT` functions."""
+    _listeners[:] = [callback]
 
 
 def count_compilation() -> None:

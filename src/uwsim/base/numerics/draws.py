@@ -22,7 +22,7 @@ STREAM = np.dtype([("state", np.int64), ("next", np.int64)])
 
 _LAYER_TOPS, _WIDTHS, _HEIGHTS = _constants.ki_double, _constants.wi_double, _constants.fi_double
 _TAIL, _INVERSE_TAIL = float(_constants.ziggurat_nor_r), float(_constants.ziggurat_nor_inv_r)
-_SHARE = 1.0 / 9007199254740992.0  # 2**-53
+_UNIT_SCALE = 1.0 / 9007199254740992.0  # 2**-53
 
 Stream = Any
 """A record of `STREAM` in compiled code."""
@@ -31,15 +31,15 @@ Stream = Any
 def stream_of(generator: np.random.Generator) -> tuple[int, int]:
     """Return the numbers of `STREAM` of a generator, which has to live on."""
     interface: Any = generator.bit_generator.ctypes
-    following = ctypes.cast(interface.next_uint64, ctypes.c_void_p).value
-    return int(interface.state_address), int(following or 0)
+    next_word = ctypes.cast(interface.next_uint64, ctypes.c_void_p).value
+    return int(interface.state_address), int(next_word or 0)
 
 
 @njit
 def uniform(stream: Stream) -> float:
     """Draw a number from 0 to 1, as ``Generator.random``."""
-    share: float = float(call_word(stream.next, stream.state) >> np.uint64(11)) * _SHARE
-    return share
+    number: float = float(call_word(stream.next, stream.state) >> np.uint64(11)) * _UNIT_SCALE
+    return number
 
 
 @njit
@@ -68,8 +68,8 @@ def normal(stream: Stream) -> float:
 def _tail(stream: Stream, place: int) -> float:
     """Draw a number beyond the lowest layer."""
     while True:
-        beyond = -_INVERSE_TAIL * math.log1p(-uniform(stream))
-        level = -math.log1p(-uniform(stream))
-        if level + level > beyond * beyond:
+        distance = -_INVERSE_TAIL * math.log1p(-uniform(stream))
+        exponential = -math.log1p(-uniform(stream))
+        if exponential + exponential > distance * distance:
             is_negative = (np.uint64(place) >> np.uint64(8)) & np.uint64(1)
-            return -(_TAIL + beyond) if is_negative != np.uint64(0) else _TAIL + beyond
+            return -(_TAIL + distance) if is_negative != np.uint64(0) else _TAIL + distance

@@ -18,7 +18,7 @@ def exact_sum(values: Array) -> float:
     """
     partials, n = np.empty(len(values)), 0
     for number in values:
-        x, kept = number, 0
+        x, n_partials = number, 0
         for i in range(n):
             y = partials[i]
             if abs(x) < abs(y):
@@ -26,10 +26,10 @@ def exact_sum(values: Array) -> float:
             high = x + y
             low = y - (high - x)
             if low != 0.0:
-                partials[kept] = low
-                kept += 1
+                partials[n_partials] = low
+                n_partials += 1
             x = high
-        n = kept
+        n = n_partials
         if x != 0.0:
             partials[n] = x
             n += 1
@@ -45,9 +45,9 @@ def exact_sum(values: Array) -> float:
         if low != 0.0:
             break
     if n > 0 and low * partials[n - 1] > 0.0:  # half of a last digit, and more of the same sign
-        doubled = 2.0 * low
-        higher = total + doubled
-        if doubled == higher - total:
-            total = higher
-    found: float = total
-    return found
+        double_low = 2.0 * low
+        rounded_sum = total + double_low
+        if double_low == rounded_sum - total:
+            total = rounded_sum
+    result: float = total
+    return result

@@ -45,10 +45,10 @@ def njit(function: Callable[P, R]) -> Callable[P, R]:
 
     A division by zero gives an infinity or NaN, as numpy's.
     """
-    compiled: Any = numba.njit(nogil=True, error_model="numpy")(function)
-    if compiled is not function:  # as it is with NUMBA_DISABLE_JIT
-        compiled._cache = CacheOnUse(function)
-    return cast("Callable[P, R]", compiled)
+    dispatcher: Any = numba.njit(nogil=True, error_model="numpy")(function)
+    if dispatcher is not function:  # as it is with NUMBA_DISABLE_JIT
+        dispatcher._cache = CacheOnUse(function)
+    return cast("Callable[P, R]", dispatcher)
 
 
 def elementwise(function: Callable[..., float]) -> Elementwise:
@@ -58,16 +58,16 @@ def elementwise(function: Callable[..., float]) -> Elementwise:
     """
 
     @functools.cache
-    def compiled() -> Any:
-        made: Any = numba.vectorize(function)  # type: ignore[no-untyped-call]
-        made._dispatcher.cache = CacheOnUse(function, is_typed=True)
-        return made
+    def compile_once() -> Any:
+        ufunc: Any = numba.vectorize(function)  # type: ignore[no-untyped-call]
+        ufunc._dispatcher.cache = CacheOnUse(function, is_typed=True)
+        return ufunc
 
     @functools.wraps(function)
-    def of_arrays(*arrays: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        return cast("npt.NDArray[np.float64]", compiled()(*arrays))
+    def apply(*arrays: npt.ArrayLike) -> npt.NDArray[np.float64]:
+        return cast("npt.NDArray[np.float64]", compile_once()(*arrays))
 
-    return of_arrays
+    return apply
 
 
 def link_library(path: str) -> None:
@@ -76,13 +76,13 @@ def link_library(path: str) -> None:
     binding.load_library_permanently(path)
 
 
-def c_function(function: Callable[..., object], signature: Any) -> Any:
+def compile_c_function(function: Callable[..., object], signature: Any) -> Any:
     """Compile a function of the module's level as a C function, with ``address``; cached alike."""
     arguments = (signature.args, signature.return_type)
-    compiled: Any = CFunc(function, arguments, {}, {"error_model": "numpy"})
-    compiled._cache = CacheOnUse(function)
-    compiled.compile()
-    return compiled
+    compiled_function: Any = CFunc(function, arguments, {}, {"error_model": "numpy"})
+    compiled_function._cache = CacheOnUse(function)
+    compiled_function.compile()
+    return compiled_function
 
 
 class HashedCache(FunctionCache):
@@ -91,7 +91,7 @@ class HashedCache(FunctionCache):
     def __init__(self, function: FunctionType) -> None:
         super().__init__(function)  # type: ignore[no-untyped-call]
         locator = self._impl.locator
-        self._cache_file: Any = Signatures(
+        self._cache_file: Any = CompiledFiles(
             folder=Path(locator.get_cache_path()),
             base=self._impl.filename_base,
             stamp=lambda: source_digest(function),
@@ -114,7 +114,7 @@ class HashedCache(FunctionCache):
             self.disable()  # type: ignore[no-untyped-call]
 
 
-class Signatures:
+class CompiledFiles:
     """The files of one function: one for each signature and kind of processor.
 
     Args:
@@ -129,24 +129,24 @@ class Signatures:
 
     def load(self, key: object) -> object | None:
         """Return the code compiled from this source for this key; None if there is none."""
-        compiled = self._stored(key)
-        if compiled is None:
+        code = self._read(key)
+        if code is None:
             count_compilation()
-        return compiled
+        return code
 
-    def _stored(self, key: object) -> object | None:
+    def _read(self, key: object) -> object | None:
         data = disk_cache.read(self._file(key))
         if data is None:
             return None
         try:
-            stamp, kept_key, compiled = pickle.loads(data)
+            stamp, stored_key, code = pickle.loads(data)
         except (ImportError, AttributeError):  # it calls what was moved since
             return None
-        return compiled if (stamp, kept_key) == (self._find_stamp(), key) else None
+        return code if (stamp, stored_key) == (self._find_stamp(), key) else None
 
-    def save(self, key: object, compiled: object) -> None:
+    def save(self, key: object, code: object) -> None:
         """Store compiled code in place of that of an older source."""
-        disk_cache.write(self._file(key), dumps((self._find_stamp(), key, compiled)))  # type: ignore[no-untyped-call]
+        disk_cache.write(self._file(key), dumps((self._find_stamp(), key, code)))  # type: ignore[no-untyped-call]
 
     def flush(self) -> None:
         """Forget everything."""
@@ -154,8 +154,10 @@ class Signatures:
             file.unlink(missing_ok=True)
 
     def _file(self, key: object) -> Path:
-        called = hashlib.sha256(repr((FORMAT, numba.__version__, key)).encode()).hexdigest()[:16]
-        return self.folder / f"{self._base}.{called}.uwsim"
+        key_digest = hashlib.sha256(repr((FORMAT, numba.__version__, key)).encode()).hexdigest()[
+            :16
+        ]
+        return self.folder / f"{self._base}.{key_digest}.uwsim"
 
 
 class NoCache(NullCache):
@@ -178,7 +180,7 @@ class CacheOnUse(NullCache):
         self._function, self._is_typed = cast("FunctionType", function), is_typed
 
     @functools.cached_property
-    def _found(self) -> HashedCache | NoCache:
+    def _cache(self) -> HashedCache | NoCache:
         try:
             return HashedCache(self._function)
         except RuntimeError:  # there is no folder to keep it in
@@ -186,11 +188,11 @@ class CacheOnUse(NullCache):
 
     def load_overload(self, sig: object, target_context: Any) -> object | None:
         """Load compiled code; None if there is none, and it is compiled."""
-        found = self._found.load_overload(sig, target_context)
-        if found is None or self._is_typed:
+        code = self._cache.load_overload(sig, target_context)
+        if code is None or self._is_typed:
             target_context.refresh()
-        return found
+        return code
 
     def save_overload(self, sig: object, data: object) -> None:
         """Store compiled code if possible."""
-        self._found.save_overload(sig, data)
+        self._cache.save_overload(sig, data)

@@ -33,30 +33,30 @@ def product(left: npt.ArrayLike, right: npt.ArrayLike) -> Array:
     if b.ndim == 3:
         return _multiply_stacks(a[None] if a.ndim == 2 else a, b)
     columns = b[:, None] if b.ndim == 1 else b
-    found = multiply_matrices(a.reshape(math.prod(a.shape[:-1]), a.shape[-1]), columns)
-    return found.reshape(a.shape[:-1] + b.shape[1:])
+    matrix = multiply_matrices(a.reshape(math.prod(a.shape[:-1]), a.shape[-1]), columns)
+    return matrix.reshape(a.shape[:-1] + b.shape[1:])
 
 
 @njit
 def rotate(rotation: Array, vector: Array) -> Array:
     """``rotation @ vector`` for (3, 3) and (3,), quickly."""
-    found = np.empty(3)
+    rotated = np.empty(3)
     for i in range(3):
-        found[i] = (
+        rotated[i] = (
             rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
         )
-    return found
+    return rotated
 
 
 @njit
 def rotate_back(rotation: Array, vector: Array) -> Array:
     """``rotation.T @ vector`` for (3, 3) and (3,), quickly."""
-    found = np.empty(3)
+    rotated = np.empty(3)
     for i in range(3):
-        found[i] = (
+        rotated[i] = (
             rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
         )
-    return found
+    return rotated
 
 
 @njit
@@ -68,11 +68,11 @@ def rotate_rows(rotation: Array, vectors: Array) -> Array:
 @njit
 def cross(left: Array, right: Array) -> Array:
     """Vector product of (3,) and (3,), quickly."""
-    found = np.empty(3)
+    vector = np.empty(3)
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
-        found[i] = left[j] * right[k] - left[k] * right[j]
-    return found
+        vector[i] = left[j] * right[k] - left[k] * right[j]
+    return vector
 
 
 def dot(left: Array, right: Array) -> float:
@@ -97,8 +97,8 @@ def determinant(matrix: Array) -> float:
 def determinants(matrices: Array) -> Array:
     """Of matrices (n, 3, 3), (n,)."""
     (a, b, c), (d, e, f), (g, h, i) = matrices.transpose(1, 2, 0)
-    found: Array = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
-    return found
+    values: Array = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    return values
 
 
 def solve(matrix: Array, right: Array) -> Array:
@@ -108,10 +108,10 @@ def solve(matrix: Array, right: Array) -> Array:
         numpy.linalg.LinAlgError: the matrix is singular.
     """
     columns = right if right.ndim == 2 else right[:, None]
-    found, is_regular = eliminate(matrix.astype(np.float64), columns.astype(np.float64))
+    solution, is_regular = eliminate(matrix.astype(np.float64), columns.astype(np.float64))
     if not is_regular:
         raise np.linalg.LinAlgError("Singular matrix")
-    return found if right.ndim == 2 else found[:, 0]
+    return solution if right.ndim == 2 else solution[:, 0]
 
 
 def inverse(matrix: Array) -> Array:
@@ -121,10 +121,10 @@ def inverse(matrix: Array) -> Array:
         numpy.linalg.LinAlgError: one is singular.
     """
     stack = np.array(matrix, dtype=np.float64, ndmin=3)
-    found, are_regular = _invert_all(stack.reshape(-1, *matrix.shape[-2:]))
+    inverses, are_regular = _invert_all(stack.reshape(-1, *matrix.shape[-2:]))
     if not are_regular:
         raise np.linalg.LinAlgError("Singular matrix")
-    return found.reshape(matrix.shape)
+    return inverses.reshape(matrix.shape)
 
 
 def singular_values(matrix: Array) -> Array:
@@ -135,8 +135,8 @@ def singular_values(matrix: Array) -> Array:
 def rank(matrix: Array) -> int:
     """How many singular values are more than rounding, as numpy counts them."""
     values = singular_values(matrix)
-    least = values.max(initial=0.0) * max(matrix.shape) * np.finfo(np.float64).eps
-    return int(np.sum(values > least))
+    threshold = values.max(initial=0.0) * max(matrix.shape) * np.finfo(np.float64).eps
+    return int(np.sum(values > threshold))
 
 
 def pseudo_inverse(matrix: Array, *, rcond: float) -> Array:
@@ -145,21 +145,21 @@ def pseudo_inverse(matrix: Array, *, rcond: float) -> Array:
     Singular values up to ``rcond`` times the largest count as zero.
     """
     left, values, right = _decompose(matrix)
-    kept = values > rcond * values.max(initial=0.0)
-    return product(right[:, kept] / values[kept], left[:, kept].T)
+    is_used = values > rcond * values.max(initial=0.0)
+    return product(right[:, is_used] / values[is_used], left[:, is_used].T)
 
 
 def _decompose(matrix: Array) -> tuple[Array, Array, Array]:
     """``matrix = left @ diag(values) @ right.T`` by Jacobi's one-sided method (Hestenes 1958)."""
     is_wide = matrix.shape[0] < matrix.shape[1]
-    tall = np.array(matrix.T if is_wide else matrix, dtype=np.float64, order="C")
-    turn = np.eye(tall.shape[1])
-    _rotate_until_orthogonal(tall, turn)
-    values = np.linalg.norm(tall, axis=0)
+    columns = np.array(matrix.T if is_wide else matrix, dtype=np.float64, order="C")
+    rotation = np.eye(columns.shape[1])
+    _rotate_until_orthogonal(columns, rotation)
+    values = np.linalg.norm(columns, axis=0)
     order = np.argsort(-values, kind="stable")
-    values, tall, turn = values[order], tall[:, order], turn[:, order]
-    first = np.divide(tall, values, out=np.zeros_like(tall), where=values > 0.0)
-    return (turn, values, first) if is_wide else (first, values, turn)
+    values, columns, rotation = values[order], columns[:, order], rotation[:, order]
+    unit_columns = np.divide(columns, values, out=np.zeros_like(columns), where=values > 0.0)
+    return (rotation, values, unit_columns) if is_wide else (unit_columns, values, rotation)
 
 
 @njit
@@ -174,17 +174,17 @@ def world_positions(
         bodies: which ones, (n,).
         points: in their axes, (n, 3).
     """
-    found = np.empty((len(bodies), 3))
+    positions = np.empty((len(bodies), 3))
     for row in range(len(bodies)):
         body = bodies[row]
         for i in range(3):
-            found[row, i] = (
+            positions[row, i] = (
                 origins[body, i]
                 + axes[body, i, 0] * points[row, 0]
                 + axes[body, i, 1] * points[row, 1]
                 + axes[body, i, 2] * points[row, 2]
             )
-    return found
+    return positions
 
 
 @njit
@@ -193,68 +193,70 @@ def multiply_matrices(a: Array, b: Array) -> Array:
 
     The loop inside is along the rows of ``b`` where these are long.
     """
-    found = np.zeros((a.shape[0], b.shape[1]))
+    matrix = np.zeros((a.shape[0], b.shape[1]))
     if b.shape[1] > 3:
         for i in range(a.shape[0]):
             for j in range(a.shape[1]):
                 for k in range(b.shape[1]):
-                    found[i, k] += a[i, j] * b[j, k]
-        return found
+                    matrix[i, k] += a[i, j] * b[j, k]
+        return matrix
     if b.shape == (3, 3):  # as below, with the three sums of a row side by side
         for i in range(a.shape[0]):
             x, y, z = a[i, 0], a[i, 1], a[i, 2]
             for k in range(3):
-                found[i, k] = 0.0 + x * b[0, k] + y * b[1, k] + z * b[2, k]
-        return found
+                matrix[i, k] = 0.0 + x * b[0, k] + y * b[1, k] + z * b[2, k]
+        return matrix
     for i in range(a.shape[0]):
         for k in range(b.shape[1]):
             total = 0.0
             for j in range(a.shape[1]):
                 total += a[i, j] * b[j, k]
-            found[i, k] = total
-    return found
+            matrix[i, k] = total
+    return matrix
 
 
 @njit
 def _multiply_stacks(a: Array, b: Array) -> Array:
     """Products of (n, i, j) and (n, j, k); either may be one for all, with n = 1."""
     n = max(a.shape[0], b.shape[0])
-    found = np.empty((n, a.shape[1], b.shape[2]))
+    products = np.empty((n, a.shape[1], b.shape[2]))
     for m in range(n):
-        one = a[m if a.shape[0] > 1 else 0]
-        other = b[m if b.shape[0] > 1 else 0]
-        for i in range(one.shape[0]):
-            for k in range(other.shape[1]):
+        left = a[m if a.shape[0] > 1 else 0]
+        right = b[m if b.shape[0] > 1 else 0]
+        for i in range(left.shape[0]):
+            for k in range(right.shape[1]):
                 total = 0.0
-                for j in range(one.shape[1]):
-                    total += one[i, j] * other[j, k]
-                found[m, i, k] = total
-    return found
+                for j in range(left.shape[1]):
+                    total += left[i, j] * right[j, k]
+                products[m, i, k] = total
+    return products
 
 
 @njit
 def compose_transforms(
-    turn_a: Array, shift_a: Array, turn_b: Array, shift_b: Array
+    rotation_a: Array, position_a: Array, rotation_b: Array, position_b: Array
 ) -> tuple[Array, Array]:
     """Shift and turn of ``a_from_b @ b_from_c``, from those of both."""
-    turn, shift = np.empty((3, 3)), np.empty(3)
+    rotation, position = np.empty((3, 3)), np.empty(3)
     for i in range(3):
-        x, y, z = turn_a[i, 0], turn_a[i, 1], turn_a[i, 2]
+        x, y, z = rotation_a[i, 0], rotation_a[i, 1], rotation_a[i, 2]
         for k in range(3):
-            turn[i, k] = x * turn_b[0, k] + y * turn_b[1, k] + z * turn_b[2, k]
-        shift[i] = x * shift_b[0] + y * shift_b[1] + z * shift_b[2] + shift_a[i]
-    return shift, turn
+            rotation[i, k] = x * rotation_b[0, k] + y * rotation_b[1, k] + z * rotation_b[2, k]
+        position[i] = x * position_b[0] + y * position_b[1] + z * position_b[2] + position_a[i]
+    return position, rotation
 
 
 @njit
 def transform_points(points: Array, rotation: Array, position: Array) -> Array:
     """``points @ rotation.T + position`` for (n, 3)."""
-    found = np.empty((points.shape[0], 3))
+    coordinates = np.empty((points.shape[0], 3))
     for n in range(points.shape[0]):
         x, y, z = points[n, 0], points[n, 1], points[n, 2]
         for i in range(3):
-            found[n, i] = rotation[i, 0] * x + rotation[i, 1] * y + rotation[i, 2] * z + position[i]
-    return found
+            coordinates[n, i] = (
+                rotation[i, 0] * x + rotation[i, 1] * y + rotation[i, 2] * z + position[i]
+            )
+    return coordinates
 
 
 @njit
@@ -287,52 +289,52 @@ def eliminate(a: Array, b: Array) -> tuple[Array, bool]:
 
 
 @njit
-def invert(matrix: Array, to: Array) -> bool:
+def invert(matrix: Array, output: Array) -> bool:
     """Write the inverse of a matrix (n, n) to another; False if it is singular."""
-    found, is_regular = eliminate(matrix.copy(), np.eye(matrix.shape[0]))
-    to[:] = found
+    inverse, is_regular = eliminate(matrix.copy(), np.eye(matrix.shape[0]))
+    output[:] = inverse
     return is_regular
 
 
 @njit
 def _invert_all(matrices: Array) -> tuple[Array, bool]:
     """Of each of (n, k, k); overwrites them."""
-    found, are_regular = np.empty(matrices.shape), True
+    inverses, are_regular = np.empty(matrices.shape), True
     for i in range(matrices.shape[0]):
-        inverted, is_regular = eliminate(matrices[i], np.eye(matrices.shape[1]))
-        found[i] = inverted
+        inverse, is_regular = eliminate(matrices[i], np.eye(matrices.shape[1]))
+        inverses[i] = inverse
         are_regular = are_regular and is_regular
-    return found, are_regular
+    return inverses, are_regular
 
 
 @njit
-def _rotate_until_orthogonal(a: Array, turn: Array) -> None:
-    """Turn pairs of columns of ``a`` (m, n), and of ``turn`` (n, n) alike, until all are."""
+def _rotate_until_orthogonal(a: Array, rotation: Array) -> None:
+    """Turn pairs of columns of ``a`` (m, n), and of ``rotation`` (n, n) alike, until all are."""
     m, n = a.shape
     for _ in range(SWEEPS):
         is_done = True
         for i in range(n - 1):
             for j in range(i + 1, n):
-                of_i, of_j, both = 0.0, 0.0, 0.0
+                square_i, square_j, product = 0.0, 0.0, 0.0
                 for k in range(m):
-                    of_i += a[k, i] * a[k, i]
-                    of_j += a[k, j] * a[k, j]
-                    both += a[k, i] * a[k, j]
-                if abs(both) <= 1e-15 * math.sqrt(of_i * of_j):
+                    square_i += a[k, i] * a[k, i]
+                    square_j += a[k, j] * a[k, j]
+                    product += a[k, i] * a[k, j]
+                if abs(product) <= 1e-15 * math.sqrt(square_i * square_j):
                     continue
                 is_done = False
-                zeta = (of_j - of_i) / (2.0 * both)
+                zeta = (square_j - square_i) / (2.0 * product)
                 sign = 1.0 if zeta >= 0.0 else -1.0
                 tangent = sign / (abs(zeta) + math.sqrt(1.0 + zeta * zeta))
                 cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
                 sine = cosine * tangent
                 for k in range(m):
-                    first = a[k, i]
-                    a[k, i] = cosine * first - sine * a[k, j]
-                    a[k, j] = sine * first + cosine * a[k, j]
+                    element = a[k, i]
+                    a[k, i] = cosine * element - sine * a[k, j]
+                    a[k, j] = sine * element + cosine * a[k, j]
                 for k in range(n):
-                    first = turn[k, i]
-                    turn[k, i] = cosine * first - sine * turn[k, j]
-                    turn[k, j] = sine * first + cosine * turn[k, j]
+                    element = rotation[k, i]
+                    rotation[k, i] = cosine * element - sine * rotation[k, j]
+                    rotation[k, j] = sine * element + cosine * rotation[k, j]
         if is_done:
             return

@@ -288,7 +288,7 @@ class EuclideanNorm(Measure):
     @property
     def estimate(self) -> Array | None:
         """The newest message, whether it could be scored or not."""
-        last = self._inbox.last
+        last = self._inbox.last_message
         return None if last is None else np.asarray(last.data, dtype=np.float64)
 
     def close(self) -> None:

@@ -57,7 +57,7 @@ class TaughtCommand(TyperCommand):
                     except typer.TyperException as error:
                         raise BadSetting(error.format_message()) from None
             with suppress(BadSetting):  # the only one: as typer says it
-                wrong.check()
+                wrong.raise_errors()
             raise first
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:

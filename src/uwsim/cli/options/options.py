@@ -94,7 +94,7 @@ def existing_folders(folders: list[Path] | None) -> list[Path] | None:
             with wrong.collect():
                 what = "is no folder" if folder.exists() else "there is no such folder"
                 raise BadSetting(f"--data-path {folder}: {what}.")
-    wrong.check()
+    wrong.raise_errors()
     return folders
 
 

@@ -33,7 +33,7 @@ def cached_mesh(parts: Sequence[Array], error: float | None) -> FixedMesh:
     digest.update(f"{error!r} {[len(part) for part in parts]}".encode())
     for part in parts:
         digest.update(np.ascontiguousarray(part).data)
-    file = disk_cache.folder("fixed-meshes") / f"{digest.hexdigest()[:32]}.npz"
+    file = disk_cache.cache_folder("fixed-meshes") / f"{digest.hexdigest()[:32]}.npz"
     data = disk_cache.read(file)
     if data is not None:
         return _unpacked(data)

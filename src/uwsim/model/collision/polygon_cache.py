@@ -23,7 +23,7 @@ def cached_faces(triangles: Array) -> list[Array]:
     sources = [str(module.__file__) for module in (convex_faces, linear)]
     digest = hashlib.sha256(code_digest(sources, ("numpy", "scipy")))
     digest.update(np.ascontiguousarray(triangles).data)
-    file = disk_cache.folder("polygons") / f"{digest.hexdigest()[:32]}.npz"
+    file = disk_cache.cache_folder("polygons") / f"{digest.hexdigest()[:32]}.npz"
     data = disk_cache.read(file)
     if data is None:
         polygons = convex_faces.convex_faces(triangles)

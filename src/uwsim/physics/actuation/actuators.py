@@ -92,7 +92,7 @@ class Actuators:
         return CompiledFunction(
             addresses=(function_address(self._law.write_powers), address_of(row)),
             prepare=lambda _: self._refresh(),
-            kept=(self, row),
+            memory_owners=(self, row),
         )
 
     def powers(self) -> Array:

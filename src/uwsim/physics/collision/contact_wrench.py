@@ -88,7 +88,7 @@ def contact_sampler(
         n_values=6,
         prepare=prepare_row,
         is_alone=is_alone,
-        kept=(mount, offsets, model, data),
+        memory_owners=(mount, offsets, model, data),
     )
 
 

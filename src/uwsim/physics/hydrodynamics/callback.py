@@ -23,7 +23,7 @@ import numba
 import numpy as np
 from numba import types
 
-from ...base.numerics.jit import c_function, link_library
+from ...base.numerics.jit import compile_c_function, link_library
 from ...base.numerics.memory import Floats, Ints64
 from ...errors import UwsimError
 from .kernel import free_bodies, kernel, layout
@@ -79,7 +79,7 @@ def wrapper() -> Any:
     """Compile the C function ``void (const mjModel*, mjData*)``, or read it from the disk."""
     offsets()
     link_library(library()._name)  # where MuJoCo's functions are
-    return c_function(_add_water, _SIGNATURE)
+    return compile_c_function(_add_water, _SIGNATURE)
 
 
 @functools.cache

@@ -90,7 +90,7 @@ def make_plan(request: PlanRequest) -> Plan:
     chosen = levels_of(request.levels, spec, wrong)
     with wrong.collect():
         check_length(spec, chosen, request.repeat)
-    wrong.check()
+    wrong.raise_errors()
     assert spec is not None
     assert scene is not None
     assert kind is not None

@@ -52,7 +52,7 @@ class StatusMonitor:
 
     def listen(self, time: float) -> None:
         """Take note of what came in since the last call."""
-        if self._inbox.last is None and self._node.error is None:
+        if self._inbox.last_message is None and self._node.error is None:
             return
         for message in self._inbox.take():
             state, _, why = message.data.partition(":")

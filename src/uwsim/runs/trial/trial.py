@@ -399,7 +399,7 @@ class _Execution:
         score = self._expression.score(cells.values)
         total, reason = finite(score.value if status == "ok" else None)
         if total is None:
-            cells.missing["total"] = why or score.why or f"the function: {reason}"
+            cells.missing["total"] = why or score.reason or f"the function: {reason}"
         logged = [triggered for triggered in measures if triggered.spec.log is not None]
         return LevelRow(
             values=level.values,

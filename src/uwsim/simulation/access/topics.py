@@ -28,7 +28,7 @@ class Newest(ExternalValue):
 
     def value(self) -> dict[str, tuple[Any, int | None]]:
         """Return topic -> its newest message and the step at which it came."""
-        return {topic: (box.last, box.last_step) for topic, box in self._inboxes.items()}
+        return {topic: (box.last_message, box.last_step) for topic, box in self._inboxes.items()}
 
     def set(self, value: object) -> None:
         """Set the newest messages; topics that are not read yet are read from now on."""
@@ -41,7 +41,7 @@ class Newest(ExternalValue):
                 self._inboxes[topic] = self._open_inbox(topic)
             box = self._inboxes[topic]
             box.clear()
-            box.last, box.last_step = last, step
+            box.last_message, box.last_step = last, step
 
 
 @dataclass(slots=True)
@@ -70,7 +70,7 @@ class TopicAccess:
         """What it has read."""
 
     def _opened(self, name: str) -> Inbox[Any]:
-        return self._bus.inbox(name, object, n_kept=1)
+        return self._bus.inbox(name, object, max_messages=1)
 
     @property
     def read(self) -> tuple[str, ...]:
@@ -113,4 +113,4 @@ class TopicAccess:
                 self._inboxes[name].receive(before, self._bus.step)
         inbox = self._inboxes[name]
         inbox.take()
-        return inbox.last
+        return inbox.last_message

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ...base.record import ExternalValue, GeneratorState, changing_fields, fields_of
+from ...base.record import ExternalValue, GeneratorState, changing_fields, field_values
 from ...errors import UwsimError
 from ...version import __version__
 
@@ -110,7 +110,7 @@ def _record_flattener(kind: type) -> Callable[[Any], list[Any]]:
     places, flat = [2 + place for place in changing_fields(kind)], _FLAT
 
     def flatten(record: Any) -> list[Any]:
-        values = [RECORD, name, *fields_of(record)]
+        values = [RECORD, name, *field_values(record)]
         for place in places:
             value = values[place]
             values[place] = flat[type(value)](value)
@@ -135,7 +135,7 @@ def _flat_array(array: Any) -> list[Any]:
 _FLAT: _Flat = _Flat(
     {
         np.ndarray: _flat_array,
-        np.random.Generator: lambda value: _flat(GeneratorState.by(value)),
+        np.random.Generator: lambda value: _flat(GeneratorState.from_generator(value)),
         list: lambda value: [LIST, *[_FLAT[type(each)](each) for each in value]],
         dict: lambda value: [DICT, *value, *[_FLAT[type(each)](each) for each in value.values()]],
         deque: lambda value: [QUEUE, value.maxlen, *[_FLAT[type(each)](each) for each in value]],

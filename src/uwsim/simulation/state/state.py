@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Self
 
-from ...base.record import ExternalValue, Record, copy_record, is_same, wrong_scene_error
+from ...base.record import ExternalValue, Record, are_equal, copy_record, wrong_scene_error
 from ...bus.bus import BusState
 from ...errors import UwsimError
 from ...model.scene_model import SceneModel
@@ -149,6 +149,6 @@ class State(Record):
 
     def __eq__(self, other: object) -> bool:
         """Compare all values, to the bit."""
-        return isinstance(other, State) and is_same(self.copy(), other.copy())
+        return isinstance(other, State) and are_equal(self.copy(), other.copy())
 
     __hash__ = None  # type: ignore[assignment]

@@ -41,7 +41,7 @@ def at_points(flow: FlowFunction | None, localized_from_world: Pose, n: int) -> 
     return CompiledFunction(
         addresses=(function_address(write_velocities), address_of(row)),
         prepare=(lambda _: None) if flow is None else flow.prepare,
-        kept=(row, flow, query, kept),
+        memory_owners=(row, flow, query, kept),
     )
 
 
