@@ -107,5 +107,5 @@ def test_a_vehicle_far_from_floating_is_reported(volume: str, severity: str, fol
     if severity == "warning":
         open_scene(read_scene(folder / "my_scene.xml"), is_blind=True).close()
     else:
-        with pytest.raises(SceneError, match="lighter than any foam"):
+        with pytest.raises(SceneError, match="times the mass, as of the lightest foam"):
             open_scene(read_scene(folder / "my_scene.xml"), is_blind=True)

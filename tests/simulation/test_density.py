@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from uwsim.errors import SceneError
-from uwsim.model.dynamics import Search, read_dynamics
+from uwsim.model.dynamics import NameResolution, read_dynamics
 from uwsim.model.resolved_scene import ResolvedScene
 from uwsim.model.robots import read_robots
 from uwsim.scene.ocean_state import OceanStateSpec, ProfileSpec
@@ -57,16 +57,16 @@ def test_temperature_and_salinity_give_a_density() -> None:
 
 def test_added_mass_and_drag_are_those_of_the_water_and_the_lift_is_reported() -> None:
     scene = two(OceanStateSpec(density=1028.0))
-    search = Search(resolved(scene))
+    search = NameResolution(resolved(scene))
     girona = search.dynamics[0]
-    own = Search(resolved(two(OceanStateSpec(density=1000.0)))).dynamics[0]
+    own = NameResolution(resolved(two(OceanStateSpec(density=1000.0)))).dynamics[0]
     for heavy, light in zip(girona.bodies, own.bodies, strict=True):
         assert heavy.added_mass == pytest.approx([1.028 * x for x in light.added_mass])
         assert heavy.volume == light.volume
     warnings = [
-        diagnostic.message for diagnostic in search.found if diagnostic.severity == "warning"
+        diagnostic.message for diagnostic in search.diagnostics if diagnostic.severity == "warning"
     ]
-    assert any("trimmed in 1000" in one and "N lighter here" in one for one in warnings)
+    assert any("trimmed for 1000" in one and "N lighter than" in one for one in warnings)
 
 
 def test_a_profile_over_depth_is_the_water_and_the_lift_is_that_at_the_vehicles_depth() -> None:
@@ -76,8 +76,8 @@ def test_a_profile_over_depth_is_the_water_and_the_lift_is_that_at_the_vehicles_
     at_depth = profile.density_at(1.515)  # of the Girona 500
     volume = sum(body.volume for body in read_dynamics(resolved(scene))[0].bodies)
     lift = 9.81 * (at_depth - 1000.0) * volume
-    said = [one.message for one in Search(resolved(scene)).found]
-    assert any(f"it is {lift:.3g} N lighter here" in one for one in said)
+    said = [one.message for one in NameResolution(resolved(scene)).diagnostics]
+    assert any(f"is {lift:.3g} N lighter than" in one for one in said)
 
 
 @pytest.mark.parametrize(

@@ -51,8 +51,8 @@ WAYS = {
         END,
         "\n<u:ROSWrenchToPAT> <u:topic>dataNavigator</u:topic> "
         f"<u:vehicleName>girona500</u:vehicleName> </u:ROSWrenchToPAT>{END}",
-        "'dataNavigator' carries geometry_msgs/msg/WrenchStamped, but of <ROSTwistToPAT> it "
-        "carries geometry_msgs/msg/TwistStamped",
+        "'dataNavigator' carries geometry_msgs/msg/WrenchStamped, but "
+        "geometry_msgs/msg/TwistStamped of <ROSTwistToPAT>",
     ),
     "a field that is not there": (
         "<oceanState>",
@@ -186,7 +186,7 @@ def test_the_bundled_scenes_have_no_such_error() -> None:
 def test_a_mesh_of_too_many_faces_is_reported_before_a_run_refuses_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.model.collision.shapes.MAX_PIECES", 3)
+    monkeypatch.setattr("uwsim.model.collision.shapes.MAX_PLATES", 3)
     (tmp_path / "tent.obj").write_text(
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
     )
@@ -200,4 +200,4 @@ def test_a_mesh_of_too_many_faces_is_reported_before_a_run_refuses_it(
     scene.write_text(SCENE.read_text().replace("</UWSimScene>", rock))
     line = scene.read_text().partition("<physics> <mass>0</mass>")[0].count("\n") + 1
     [said] = [diagnostic for diagnostic in check_file(scene) if diagnostic.line == line]
-    assert "'tent.obj' as a fixed trimesh would be 4 plates; at most 3" in said.message
+    assert "'tent.obj' as a fixed trimesh has 4 plates; expected at most 3" in said.message

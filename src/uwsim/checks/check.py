@@ -115,7 +115,9 @@ def model_warnings(model: SceneModel) -> list[Diagnostic]:
     from .subjects import CheckedScene
 
     found = (model.robots, model.dynamics)
-    return _apply(CheckedScene(model.varied, model.data_path, timestep=model.timestep, found=found))
+    return _apply(
+        CheckedScene(model.varied_scene, model.data_path, timestep=model.timestep, found=found)
+    )
 
 
 def _apply(scene: CheckedScene) -> list[Diagnostic]:

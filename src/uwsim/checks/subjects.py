@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import Diagnostic, UwsimError
 from ..model.collision.scene_shapes import simulated_solids
-from ..model.dynamics import Search
+from ..model.dynamics import NameResolution
 from ..model.placement import set_on_floor
 from ..model.resolved_scene import ResolvedScene
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
@@ -121,9 +121,9 @@ class CheckedScene(Subject):
         return not self._found and name in self.robot_search.stand_ins
 
     @cached_property
-    def names(self) -> Search:
+    def names(self) -> NameResolution:
         """The names in it that belong to its hydrodynamics, looked up."""
-        return Search(self.resolved, is_thorough=True)
+        return NameResolution(self.resolved, is_thorough=True)
 
     @property
     def dynamics(self) -> Mapping[int, VehicleHydrodynamics]:

@@ -1,1 +1,1 @@
-"""What follows from a scene file and never changes while a simulation runs."""
+"""The parts of a scene that follow from its file and do not change during a simulation."""

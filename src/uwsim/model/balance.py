@@ -1,12 +1,12 @@
 r"""Weight, buoyancy and hydrostatic stiffness of a vehicle.
 
-A hull whose centre of buoyancy lies a height h above its centre of mass rights itself: leaning by
-an angle it feels the moment
+A hull whose centre of buoyancy is a height h above its centre of mass has, at a roll or pitch angle
+:math:`\theta`, the righting moment
 
 .. math:: \rho g \nabla h \sin\theta
 
-with the volume :math:`\nabla` (Fossen, *Handbook of Marine Craft*, 2011, section 4.1). Joints are
-as the file says. Not modelled: how an arm that moves shifts it, the waterplane at the surface.
+with the volume :math:`\nabla` (Fossen, *Handbook of Marine Craft*, 2011, section 4.1). Joints have
+the values of the file. Not modelled: the effect of arm motion, the waterplane at the surface.
 """
 
 from __future__ import annotations
@@ -26,30 +26,30 @@ from ..world import GRAVITY
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Balance:
-    """Weight and buoyancy of a vehicle with all its links."""
+    """The weight and buoyancy of a vehicle with all its links."""
 
     mass: float
-    """[kg]"""
+    """The mass [kg]."""
     centre_of_mass: Array
-    """In the base's frame, (3,) [m]."""
-    displaced: float
-    """Water, fully submerged [kg]."""
+    """The centre of mass in the base's frame, (3,) [m]."""
+    displaced_mass: float
+    """The mass of the displaced water, fully submerged [kg]."""
     centre_of_buoyancy: Array
-    """In the base's frame, (3,) [m]."""
+    """The centre of buoyancy in the base's frame, (3,) [m]."""
 
     @property
     def buoyancy(self) -> float:
-        """Net buoyancy: buoyancy less weight, upwards [N]."""
-        return GRAVITY * (self.displaced - self.mass)
+        """The net buoyancy: buoyancy less weight, upwards [N]."""
+        return GRAVITY * (self.displaced_mass - self.mass)
 
     def stiffness(self, up: Array) -> float:
-        """Moment per angle with which it rights itself; below 0 it turns over [N m/rad].
+        """Compute the righting moment per angle; the vehicle capsizes below 0 [N m/rad].
 
         Args:
             up: W's z in the base's frame, (3,).
         """
         height = dot(self.centre_of_buoyancy - self.centre_of_mass, up)
-        return float(GRAVITY * self.displaced * height)
+        return float(GRAVITY * self.displaced_mass * height)
 
 
 def balance_of(
@@ -58,35 +58,35 @@ def balance_of(
     """Add up the links of a vehicle.
 
     Args:
-        robot: its links.
-        dynamics: what the water does to them; its masses replace those of the robot.
-        joint_values: its joints [rad or m].
+        robot: the links of the vehicle.
+        dynamics: its hydrodynamics; masses of the set replace those of the robot.
+        joint_values: the values of its joints [rad or m].
     """
     poses = link_poses(robot, joint_values)
     masses, volumes = [0.0], [0.0]
-    of_mass, of_volume = [np.zeros(3)], [np.zeros(3)]
+    mass_centres, volume_centres = [np.zeros(3)], [np.zeros(3)]
     for link in robot.links:
         body = dynamics.body(link.name)
-        own = link.mass if body is None or body.mass is None else body.mass
-        middle = link.centre_of_mass
+        mass = link.mass if body is None or body.mass is None else body.mass
+        centre = link.centre_of_mass
         if body is not None and body.centre_of_mass is not None:
-            middle = body.centre_of_mass
-        masses.append(own)
-        of_mass.append(_at(poses[link.name], middle))
+            centre = body.centre_of_mass
+        masses.append(mass)
+        mass_centres.append(_transform_point(poses[link.name], centre))
         if body is not None:
             volumes.append(body.volume)
-            of_volume.append(_at(poses[link.name], body.centre_of_buoyancy))
+            volume_centres.append(_transform_point(poses[link.name], body.centre_of_buoyancy))
     return Balance(
         mass=sum(masses),
-        centre_of_mass=_mean(masses, of_mass),
-        displaced=dynamics.density * sum(volumes),
-        centre_of_buoyancy=_mean(volumes, of_volume),
+        centre_of_mass=_mean(masses, mass_centres),
+        displaced_mass=dynamics.density * sum(volumes),
+        centre_of_buoyancy=_mean(volumes, volume_centres),
     )
 
 
-def _at(base_from_link: Pose, point: tuple[float, float, float]) -> Array:
-    place: Array = base_from_link.transform(np.array([point]))[0]
-    return place
+def _transform_point(base_from_link: Pose, point: tuple[float, float, float]) -> Array:
+    position: Array = base_from_link.transform(np.array([point]))[0]
+    return position
 
 
 def _mean(weights: Sequence[float], points: Sequence[Array]) -> Array:

@@ -4,40 +4,40 @@ from __future__ import annotations
 
 
 def vehicle_body(index: int, link: str) -> str:
-    """Name in the model of a link of the vehicle number ``index``."""
+    """Return the name in the model of a link of the vehicle number ``index``."""
     return f"vehicle/{index}/{link}"
 
 
 def vehicle_joint(index: int, joint: str) -> str:
-    """Name in the model of a joint of the vehicle number ``index``."""
+    """Return the name in the model of a joint of the vehicle number ``index``."""
     return f"vehicle/{index}/joint/{joint}"
 
 
 def vehicle_thruster(index: int, thruster: str) -> str:
-    """Name in the model of a thruster of the vehicle number ``index``."""
+    """Return the name in the model of a thruster of the vehicle number ``index``."""
     return f"vehicle/{index}/thruster/{thruster}"
 
 
 def vehicle_fin(index: int, fin: str) -> str:
-    """Name in the model of a fin of the vehicle number ``index``."""
+    """Return the name in the model of a fin of the vehicle number ``index``."""
     return f"vehicle/{index}/fin/{fin}"
 
 
 def object_body(index: int) -> str:
-    """Name in the model of the object number ``index``."""
+    """Return the name in the model of the object number ``index``."""
     return f"object/{index}"
 
 
 def loose_joint(index: int) -> str:
-    """Name in the model of the joint of the loose object number ``index``."""
+    """Return the name in the model of the joint of the loose object number ``index``."""
     return f"object/{index}/joint"
 
 
-def grip(vehicle: int, link: str, thing: int) -> str:
-    """Name in the model of the constraint by which a link holds a loose object."""
-    return f"grip/{vehicle}/{link}/{thing}"
+def grip_constraint(vehicle: int, link: str, object_index: int) -> str:
+    """Return the name in the model of the constraint by which a link holds a loose object."""
+    return f"grip/{vehicle}/{link}/{object_index}"
 
 
 def owner_of(name: str) -> str:
-    """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
+    """Return ``vehicle/1`` or ``object/1``, the owner of the body or shape of that name."""
     return "/".join(name.split("/")[:2])

@@ -1,4 +1,4 @@
-"""The sensor that a ``<u:sensorToROS>`` names: its message type, or why there is not one."""
+"""The sensor that a ``<u:sensorToROS>`` names: its message type, or the error in the name."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from ..topics.sensor_topic import SensorToROSSpec
 
 
 class NamedSensors:
-    """The sensors of a scene, and its devices that measure, by name."""
+    """The sensors and measuring devices of a scene, by name."""
 
     def __init__(self, scene: SceneSpec) -> None:
         self._types: dict[str, dict[str, type]] = {}
-        """Name -> element -> message type."""
+        """The message type, by name and element."""
         self._cameras: set[str] = set()
         for vehicle in scene.vehicles:
             self._cameras |= {camera.name for camera in vehicle.parts_of(VirtualCameraSpec)}
@@ -27,7 +27,7 @@ class NamedSensors:
                     name = str(getattr(part, "name", ""))
                     self._types.setdefault(name, {})[element] = type_
 
-    def carried(self, interface: InterfaceSpec) -> Mapping[str, type]:
+    def message_types(self, interface: InterfaceSpec) -> Mapping[str, type]:
         """Return the types of an interface's messages, by the field that names the topic."""
         if not isinstance(interface, SensorToROSSpec):
             return interface.carries()
@@ -35,7 +35,7 @@ class NamedSensors:
         return {"topic": types[-1]} if types else {}
 
     def error(self, interface: InterfaceSpec) -> str | None:
-        """Report why a ``<u:sensorToROS>`` does not name one sensor; None if it does."""
+        """Return the reason why a ``<u:sensorToROS>`` does not name one sensor; None if it does."""
         if not isinstance(interface, SensorToROSSpec):
             return None
         name = interface.name
@@ -44,9 +44,9 @@ class NamedSensors:
             return None
         if elements:
             kinds = "> and of a <".join(elements)
-            return f"{name!r} is the name of a <{kinds}>; expected that of one sensor"
-        found = f"no sensor is called {name!r}"
+            return f"{name!r} is the name of a <{kinds}>; expected the name of one sensor"
+        message = f"no sensor is called {name!r}"
         if name in self._cameras:
-            found = f"{name!r} is a <virtualCamera>, which <VirtualCameraToROSImage> publishes"
+            message = f"{name!r} is a <virtualCamera>, which <VirtualCameraToROSImage> publishes"
         expected = "expected the name of a sensor, or of a device that measures"
-        return f"{found}; {expected}.{choices(name, sorted(self._types), heading='Sensors')}"
+        return f"{message}; {expected}.{choices(name, sorted(self._types), heading='Sensors')}"

@@ -27,8 +27,8 @@ from ..scene.vehicle import VehicleSpec
 from .resolved_scene import ResolvedScene
 
 CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
-THINNEST = 1e-4
-"""Least edge of a box, cylinder or sphere; robot files have some without any thickness [m]."""
+MIN_EDGE = 1e-4
+"""The least edge of a box, cylinder or sphere; some robot files have none without thickness [m]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,31 +36,31 @@ class Part:
     """One model of the scene, with its body."""
 
     id: int
-    """Number in segmentation images, from 1."""
+    """The number in segmentation images, from 1."""
     name: str
-    """``vehicle/link`` or the object's name."""
+    """The name, ``vehicle/link`` or the object's."""
     model: Model
     vehicle: int | None
-    """Number of the vehicle; None for an object."""
+    """The number of the vehicle; None for an object."""
     link: str
-    """Link of the vehicle; empty for an object."""
+    """The link of the vehicle; empty for an object."""
     object: int | None
-    """Number of the object; None for a link."""
+    """The number of the object; None for a link."""
     frame_from_mesh: npt.NDArray[np.float64]
-    """Mesh frame in the link's or object's frame, (4, 4) [m]; the scale of an object or of a mesh
-    is in it, that of a vehicle is not."""
+    """The mesh frame in the link's or object's frame, (4, 4) [m], with the scale of an object or
+    mesh, without that of a vehicle."""
     is_hidden: bool
-    """Ghosts (``vr``) are seen in the viewer, not by virtual cameras."""
+    """A flag: the part is a ghost (``vr``), visible in the viewer, not to virtual cameras."""
 
 
-def parts_of(resolved: ResolvedScene) -> list[Part]:
-    """All visible models of a scene; those of one link or object share a number and a name."""
-    scene, data_path = resolved.scene, resolved.data_path
+def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
+    """Return the visible models of a scene; those of a link or object share a number and a name."""
+    scene, data_path = resolved_scene.scene, resolved_scene.data_path
     parts: list[Part] = []
     load = object_models(scene, data_path)
     number = 0
     for index, vehicle in enumerate(scene.vehicles):
-        robot = resolved.robots[index]
+        robot = resolved_scene.robots[index]
         for link in robot.links:
             number += bool(link.visuals)
             for visual in link.visuals:
@@ -87,18 +87,18 @@ def parts_of(resolved: ResolvedScene) -> list[Part]:
                 leds = _led_parts(number + 1, index, vehicle, array)
                 number += len(leds)
                 parts += leds
-    for index, thing in enumerate(scene.objects):
+    for index, spec in enumerate(scene.objects):
         number += 1
         parts.append(
             Part(
                 id=number,
-                name=thing.name,
-                model=_worn(load(thing.file), thing),
+                name=spec.name,
+                model=_weathered_model(load(spec.file), spec),
                 vehicle=None,
                 link="",
                 object=index,
                 frame_from_mesh=product(
-                    np.diag([*thing.scale_factor, 1.0]), thing.object_from_mesh.matrix
+                    np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix
                 ),
                 is_hidden=False,
             )
@@ -107,7 +107,7 @@ def parts_of(resolved: ResolvedScene) -> list[Part]:
 
 
 def _led_parts(number: int, index: int, vehicle: VehicleSpec, array: LedArraySpec) -> list[Part]:
-    """The balls of an array of signal lamps, numbered from ``number``."""
+    """Make the balls of an array of signal lamps, numbered from ``number``."""
     balls = []
     for i, (colour, place) in enumerate(array.positions.items()):
         frame_from_mesh = np.eye(4)
@@ -144,9 +144,8 @@ def _device_part(
     )
 
 
-def _worn(model: Model, thing: ObjectSpec) -> Model:
-    """An object's model with its weathering."""
-    weathering = thing.weathering
+def _weathered_model(model: Model, spec: ObjectSpec) -> Model:
+    weathering = spec.weathering
     if weathering is None:
         return model
     return weather_model(model, weathering.pattern, weathering.strength)
@@ -164,9 +163,9 @@ def placed_visual(
 def visual_model(
     visual: VisualSpec, named_by: Path, data_path: tuple[Path, ...]
 ) -> tuple[Model, tuple[float, float, float]]:
-    """Load or make what a shape of a link looks like, in its colour; and the scale of its mesh [m].
+    """Load or make the visible model of a shape of a link, in its colour, and its scale [m].
 
-    A mesh that is nowhere is a labelled box of a size of its own.
+    A labelled box of fixed size replaces a mesh that is not found.
     """
     scale = visual.scale
     if visual.kind == "mesh":
@@ -176,16 +175,16 @@ def visual_model(
         except AssetNotFound:  # reported by `uwsim check`
             return unknown_model(visual.file), (1.0, 1.0, 1.0)
     else:
-        wide, deep, tall = (max(edge, THINNEST) for edge in visual.size)
-        sizes = {"cylinder": (0.5 * wide, tall), "sphere": (0.5 * wide,)}
-        model = primitive(visual.kind, sizes.get(visual.kind, (wide, deep, tall)))
+        width, depth, height = (max(edge, MIN_EDGE) for edge in visual.size)
+        sizes = {"cylinder": (0.5 * width, height), "sphere": (0.5 * width,)}
+        model = primitive(visual.kind, sizes.get(visual.kind, (width, depth, height)))
     return (model if visual.colour is None else paint_model(model, visual.colour)), scale
 
 
 def object_models(scene: SceneSpec, data_path: tuple[Path, ...]) -> Callable[[str], Model]:
-    """Return what loads the looks of objects by file, each once.
+    """Return a function that loads the models of objects by file, each once.
 
-    A file that is nowhere is a labelled box in a scene of the original.
+    In a scene of the original, a labelled box replaces a file that is not found.
     """
     named_by = Path(scene.path).parent if scene.path else None
 
@@ -202,6 +201,6 @@ def object_models(scene: SceneSpec, data_path: tuple[Path, ...]) -> Callable[[st
 
 
 def comms_devices(vehicle: VehicleSpec) -> Iterator[CommsDeviceSpec]:
-    """Every communication device of a vehicle."""
+    """Yield the communication devices of a vehicle."""
     yield from vehicle.parts_of(CustomCommsDeviceSpec)
     yield from vehicle.parts_of(AcousticCommsDeviceSpec)

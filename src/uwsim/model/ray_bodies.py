@@ -21,11 +21,11 @@ Owner = tuple[int | None, str, int | None]
 class RayBodies:
     """The visible models of a scene for ray casting, without ghosts (``vr``).
 
-    Their triangles are sorted when `scene` or `movers` is first asked for.
+    Their triangles are sorted at the first access to `scene` or `movers`.
 
     Args:
-        scene: spec of the scene.
-        parts: its models.
+        scene: the spec of the scene.
+        parts: the models of the scene.
         fixed_places: ``world_from_object`` of each object that never moves, by its number.
     """
 
@@ -42,51 +42,50 @@ class RayBodies:
         self.materials: tuple[Material, ...] = tuple(
             MATERIALS[names.get(number, "sand")] for number in numbers
         )
-        """Of each surface, by its number."""
+        """The material of each surface, by its number."""
         self.vehicles = tuple(owners.get(number, "") for number in numbers)
-        """Name of the vehicle that each surface belongs to, by its number; or empty."""
+        """The name of the vehicle of each surface, by its number; empty for an object."""
 
     @property
     def movers(self) -> tuple[Owner, ...]:
-        """Whose each body that moves is."""
-        return tuple(self._moving)
+        """The owner of each moving body."""
+        return tuple(self._moving_surfaces)
 
     @cached_property
     def scene(self) -> RayScene:
-        """What is fixed as the first body, then those of `movers`; all in the place of W."""
+        """The fixed surfaces as the first body, then those of `movers`; all in the place of W."""
         fixed: list[Surface] = []
         for part in self._parts:
             place = None if part.object is None else self._fixed_places.get(part.object)
             if place is not None:
                 fixed += _surfaces(part, product(place.matrix, part.frame_from_mesh))
-        return RayScene([fixed, *self._moving.values()])
+        return RayScene([fixed, *self._moving_surfaces.values()])
 
     @cached_property
-    def _moving(self) -> dict[Owner, list[Surface]]:
-        moving: dict[Owner, list[Surface]] = {}
+    def _moving_surfaces(self) -> dict[Owner, list[Surface]]:
+        surfaces: dict[Owner, list[Surface]] = {}
         for part in self._parts:
             if part.object not in self._fixed_places:
                 owner = part.vehicle, part.link, part.object
-                moving.setdefault(owner, []).extend(_surfaces(part, part.frame_from_mesh))
-        return moving
+                surfaces.setdefault(owner, []).extend(_surfaces(part, part.frame_from_mesh))
+        return surfaces
 
 
 def _material(scene: SceneSpec, part: Part) -> MaterialName:
-    """The acoustic material of a part."""
     if part.object is None:
         return "steel"
-    thing = scene.objects[part.object]
-    return thing.acoustic_material or ("sand" if thing.is_ground else "steel")
+    spec = scene.objects[part.object]
+    return spec.acoustic_material or ("sand" if spec.is_ground else "steel")
 
 
 def _surfaces(part: Part, frame: Array) -> list[Surface]:
-    """The triangles of a part in a frame; a mirror turns them round."""
-    found = []
+    """Return the triangles of a part in a frame; a reflection reverses their orientation."""
+    surfaces = []
     for mesh in part.model.meshes:
         if mesh.opacity > 0.0:
             vertices = mesh.vertices.astype(np.float64)
             corners = transform_points(vertices, frame[:3, :3], frame[:3, 3])[mesh.triangles]
             if determinant(np.ascontiguousarray(frame[:3, :3])) < 0.0:
                 corners = corners[:, ::-1]
-            found.append(Surface(part.id, corners, mesh.two_sided))
-    return found
+            surfaces.append(Surface(part.id, corners, mesh.two_sided))
+    return surfaces

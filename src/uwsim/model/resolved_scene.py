@@ -1,4 +1,4 @@
-"""A scene on the way to its model: with its robots, then with what the engine is made of."""
+"""A scene before its model is compiled: with its robots, then with the engine's inputs."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from .collision.shapes import CollisionShape
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ResolvedScene:
-    """A scene whose robots are read."""
+    """A scene with its robots."""
 
     scene: SceneSpec
     """The spec."""
     robots: Mapping[int, RobotSpec]
     """The robot of each vehicle, by its number in the scene."""
     data_path: tuple[Path, ...] = ()
-    """The folders in which files are looked for."""
+    """The folders that are searched for files."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SimulatedScene(ResolvedScene):
-    """A scene with all that the engine's model is compiled from."""
+    """A scene with everything from which the engine's model is compiled."""
 
     dynamics: Mapping[int, VehicleHydrodynamics]
     """The hydrodynamics of each vehicle that is simulated, by its number."""
     shapes: Mapping[str, tuple[CollisionShape, ...]]
-    """The collision shapes of what is simulated, by the name of its body."""
+    """The collision shapes of the simulated bodies, by the name of the body."""
     timestep: float
     """The length of a step [s]."""

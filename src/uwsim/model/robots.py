@@ -1,4 +1,4 @@
-"""The robots of a scene: their files, found and read."""
+"""The robot files of a scene: search and reading."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ def find_file(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
     path = find(name, named_by=folder, data_path=data_path)
     if path is None:
         remark = package_remark(name, named_by=folder, data_path=data_path)
-        searched = searched_folders(named_by=folder, data_path=data_path)
-        folders = ", ".join(str(folder) for folder in searched if folder.is_dir())
-        why = f"not found; {remark}" if remark else f"in none of the folders searched: {folders}"
-        raise AssetNotFound(f"{name!r} is {why}.", name=name)
+        search_path = searched_folders(named_by=folder, data_path=data_path)
+        folders = ", ".join(str(folder) for folder in search_path if folder.is_dir())
+        reason = f"not found; {remark}" if remark else f"in none of the folders searched: {folders}"
+        raise AssetNotFound(f"{name!r} is {reason}.", name=name)
     return path
 
 
@@ -28,7 +28,7 @@ def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
     """Find a robot file; if it is not found, the bundled one of the same file name replaces it.
 
     Raises:
-        AssetNotFound: there is none of that name either; names every folder searched.
+        AssetNotFound: no bundled one has that name either; names every folder searched.
     """
     try:
         return find_file(name, named_by, data_path)
@@ -40,22 +40,22 @@ def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
 
 
 def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
-    """Robot files that are not found, and the bundled ones that replace them."""
+    """Return the robot files that are not found, with the bundled ones that replace them."""
     named_by = Path(scene.path).parent if scene.path else None
-    lost = {
+    replacements = {
         vehicle.file: bundled_robot(vehicle.file)
         for vehicle in scene.vehicles
         if find(vehicle.file, named_by=named_by, data_path=data_path) is None
     }
-    return {name: path for name, path in lost.items() if path is not None}
+    return {name: path for name, path in replacements.items() if path is not None}
 
 
 def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, RobotSpec]:
     """Find and read the URDF of every vehicle, by the vehicle's number.
 
     Raises:
-        AssetNotFound: a file is nowhere; names every folder searched.
-        SceneError: a file is wrong.
+        AssetNotFound: a file is not found; names every folder searched.
+        SceneError: a file is invalid.
     """
     arguments = dict(scene.expansion.arguments)
     return {

@@ -34,45 +34,45 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SceneModel(SimulatedScene):
-    """What follows from a scene, a seed, a timestep, folders and compatibility quirks.
+    """The result of a scene, a seed, a timestep, folders and compatibility quirks.
 
-    It is made by `uwsim.physics.compile_scene.compile_scene`, once for all simulations of it.
-    In its ``scene`` everything is placed: what stands on the floor (``<u:onFloor>``) has a pose.
+    `uwsim.physics.compile_scene.compile_scene` makes it once for all simulations of it. In its
+    ``scene`` every body has a pose, also those on the floor (``<u:onFloor>``).
     """
 
     source: SceneSpec
     """The scene as it was read, with its integrator."""
-    varied: SceneSpec
+    varied_scene: SceneSpec
     """The scene with the variations (``<u:vary>``) of the seed; lines are those of the file."""
     seed: int
     """The seed of its variations."""
     compatibility: frozenset[str]
-    """The compatibility quirks that are on."""
+    """The compatibility quirks that apply."""
     engine_model: mujoco.MjModel
     """The model of the physics engine; each engine steps a copy."""
-    _computed: dict[Callable[[SceneModel], Any], Any] = field(
+    _results: dict[Callable[[SceneModel], Any], Any] = field(
         default_factory=dict, init=False, repr=False
     )
 
     def compute_once(self, compute: Callable[[SceneModel], T]) -> T:
-        """Return what a function of a higher package computes from the model alone.
+        """Return the result of a function of a higher package of the model alone.
 
-        It is computed at the first request. Nobody writes to it: all simulations share it.
+        It is computed at the first call. It is read-only: all simulations share it.
         """
-        if compute not in self._computed:
-            self._computed[compute] = compute(self)
-        value: T = self._computed[compute]
+        if compute not in self._results:
+            self._results[compute] = compute(self)
+        value: T = self._results[compute]
         return value
 
     @cached_property
     def digest(self) -> str:
-        """The hash of the scene, its hydrodynamics and the engine's model, wherever files lie."""
+        """The hash of the scene, hydrodynamics and engine's model, independent of folders."""
         hash_of_engine = hashlib.sha256(model_bytes(self.engine_model)).hexdigest()
         return digest_of((self.scene, list(self.dynamics.items()), hash_of_engine))
 
     @cached_property
     def shape_owners(self) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
-        """What the engine's shapes belong to, ``vehicle/1``, sorted; and its number for each."""
+        """The owners of the engine's shapes, ``vehicle/1``, sorted; and their index by shape."""
         engine = self.engine_model
         owners = [owner_of(engine.geom(i).name) for i in range(engine.ngeom)]
         names = sorted(set(owners))
@@ -81,7 +81,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """The visible models and whose they are; loaded when they are first asked for."""
+        """The visible models with their owners, loaded at the first access."""
         return tuple(parts_of(self))
 
     @cached_property
@@ -93,7 +93,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def sensor_specs(self) -> tuple[tuple[int, str, BindsSensor], ...]:
-        """The sensors that are simulated and no devices: number of the vehicle, element, spec."""
+        """The simulated sensors that are no devices: number of the vehicle, element, spec."""
         return tuple(
             (index, element, part)
             for index, vehicle in enumerate(self.scene.vehicles)
@@ -113,28 +113,28 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def all_shapes(self) -> Mapping[str, tuple[CollisionShape, ...]]:
-        """The collision shapes of everything that can be touched, simulated or not, by body."""
+        """The collision shapes of everything that has contacts, simulated or not, by body."""
         scene = self.scene
         vehicles = range(len(scene.vehicles))
         return collision_shapes(self, vehicles, scene.solid_objects)
 
     @cached_property
     def placed_objects(self) -> Mapping[int, Pose]:
-        """``world_from_object`` of each object that is no body of the engine, by its number."""
+        """The ``world_from_object`` of each object that is no body of the engine, by its number."""
         bodies = {self.engine_model.body(i).name for i in range(self.engine_model.nbody)}
         return {
-            index: _as_the_engine_has_it(
-                self.scene.world_from_localized @ thing.localized_from_object
+            index: _round_to_quaternion(
+                self.scene.world_from_localized @ spec.localized_from_object
             )
-            for index, thing in enumerate(self.scene.objects)
+            for index, spec in enumerate(self.scene.objects)
             if object_body(index) not in bodies
         }
 
     @cached_property
     def fixed_objects(self) -> Mapping[int, Pose]:
-        """The same of those that stay where they are for good: nothing can pick them up."""
+        """The ``world_from_object`` of objects that never move: nothing can pick them up."""
         scene = self.scene
-        has_picker = any(each.parts_of(ObjectPickerSpec) for each in scene.vehicles)
+        has_picker = any(vehicle.parts_of(ObjectPickerSpec) for vehicle in scene.vehicles)
         return {
             index: pose
             for index, pose in self.placed_objects.items()
@@ -143,7 +143,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def ray_bodies(self) -> RayBodies:
-        """The bodies that rays meet; their triangles are sorted when they are first asked for."""
+        """The bodies that rays hit; their triangles are sorted at the first access."""
         return RayBodies(self.scene, self.parts, self.fixed_objects)
 
     @cached_property
@@ -153,17 +153,17 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def density_levels(self) -> tuple[tuple[float, float], ...]:
-        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+        """The depth [m] and density [kg/m3] of the water's levels; one level for uniform water."""
         return density_levels(self.scene.ocean_state, self.dynamics)
 
     @cached_property
     def hydrodynamics_files(self) -> Mapping[str, Path]:
-        """The hydrodynamics files of its vehicles, by name."""
-        return {path.name: path for each in self.dynamics.values() for path in each.files}
+        """The hydrodynamics files of the vehicles, by name."""
+        return {path.name: path for dynamics in self.dynamics.values() for path in dynamics.files}
 
 
-def _as_the_engine_has_it(pose: Pose) -> Pose:
-    """Return a pose by way of a quaternion, which is what the engine keeps."""
+def _round_to_quaternion(pose: Pose) -> Pose:
+    """Return a pose after conversion to the engine's quaternion and back."""
     rotation, quaternion = np.zeros(9), quaternion_from_rotation(pose.rotation)
     mujoco.mju_normalize4(quaternion)
     mujoco.mju_quat2Mat(rotation, quaternion)

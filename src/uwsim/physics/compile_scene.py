@@ -68,7 +68,7 @@ def compile_scene(
     return SceneModel(
         **vars(simulated),
         source=source,
-        varied=drawn,
+        varied_scene=drawn,
         seed=seed,
         compatibility=compatibility,
         engine_model=compile_engine_model(simulated),

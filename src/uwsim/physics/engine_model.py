@@ -19,7 +19,7 @@ from ..base.numerics.linear import product
 from ..devices.object_picker import ObjectPickerSpec
 from ..errors import BadSetting, SceneError, UwsimError
 from ..model.body_names import (
-    grip,
+    grip_constraint,
     loose_joint,
     object_body,
     vehicle_body,
@@ -282,7 +282,7 @@ def _add_grips(spec: mujoco.MjSpec, simulated: SimulatedScene, loose: Collection
                 continue
             for name in loose:
                 weld = spec.add_equality(
-                    name=grip(index, link, int(name.split("/")[1])),
+                    name=grip_constraint(index, link, int(name.split("/")[1])),
                     type=mujoco.mjtEq.mjEQ_WELD,
                     objtype=mujoco.mjtObj.mjOBJ_BODY,
                     name1=vehicle_body(index, link),

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..base.geometry import Pose, quaternion_from_rotation
 from ..base.record import Record
-from ..model.body_names import grip, loose_joint, object_body
+from ..model.body_names import grip_constraint, loose_joint, object_body
 from ..model.collision.shapes import CollisionShape
 from .engine_model import ALL, OBJECTS, vehicle_bit
 from .poses import Poses
@@ -124,7 +124,7 @@ class Grips:
 
     def _weld(self, thing: int, hold: Hold) -> int | None:
         """The engine's constraint between an object and a link; None: there is none."""
-        name = grip(hold.vehicle, hold.link, thing)
+        name = grip_constraint(hold.vehicle, hold.link, thing)
         weld = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_EQUALITY, name)
         return None if weld < 0 else int(weld)
 

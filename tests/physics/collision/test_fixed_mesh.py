@@ -14,10 +14,16 @@ from uwsim.base.geometry import Array
 from uwsim.errors import UwsimError
 from uwsim.model.collision import fixed_mesh as fixed_mesh_module
 from uwsim.model.collision.convex_faces import convex_faces, n_patches
-from uwsim.model.collision.fixed_mesh import ERROR, MAX_EXACT, MAX_LEFT, FixedMesh, fixed_mesh
+from uwsim.model.collision.fixed_mesh import (
+    DEFAULT_ERROR,
+    MAX_EXACT_FACES,
+    MAX_TRIANGLES,
+    FixedMesh,
+    fixed_mesh,
+)
 from uwsim.model.collision.fixed_mesh_cache import cached_mesh
 from uwsim.model.collision.shapes import shapes_of
-from uwsim.model.collision.simplification import simplified
+from uwsim.model.collision.simplification import simplify
 
 ROCK = rock()
 
@@ -37,7 +43,7 @@ def distance(points: Array, triangles: Array) -> float:
 @pytest.mark.parametrize("share", [0.01, 0.05])
 def test_a_mesh_is_simplified_within_an_error_in_metres(scale: float, share: float) -> None:
     mesh = ROCK * scale
-    found = simplified(mesh, share * scale, len(mesh))
+    found = simplify(mesh, share * scale, len(mesh))
     assert 12 < len(found.triangles) < 0.35 * len(mesh)
     assert found.error <= share * scale
     some = np.random.default_rng(1).permutation(len(mesh))[:60]
@@ -47,13 +53,13 @@ def test_a_mesh_is_simplified_within_an_error_in_metres(scale: float, share: flo
 
 
 def test_a_greater_error_leaves_fewer_triangles_and_none_leaves_all() -> None:
-    counts = [len(simplified(ROCK, error, len(ROCK)).triangles) for error in (0.0, 0.01, 0.03, 0.1)]
+    counts = [len(simplify(ROCK, error, len(ROCK)).triangles) for error in (0.0, 0.01, 0.03, 0.1)]
     assert counts == sorted(counts, reverse=True)
     assert counts[0] == len(ROCK)
 
 
 def test_the_greatest_number_of_triangles_goes_before_the_error() -> None:
-    found = simplified(ROCK, 1e-4, 400)
+    found = simplify(ROCK, 1e-4, 400)
     assert len(found.triangles) <= 400
     assert found.error > 1e-4
 
@@ -69,7 +75,7 @@ def test_a_mesh_of_few_faces_is_touched_as_it_is() -> None:
 def test_a_mesh_of_many_triangles_in_few_planes_is_touched_as_it_is() -> None:
     flat = grid(41, 61) * [1.0, 1.0, 0.0]
     walls = np.concatenate([flat, flat[:, :, [2, 0, 1]], flat[:, :, [1, 2, 0]]])
-    assert len(walls) > MAX_EXACT
+    assert len(walls) > MAX_EXACT_FACES
     assert np.array_equal(fixed_mesh([walls], None).faces, walls)
 
 
@@ -82,7 +88,7 @@ def test_patches_are_counted_as_faces_are_joined() -> None:
 
 def test_a_large_rock_is_simplified_and_says_by_how_much() -> None:
     found = fixed_mesh([ROCK], None)
-    assert 0.0 < found.error <= ERROR
+    assert 0.0 < found.error <= DEFAULT_ERROR
     assert len(found.faces) < 0.1 * len(ROCK)
     assert not found.is_exact
 
@@ -119,11 +125,11 @@ def test_each_material_is_looked_at_alone() -> None:
 def test_a_mesh_that_no_error_makes_small_enough_is_simplified_further(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(fixed_mesh_module, "MAX_LEFT", 100)
+    monkeypatch.setattr(fixed_mesh_module, "MAX_TRIANGLES", 100)
     found = fixed_mesh([ROCK], None)
     assert len(found.faces) <= 100
-    assert found.error > ERROR
-    assert MAX_LEFT > 100
+    assert found.error > DEFAULT_ERROR
+    assert MAX_TRIANGLES > 100
 
 
 def test_too_many_plates_name_the_remedy() -> None:

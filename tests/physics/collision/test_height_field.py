@@ -12,7 +12,7 @@ from uwsim.base.numerics.linear import product
 from uwsim.model.body_names import object_body
 from uwsim.model.collision import height_field as fields
 from uwsim.model.collision.ground import Ground
-from uwsim.model.collision.height_field import EXACT, TILE, HeightField, height_field
+from uwsim.model.collision.height_field import ROUNDING_ERROR, TILE_CELLS, HeightField, height_field
 from uwsim.model.collision.shapes import CollisionShape, shapes_of
 from uwsim.model.resolved_scene import SimulatedScene
 from uwsim.physics.engine_model import compile_engine_model
@@ -100,7 +100,7 @@ def test_irregular_ground_is_sampled_within_the_error(n: int, error: float) -> N
     triangles = irregular(n)
     field = height_field(triangles, error)
     assert field is not None
-    assert EXACT < field.error <= error
+    assert ROUNDING_ERROR < field.error <= error
     between = np.abs(heights_of(field.triangles(), PLACES) - heights_of(triangles, PLACES))
     assert between.max() <= field.error + 1e-9
     assert between.max() > 0.02 * field.error
@@ -148,9 +148,9 @@ def test_ground_that_would_take_too_many_cells_is_not_converted(
 def test_no_tile_has_more_triangles_than_the_engine_finds_contacts() -> None:
     field = height_field(grid(53, 42), 0.0)
     assert field is not None
-    assert mujoco.mjMAXCONPAIR >= 2 * TILE * TILE
+    assert mujoco.mjMAXCONPAIR >= 2 * TILE_CELLS * TILE_CELLS
     tiles = [heights for _, heights in field.tiles()]
-    assert max(heights.size for heights in tiles) <= (TILE + 1) ** 2
+    assert max(heights.size for heights in tiles) <= (TILE_CELLS + 1) ** 2
     cells = sum((rows - 1) * (columns - 1) for rows, columns in (each.shape for each in tiles))
     assert cells == 52 * 41
 

@@ -7,7 +7,7 @@ from uwsim.assets import load_model, primitive
 from uwsim.assets.mesh import Mesh, Model
 from uwsim.errors import UwsimError
 from uwsim.model.collision.shapes import (
-    MAX_PIECES,
+    MAX_PLATES,
     CollisionShape,
     bounds,
     convex_shapes,
@@ -114,7 +114,7 @@ def test_a_flat_patch_that_is_no_rectangle_becomes_a_prism_behind_its_face() -> 
 def test_the_tank_is_open_in_its_middle_and_has_a_floor() -> None:
     tank = load_model("terrain/CIRS/cirs_trident.osg", named_by=None, data_path=())
     plates = shapes_of(tank, SAME, "trimesh", is_fixed=True)
-    assert len(plates) < MAX_PIECES
+    assert len(plates) < MAX_PLATES
     inside = [plate for plate in plates if holds(plate, (0.0, 0.0, -2.0))]
     below = [plate for plate in plates if holds(plate, (0.0, 0.0, -4.87))]
     assert inside == []
@@ -130,7 +130,7 @@ def holds(shape: CollisionShape, point: tuple[float, float, float]) -> bool:
 
 
 def test_a_mesh_with_too_many_faces_says_what_to_do(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("uwsim.model.collision.shapes.MAX_PIECES", 100)
+    monkeypatch.setattr("uwsim.model.collision.shapes.MAX_PLATES", 100)
     rng = np.random.Generator(np.random.Philox(1))
     points = rng.uniform(size=(3 * 100 + 3, 3))
     soup = mesh_of(points.tolist(), np.arange(len(points)).reshape(-1, 3).tolist())

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from contextlib import suppress
 
 from ...errors import Diagnostic, UwsimError
-from ...model.collision.fixed_mesh import ERROR, MAX_EXACT, FixedMesh
+from ...model.collision.fixed_mesh import DEFAULT_ERROR, MAX_EXACT_FACES, FixedMesh
 from ...model.collision.polygon_cache import cached_faces
-from ...model.collision.scene_shapes import simulated_solids, touched_mesh
+from ...model.collision.scene_shapes import contact_mesh, simulated_solids
 from ..subjects import CheckedScene
 
 MAX_PLATES = 5000
@@ -30,16 +30,16 @@ def fixed_meshes(scene: CheckedScene) -> Iterator[Diagnostic]:
     if others:
         errors = {index: f"{mesh.error:.2g} m" for index, mesh in others.items()}
         message = (
-            f"contacts with {_named(scene, errors)} are with a simpler surface, up to so far from "
-            f"the mesh, which has more than {MAX_EXACT} flat faces; <u:contactError> in the object "
-            "sets the greatest distance [m]"
+            f"contacts with {_named(scene, errors)} use a simpler surface, up to that far from the "
+            f"mesh, which has more than {MAX_EXACT_FACES} flat faces. Set the greatest distance "
+            "[m] with <u:contactError> in the object"
         )
         yield scene.warning(scene.spec.objects[next(iter(others))], message, "file")
     plates = {index: len(cached_faces(mesh.faces)) for index, mesh in meshes.items()}
     if sum(plates.values()) > MAX_PLATES:
         most = sorted(plates, key=lambda index: -plates[index])
         counts = {index: f"{plates[index]} plates" for index in most}
-        error = BY_HAND * max(meshes[most[0]].error, ERROR)
+        error = BY_HAND * max(meshes[most[0]].error, DEFAULT_ERROR)
         message = (
             f"contacts with fixed meshes are with {sum(plates.values())} plates, most of "
             f"{_named(scene, counts)}; expected {MAX_PLATES} at most, or the scene opens and steps "
@@ -52,7 +52,7 @@ def fixed_meshes(scene: CheckedScene) -> Iterator[Diagnostic]:
 def _fixed_meshes(scene: CheckedScene) -> Iterator[tuple[int, FixedMesh]]:
     for index, physics in simulated_solids(scene.spec, scene.dynamics).items():
         with suppress(UwsimError):  # reported where models are checked
-            mesh = touched_mesh(scene.spec, index, physics, scene.data_path)
+            mesh = contact_mesh(scene.spec, index, physics, scene.data_path)
             if mesh is not None:
                 yield index, mesh
 

@@ -13,8 +13,8 @@ from ..subjects import CheckedScene
 
 
 def hydrodynamic_names(scene: CheckedScene) -> Iterable[Diagnostic]:
-    """Return what is wrong with the names that belong to the hydrodynamics of a scene."""
-    return scene.names.found
+    """Return the errors in names of the hydrodynamics of a scene."""
+    return scene.names.diagnostics
 
 
 def object_shapes(scene: CheckedScene) -> Iterator[Diagnostic]:

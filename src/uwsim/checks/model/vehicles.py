@@ -125,7 +125,7 @@ def vehicle_numbers(
 
 def buoyancy_said(one: Candidate) -> str:
     """Compare a vehicle's weight with its displacement, and that with its shape."""
-    mass, displaced = one.balance.mass, one.balance.displaced
+    mass, displaced = one.balance.mass, one.balance.displaced_mass
     messages = []
     if abs(displaced - mass) > UNEVEN * max(displaced, mass):
         way = "sinks" if mass > displaced else "rises"
@@ -145,7 +145,7 @@ def buoyancy_said(one: Candidate) -> str:
 
 def balance_said(one: Candidate) -> str:
     """Warn of a vehicle without static stability."""
-    if one.height > -LOW or not one.balance.displaced > 0.0:
+    if one.height > -LOW or not one.balance.displaced_mass > 0.0:
         return ""
     return (
         f"its centre of buoyancy lies {-one.height:.3g} m below its centre of mass as it begins: "

@@ -1,1 +1,1 @@
-"""The collision shapes of a scene, and the ground that they make."""
+"""The collision shapes of a scene, and the ground that they form."""

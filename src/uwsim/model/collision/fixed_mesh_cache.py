@@ -1,6 +1,6 @@
-"""Disk cache of what is touched of large fixed meshes: finding it takes up to seconds.
+"""Disk cache of the collision surfaces of large fixed meshes, which take up to seconds to compute.
 
-It is found by the hash of the triangles, of the error, and of the code that makes it.
+The key is the hash of the triangles, of the error, and of the code that computes the surface.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ...base.files.code_digest import code_digest
 from ...base.geometry import Array
 from ...base.numerics import linear
 from . import convex_faces, fixed_mesh, height_field, simplification
-from .fixed_mesh import MAX_EXACT, FixedMesh
+from .fixed_mesh import MAX_EXACT_FACES, FixedMesh
 from .height_field import HeightField
 
 SOURCES = (convex_faces, fixed_mesh, height_field, simplification, linear)
@@ -26,36 +26,36 @@ _ARRAYS = ("body_from_field", "origin", "spacing", "heights", "error")
 
 
 def cached_mesh(parts: Sequence[Array], error: float | None) -> FixedMesh:
-    """`fixed_mesh.fixed_mesh` of the same arguments, from the cache if possible."""
-    if sum(map(len, parts)) <= MAX_EXACT and not error:
+    """Return `fixed_mesh.fixed_mesh` of the same arguments, from the cache if possible."""
+    if sum(map(len, parts)) <= MAX_EXACT_FACES and not error:
         return fixed_mesh.fixed_mesh(parts, error)
-    digest = hashlib.sha256(code_digest([str(one.__file__) for one in SOURCES], PACKAGES))
+    digest = hashlib.sha256(code_digest([str(module.__file__) for module in SOURCES], PACKAGES))
     digest.update(f"{error!r} {[len(part) for part in parts]}".encode())
     for part in parts:
         digest.update(np.ascontiguousarray(part).data)
     file = disk_cache.cache_folder("fixed-meshes") / f"{digest.hexdigest()[:32]}.npz"
     data = disk_cache.read(file)
     if data is not None:
-        return _unpacked(data)
-    found = fixed_mesh.fixed_mesh(parts, error)
-    disk_cache.write(file, _packed(found))
-    return found
+        return _from_bytes(data)
+    mesh = fixed_mesh.fixed_mesh(parts, error)
+    disk_cache.write(file, _to_bytes(mesh))
+    return mesh
 
 
-def _packed(mesh: FixedMesh) -> bytes:
+def _to_bytes(mesh: FixedMesh) -> bytes:
     arrays: dict[str, Any] = {"faces": mesh.faces, "error": np.array(mesh.error)}
     for i, field in enumerate(mesh.fields):
         arrays |= {f"{i}/{name}": np.array(getattr(field, name)) for name in _ARRAYS}
-    packed = io.BytesIO()
-    np.savez(packed, **arrays)
-    return packed.getvalue()
+    buffer = io.BytesIO()
+    np.savez(buffer, **arrays)
+    return buffer.getvalue()
 
 
-def _unpacked(data: bytes) -> FixedMesh:
-    with np.load(io.BytesIO(data), allow_pickle=False) as kept:
-        arrays: dict[str, Any] = dict(kept)
+def _from_bytes(data: bytes) -> FixedMesh:
+    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        arrays: dict[str, Any] = dict(archive)
     fields: list[HeightField] = []
     while f"{len(fields)}/heights" in arrays:
-        of_one = {name: arrays[f"{len(fields)}/{name}"] for name in _ARRAYS}
-        fields.append(HeightField(**of_one | {"error": float(of_one["error"])}))
+        values = {name: arrays[f"{len(fields)}/{name}"] for name in _ARRAYS}
+        fields.append(HeightField(**values | {"error": float(values["error"])}))
     return FixedMesh(faces=arrays["faces"], fields=tuple(fields), error=float(arrays["error"]))

@@ -1,13 +1,13 @@
 r"""The ground: its height and slope, and the pose of a body at rest on it.
 
-The ground is triangles in W, z up. A body is lowered vertically until it touches the ground.
-Two sheets of triangles touch first at a corner of the one above a face of the other, or where two
-edges cross as seen from above; the height at which they do,
+The ground is triangles in W, z up. A body is lowered vertically until it has contact with the
+ground. Two sheets of triangles first meet at a corner of the one above a face of the other, or
+where two edges cross as seen from above. The height of the first contact,
 
 .. math:: \Delta z = \max_{(x, y)} \left( z_{ground} - z_{body} \right),
 
-is the greatest over all such places, so that the result is exact for triangles. Only faces that
-look up carry: a roof does not, nor does a wall. Not modelled: tipping over, sinking in.
+is the greatest over all such points, so that the result is exact for triangles. Only faces that
+face up support a body, not ceilings or walls. Not modelled: tipping over, sinking in.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ from ...base.geometry import Array, Pose
 from ...base.numerics.linear import length, product, pseudo_inverse, rank
 from .shapes import CollisionShape
 
-STEEPEST = 1e-6
-"""A face whose normal has less of an upward part than this is a wall [1]."""
-TOUCH = 1e-9
-"""How far outside of a triangle a point still counts as in it, as a share of its area."""
-AT_ONCE = 2_000_000
-"""Pairs of edges looked at together."""
-ROUND = 32
-"""Corners of a circle in the shape of a ball or cylinder."""
-SAMPLES = 9
-"""Heights along each side of what stands on a slope, to find its steepness from."""
-CUBE = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) * 2.0 - 1.0
+MIN_UPWARD_PART = 1e-6
+"""The upward part of a face's normal below which the face is a wall [1]."""
+EDGE_TOLERANCE = 1e-9
+"""The tolerance for a point inside a triangle, as a share of its area."""
+MAX_EDGE_PAIRS = 2_000_000
+"""The greatest number of pairs of edges that are compared together."""
+N_CIRCLE_CORNERS = 32
+"""The number of corners of a circle in the surface of a ball or cylinder."""
+N_SAMPLES = 9
+"""The number of heights along each side of a body, from which the slope below it is fitted."""
+CUBE_CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) * 2.0 - 1.0
 CUBE_FACES = np.array(
     [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
      [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]
@@ -42,16 +42,16 @@ class Ground:
     """The triangles of the ground.
 
     Args:
-        triangles: counter-clockwise from where they are seen, in W, (n, 3, 3) [m].
+        triangles: counter-clockwise seen from outside, in W, (n, 3, 3) [m].
     """
 
     def __init__(self, triangles: Array) -> None:
         a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
-        self._doubled: Array = _cross(b[:, :2] - a[:, :2], c[:, :2] - a[:, :2])  # (n,) [m2]
-        level = np.linalg.norm(np.cross(b - a, c - a), axis=1)
-        seen = np.abs(self._doubled) > STEEPEST * np.maximum(level, 1e-12)
-        self._doubled = self._doubled[seen]
-        self._triangles = triangles[seen]
+        self._double_areas: Array = _cross(b[:, :2] - a[:, :2], c[:, :2] - a[:, :2])  # (n,) [m2]
+        areas = np.linalg.norm(np.cross(b - a, c - a), axis=1)
+        is_slope = np.abs(self._double_areas) > MIN_UPWARD_PART * np.maximum(areas, 1e-12)
+        self._double_areas = self._double_areas[is_slope]
+        self._triangles = triangles[is_slope]
         self._low = self._triangles.min(axis=1)  # (n, 3) [m]
         self._high = self._triangles.max(axis=1)
 
@@ -59,137 +59,138 @@ class Ground:
         return len(self._triangles)
 
     def level(self, point: Array) -> float | None:
-        """Height of the ground at a point's x and y; None where there is none.
+        """Return the height of the ground at a point's x and y; None if there is none.
 
-        That which the point lies in or under the surface of, else the next one below it, else
-        the lowest.
+        It is the surface above a point that is below ground, else the next one below it, else the
+        lowest.
         """
-        heights, looks_up = self._column(point[0], point[1])
-        floors = heights[looks_up]
+        heights, faces_up = self._column(point[0], point[1])
+        floors = heights[faces_up]
         if not len(floors):
             return None
-        above = np.flatnonzero(heights > point[2])
-        if len(above):
-            nearest = above[np.argmin(heights[above])]
-            if looks_up[nearest]:
-                return float(heights[nearest])
-        below = floors[floors <= point[2]]
-        return float(below.max() if len(below) else floors.min())
+        faces_above = np.flatnonzero(heights > point[2])
+        if len(faces_above):
+            nearest_face = faces_above[np.argmin(heights[faces_above])]
+            if faces_up[nearest_face]:
+                return float(heights[nearest_face])
+        floors_below = floors[floors <= point[2]]
+        return float(floors_below.max() if len(floors_below) else floors.min())
 
     def covers(self, point: Array) -> bool:
-        """Whether a point (3,) lies under the surface: the next face above it looks up."""
-        heights, looks_up = self._column(point[0], point[1])
-        above = np.flatnonzero(heights > point[2])
-        return bool(len(above) and looks_up[above[np.argmin(heights[above])]])
+        """Return whether a point (3,) is under the surface: the next face above it faces up."""
+        heights, faces_up = self._column(point[0], point[1])
+        faces_above = np.flatnonzero(heights > point[2])
+        return bool(len(faces_above) and faces_up[faces_above[np.argmin(heights[faces_above])]])
 
     def rise(self, body: Array) -> float | None:
-        """How far a body must be lifted to rest on the ground; None where there is none under it.
+        """Compute the rise that sets a body on the ground; None if there is none under it.
 
         Args:
-            body: its triangles in W, (k, 3, 3) [m].
+            body: the triangles of the body in W, (k, 3, 3) [m].
         """
-        near = self._under(body)
-        if near is None:
+        faces = self._faces_under(body)
+        if faces is None:
             return None
-        triangles, doubled = near
-        best = -np.inf
-        step = max(1, AT_ONCE // max(1, 9 * len(body)))
+        triangles, double_areas = faces
+        max_rise = -np.inf
+        step = max(1, MAX_EDGE_PAIRS // max(1, 9 * len(body)))
         for i in range(0, len(triangles), step):
-            some = triangles[i : i + step]
-            best = max(
-                best,
-                _over_faces(body.reshape(-1, 3), some, doubled[i : i + step]),
-                _over_faces(some.reshape(-1, 3), *_upright(body), sign=-1.0),
-                _over_edges(body, some),
+            batch = triangles[i : i + step]
+            max_rise = max(
+                max_rise,
+                _max_height_over_faces(body.reshape(-1, 3), batch, double_areas[i : i + step]),
+                _max_height_over_faces(batch.reshape(-1, 3), *_nonvertical_faces(body), sign=-1.0),
+                _max_height_over_edges(body, batch),
             )
-        return None if best == -np.inf else float(best)
+        return None if max_rise == -np.inf else float(max_rise)
 
     def normal(self, body: Array) -> Array:
-        """Normal of the plane that fits the ground under a body best, upwards, (3,).
+        """Compute the upward normal of the plane that fits the ground under a body best, (3,).
 
         Args:
-            body: its triangles in W, (k, 3, 3) [m].
+            body: the triangles of the body in W, (k, 3, 3) [m].
         """
         up = np.array([0.0, 0.0, 1.0])
-        near = self._under(body)
-        if near is None:
+        faces = self._faces_under(body)
+        if faces is None:
             return up
         low, high = body.min(axis=(0, 1)), body.max(axis=(0, 1))
-        grid = np.meshgrid(*(np.linspace(low[k], high[k], SAMPLES) for k in range(2)))
-        points = np.stack([each.ravel() for each in grid], axis=1)  # (m, 2) [m]
-        heights = _heights(points, *near).max(axis=1, initial=-np.inf)
-        found = np.isfinite(heights)
-        if found.sum() < 3:
+        grid = np.meshgrid(*(np.linspace(low[k], high[k], N_SAMPLES) for k in range(2)))
+        points = np.stack([axis.ravel() for axis in grid], axis=1)  # (m, 2) [m]
+        heights = _heights(points, *faces).max(axis=1, initial=-np.inf)
+        is_ground = np.isfinite(heights)
+        if is_ground.sum() < 3:
             return up
-        table = np.column_stack([points[found], np.ones(found.sum())])
+        table = np.column_stack([points[is_ground], np.ones(is_ground.sum())])
         if rank(table) < 3:
             return up
-        along_x, along_y, _ = product(pseudo_inverse(table, rcond=1e-13), heights[found])
-        normal = np.array([-along_x, -along_y, 1.0])
+        slope_x, slope_y, _ = product(pseudo_inverse(table, rcond=1e-13), heights[is_ground])
+        normal = np.array([-slope_x, -slope_y, 1.0])
         unit: Array = normal / length(normal)
         return unit
 
     def _column(self, x: float, y: float) -> tuple[Array, npt.NDArray[np.bool_]]:
-        """Heights of all faces over and under a point of the plane, and whether they look up."""
-        at = np.array([x, y])
-        near = ((self._low[:, :2] <= at) & (self._high[:, :2] >= at)).all(axis=1)
-        heights = _heights(at[None], self._triangles[near], self._doubled[near])[0]
-        hit = np.isfinite(heights)
-        return heights[hit], self._doubled[near][hit] > 0.0
+        """Return the heights of all faces over and under a point, and whether each faces up."""
+        point = np.array([x, y])
+        is_near = ((self._low[:, :2] <= point) & (self._high[:, :2] >= point)).all(axis=1)
+        heights = _heights(point[None], self._triangles[is_near], self._double_areas[is_near])[0]
+        is_hit = np.isfinite(heights)
+        return heights[is_hit], self._double_areas[is_near][is_hit] > 0.0
 
-    def _under(self, body: Array) -> tuple[Array, Array] | None:
-        """The faces below a body, and twice their horizontal area.
+    def _faces_under(self, body: Array) -> tuple[Array, Array] | None:
+        """Return the faces below a body that face up, and twice their horizontal area.
 
-        They look up, and are no higher above the ground in its middle than it is high.
+        Their height above the ground at its middle is at most its own height.
         """
         low, high = body.min(axis=(0, 1)), body.max(axis=(0, 1))
-        near = (
+        is_near = (
             (self._low[:, :2] <= high[:2]).all(axis=1)
             & (self._high[:, :2] >= low[:2]).all(axis=1)
-            & (self._doubled > 0.0)
+            & (self._double_areas > 0.0)
         )
         middle = 0.5 * (low + high)
         levels = [self.level(middle)]
         if levels[0] is None:
             levels = [self.level(corner) for corner in body.reshape(-1, 3)]
-        known = [level for level in levels if level is not None]
-        if not known:
+        ground_levels = [level for level in levels if level is not None]
+        if not ground_levels:
             return None
-        near &= self._low[:, 2] <= max(known) + (high[2] - low[2])
-        return self._triangles[near], self._doubled[near]
+        is_near &= self._low[:, 2] <= max(ground_levels) + (high[2] - low[2])
+        return self._triangles[is_near], self._double_areas[is_near]
 
 
 def triangles_of(shapes: Sequence[CollisionShape], world_from_body: Pose) -> Array:
-    """The surface of shapes in W, (n, 3, 3) [m]; balls and cylinders have `ROUND` corners."""
-    found = [
+    """Return the surface of shapes in W, (n, 3, 3) [m]; circles have `N_CIRCLE_CORNERS`."""
+    triangles = [
         world_from_body.transform(
             shape.body_from_shape.transform(_surface(shape).reshape(-1, 3))
         ).reshape(-1, 3, 3)
         for shape in shapes
     ]
-    return np.concatenate(found)
+    return np.concatenate(triangles)
 
 
 def _surface(shape: CollisionShape) -> Array:
-    """Triangles of a shape in its own frame, (n, 3, 3) [m]; which way they turn is not said."""
+    """Return the triangles of a shape in its frame, (n, 3, 3) [m], with no defined orientation."""
     if shape.kind == "box":
-        faces: Array = (CUBE * np.array(shape.size))[CUBE_FACES]
+        faces: Array = (CUBE_CORNERS * np.array(shape.size))[CUBE_FACES]
         return faces
     from scipy.spatial import ConvexHull
 
     if shape.corners is not None:
         corners = shape.corners
     else:
-        turn = np.linspace(0.0, 2.0 * np.pi, ROUND, endpoint=False)
-        circle = np.column_stack([np.cos(turn), np.sin(turn)])
+        angles = np.linspace(0.0, 2.0 * np.pi, N_CIRCLE_CORNERS, endpoint=False)
+        circle = np.column_stack([np.cos(angles), np.sin(angles)])
         if shape.kind == "cylinder":
             rings = [(1.0, -shape.size[1]), (1.0, shape.size[1])]
-        else:  # a corner at the lowest and the highest point, so that it stands as high as a ball
-            lean = np.linspace(-0.5 * np.pi, 0.5 * np.pi, ROUND // 2 + 1)
-            rings = [(float(np.cos(one)), shape.size[0] * float(np.sin(one))) for one in lean]
+        else:  # a corner at the lowest and the highest point, so that its height is a ball's
+            latitudes = np.linspace(-0.5 * np.pi, 0.5 * np.pi, N_CIRCLE_CORNERS // 2 + 1)
+            radius = shape.size[0]
+            rings = [(float(np.cos(angle)), radius * float(np.sin(angle))) for angle in latitudes]
         corners = np.concatenate(
             [
-                np.column_stack([share * shape.size[0] * circle, np.full(ROUND, height)])
+                np.column_stack([share * shape.size[0] * circle, np.full(N_CIRCLE_CORNERS, height)])
                 for share, height in rings
             ]
         )
@@ -198,52 +199,53 @@ def _surface(shape: CollisionShape) -> Array:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    """``a x b`` of vectors of the plane, (..., 2)."""
     product: Array = a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
     return product
 
 
-def _upright(triangles: Array) -> tuple[Array, Array]:
-    """The triangles that are not vertical, and twice their horizontal area."""
+def _nonvertical_faces(triangles: Array) -> tuple[Array, Array]:
+    """Return the triangles that are not vertical, and twice their horizontal area."""
     a, b, c = triangles[:, 0, :2], triangles[:, 1, :2], triangles[:, 2, :2]
-    doubled = _cross(b - a, c - a)
-    kept = np.abs(doubled) > 1e-12
-    return triangles[kept], doubled[kept]
+    double_areas = _cross(b - a, c - a)
+    is_nonvertical = np.abs(double_areas) > 1e-12
+    return triangles[is_nonvertical], double_areas[is_nonvertical]
 
 
-def _heights(points: Array, triangles: Array, doubled: Array) -> Array:
-    """Heights of triangles (n) at points of the plane (m, 2), (m, n) [m]; -inf beside them."""
+def _heights(points: Array, triangles: Array, double_areas: Array) -> Array:
+    """Return heights of triangles (n) at horizontal points (m, 2), (m, n) [m]; else -inf."""
     a, b, c = (triangles[None, :, k, :2] for k in range(3))
-    at = points[:, None, :]
-    shares = [_cross(c - b, at - b), _cross(a - c, at - c), _cross(b - a, at - a)]
+    p = points[:, None, :]
+    shares = [_cross(c - b, p - b), _cross(a - c, p - c), _cross(b - a, p - a)]
     heights = np.zeros((len(points), len(triangles)))
-    inside = np.ones(heights.shape, dtype=bool)
+    is_inside = np.ones(heights.shape, dtype=bool)
     for k, share in enumerate(shares):
-        part = share / doubled
-        inside &= part >= -TOUCH
+        part = share / double_areas
+        is_inside &= part >= -EDGE_TOLERANCE
         heights += part * triangles[None, :, k, 2]
-    found: Array = np.where(inside, heights, -np.inf)
-    return found
+    masked_heights: Array = np.where(is_inside, heights, -np.inf)
+    return masked_heights
 
 
-def _over_faces(points: Array, triangles: Array, doubled: Array, sign: float = 1.0) -> float:
-    """Greatest ``sign * (height of a face - height of a point over or under it)`` [m]; or -inf."""
+def _max_height_over_faces(
+    points: Array, triangles: Array, double_areas: Array, sign: float = 1.0
+) -> float:
+    """Return the greatest ``sign * (face height - height of a point over it)`` [m]; or -inf."""
     if not len(triangles):
         return -np.inf
-    heights = _heights(points[:, :2], triangles, doubled)
+    heights = _heights(points[:, :2], triangles, double_areas)
     return float((sign * (heights - points[:, 2:]))[np.isfinite(heights)].max(initial=-np.inf))
 
 
-def _over_edges(body: Array, ground: Array) -> float:
-    """Greatest height of an edge of the ground over one of the body where they cross [m]."""
+def _max_height_over_edges(body: Array, ground: Array) -> float:
+    """Return the greatest height of a ground edge over a crossing edge of the body [m]."""
     a, b = (np.concatenate([body[:, k] for k in order]) for order in ((0, 1, 2), (1, 2, 0)))
     p, q = (np.concatenate([ground[:, k] for k in order]) for order in ((0, 1, 2), (1, 2, 0)))
-    way, other = (b - a)[:, None], (q - p)[None]
+    body_edge, ground_edge = (b - a)[:, None], (q - p)[None]
     start = p[None] - a[:, None]
-    turn = _cross(way, other)
+    turn = _cross(body_edge, ground_edge)
     with np.errstate(divide="ignore", invalid="ignore"):
-        along = _cross(start, other) / turn
-        across = _cross(start, way) / turn
-        meets = (along >= 0.0) & (along <= 1.0) & (across >= 0.0) & (across <= 1.0)
-        heights = start[..., 2] + across * other[..., 2] - along * way[..., 2]
-    return float(heights[meets].max(initial=-np.inf))
+        s = _cross(start, ground_edge) / turn
+        t = _cross(start, body_edge) / turn
+        is_crossing = (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
+        heights = start[..., 2] + t * ground_edge[..., 2] - s * body_edge[..., 2]
+    return float(heights[is_crossing].max(initial=-np.inf))

@@ -1,8 +1,8 @@
 r"""Conversion of ground to height fields, which the engine compiles and searches fast.
 
 A mesh is a height field if it is a sheet over a rectangle: seen along one axis of its body, all of
-its faces look the same way, and each point of the rectangle lies in exactly one of them. Its
-heights are taken at the nodes of a grid,
+its faces have the same side, and each point of the rectangle is in exactly one of them. Its
+heights are sampled at the nodes of a grid,
 
 .. math:: h_{ij} = z(x_0 + j\,\Delta x,\; y_0 + i\,\Delta y),
 
@@ -25,18 +25,18 @@ import numpy.typing as npt
 from ...base.geometry import Array
 from ...base.numerics.linear import product
 
-TILE = 5
-"""Cells along each side of a tile."""
+TILE_CELLS = 5
+"""The number of cells along each side of a tile."""
 MAX_CELLS = 250_000
-"""Cells of a grid; they are 10 000 tiles."""
-FLAT = 1e-3
-"""A sheet with less difference in height is a plane, for which plates are better [m]."""
-EXACT = 1e-5
-"""Errors up to this are rounding of the file [m]."""
+"""The greatest number of cells of a grid; they are 10 000 tiles."""
+MIN_HEIGHT_RANGE = 1e-3
+"""The height range below which a sheet is a plane, for which plates are better [m]."""
+ROUNDING_ERROR = 1e-5
+"""The greatest error that is a rounding error of the file [m]."""
 MAX_REFINEMENTS = 4
-"""How often the distance of nodes is halved."""
-CLOSE = 1e-6
-"""How far a point may lie outside a triangle or a grid line, as a share of its size [1]."""
+"""The number of times that the distance of nodes is halved."""
+TOLERANCE = 1e-6
+"""The tolerance for a point inside a triangle or on a grid line, as a share of its size [1]."""
 
 Ints = npt.NDArray[np.int64]
 
@@ -46,18 +46,18 @@ class HeightField:
     """Heights over a rectangle; the diagonal of each cell runs from its first to its last node."""
 
     body_from_field: Array
-    """Its axes in the body's frame as columns, the third upwards, (3, 3)."""
+    """The field's axes in the body's frame as columns, the third upwards, (3, 3)."""
     origin: Array
     """The first node in the axes of the field, x and y, (2,) [m]."""
     spacing: Array
-    """Distance of two nodes along x and y, (2,) [m]."""
+    """The distance of two nodes along x and y, (2,) [m]."""
     heights: Array
-    """Heights of the nodes, a row along x for each y, (rows, columns) [m]."""
+    """The heights of the nodes, a row along x for each y, (rows, columns) [m]."""
     error: float
-    """Greatest difference in height from the mesh [m]."""
+    """The greatest difference in height from the mesh [m]."""
 
     def triangles(self) -> Array:
-        """The faces of all cells in the body's frame, (n, 3, 3) [m]."""
+        """Return the faces of all cells in the body's frame, (n, 3, 3) [m]."""
         rows, columns = self.heights.shape
         x = self.origin[0] + self.spacing[0] * np.arange(columns)
         y = self.origin[1] + self.spacing[1] * np.arange(rows)
@@ -66,51 +66,52 @@ class HeightField:
         a, b = points[:-1, :-1], points[:-1, 1:]
         c, d = points[1:, :-1], points[1:, 1:]
         faces = np.stack([np.stack([a, b, d], axis=2), np.stack([a, d, c], axis=2)], axis=2)
-        found: Array = product(faces.reshape(-1, 3), self.body_from_field.T).reshape(-1, 3, 3)
-        return found
+        triangles: Array = product(faces.reshape(-1, 3), self.body_from_field.T).reshape(-1, 3, 3)
+        return triangles
 
     def tiles(self) -> Iterator[tuple[Array, Array]]:
-        """Middles of the tiles at height 0 in the body's frame, (3,) [m], and their heights [m]."""
+        """Yield the middle of each tile at height 0 in the body's frame, and its heights [m]."""
         rows, columns = self.heights.shape
-        for i in range(0, rows - 1, TILE):
-            for j in range(0, columns - 1, TILE):
-                heights = self.heights[i : i + TILE + 1, j : j + TILE + 1]
+        for i in range(0, rows - 1, TILE_CELLS):
+            for j in range(0, columns - 1, TILE_CELLS):
+                heights = self.heights[i : i + TILE_CELLS + 1, j : j + TILE_CELLS + 1]
                 half = 0.5 * (np.array(heights.shape[::-1]) - 1.0)  # in cells, along x and y
                 x, y = self.origin + self.spacing * (np.array([j, i]) + half)
                 yield product(self.body_from_field, np.array([x, y, 0.0])), heights
 
 
 def height_field(triangles: Array, error: float) -> HeightField | None:
-    """Convert a sheet to a height field; None if it is none, or is a plane.
+    """Convert a sheet to a height field; None if it is not one, or is a plane.
 
     Args:
-        triangles: counter-clockwise from where they are seen, (n, 3, 3) [m].
-        error: greatest difference in height allowed [m].
+        triangles: counter-clockwise seen from outside, (n, 3, 3) [m].
+        error: the greatest difference in height allowed [m].
     """
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     sizes = np.sqrt((normals * normals).sum(axis=1))
     has_area = sizes > 0.0
     if not has_area.any():
         return None
-    total = normals.sum(axis=0)
-    axis = int(np.argmax(np.abs(total)))
-    sign = 1.0 if total[axis] > 0.0 else -1.0
+    normal = normals.sum(axis=0)
+    axis = int(np.argmax(np.abs(normal)))
+    sign = 1.0 if normal[axis] > 0.0 else -1.0
     if not (sign * normals[has_area, axis] > 0.0).all():
         return None
-    best: HeightField | None = None
+    best_field: HeightField | None = None
     for turn in (0, 1):  # the diagonals of a grid that is turned by 90 degrees run the other way
         frame = _frame(axis, sign, turn)
         corners = product(triangles[has_area].reshape(-1, 3), frame).reshape(-1, 3, 3)
-        found = _over_rectangle(corners, frame, error)
-        if found is not None and (best is None or found.error < best.error):
-            best = found
-        if best is None or best.error <= EXACT:
+        field = _sample_rectangle(corners, frame, error)
+        if field is not None and (best_field is None or field.error < best_field.error):
+            best_field = field
+        if best_field is None or best_field.error <= ROUNDING_ERROR:
             break
-    return best if best is not None and best.error <= max(error, EXACT) else None
+    is_good = best_field is not None and best_field.error <= max(error, ROUNDING_ERROR)
+    return best_field if is_good else None
 
 
 def _frame(axis: int, sign: float, turn: int) -> Array:
-    """Axes of a field in the body's frame: the third is ``sign`` times a body's axis, (3, 3)."""
+    """Return a field's axes in the body's frame, the third ``sign`` times an axis, (3, 3)."""
     x, y, z = (np.eye(3)[(axis + k) % 3] for k in (1, 2, 3))
     if sign < 0.0:
         y, z = -y, -z
@@ -119,44 +120,44 @@ def _frame(axis: int, sign: float, turn: int) -> Array:
     return np.column_stack([x, y, z])
 
 
-def _over_rectangle(corners: Array, frame: Array, error: float) -> HeightField | None:
-    """Sample a sheet, (n, 3, 3) in the axes of the field; None if it covers no whole rectangle."""
+def _sample_rectangle(corners: Array, frame: Array, error: float) -> HeightField | None:
+    """Sample a sheet, (n, 3, 3) in the field's axes; None if it is not a whole rectangle."""
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     extent = (high - low)[:2]
-    if high[2] - low[2] < FLAT or extent.min() <= 0.0:
+    if high[2] - low[2] < MIN_HEIGHT_RANGE or extent.min() <= 0.0:
         return None
-    along, across = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
-    area = 0.5 * float((along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]).sum())
+    ab, ac = corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2]
+    area = 0.5 * float((ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]).sum())
     if abs(area - extent[0] * extent[1]) > 1e-5 * area:
         return None
     size = _grid_of(corners, low, extent)
     if size is not None:
-        return _sampled(corners, frame, low, extent, size)
-    if error <= EXACT:
+        return _sample_grid(corners, frame, low, extent, size)
+    if error <= ROUNDING_ERROR:
         return None
     spacing = float(np.sqrt(2.0 * area / len(corners)))
-    found: HeightField | None = None
+    field: HeightField | None = None
     for k in range(MAX_REFINEMENTS):
         cells = np.maximum(1, np.ceil(extent / (spacing / 2**k))).astype(int)
         size = (int(cells[1]) + 1, int(cells[0]) + 1)
         if cells[0] * cells[1] > MAX_CELLS:
             break
-        found = _sampled(corners, frame, low, extent, size)
-        if found is None or found.error <= error:
+        field = _sample_grid(corners, frame, low, extent, size)
+        if field is None or field.error <= error:
             break
-    return found
+    return field
 
 
 def _grid_of(corners: Array, low: Array, extent: Array) -> tuple[int, int] | None:
-    """Rows and columns of a mesh that is a regular grid; None of any other."""
+    """Return the rows and columns of a mesh that is a regular grid; None for any other."""
     counts: list[int] = []
     for k in range(2):
-        places = np.sort(corners[:, :, k].ravel())
+        positions = np.sort(corners[:, :, k].ravel())
         step = float(extent[k]) / np.sqrt(2.0 * len(corners))
-        first = np.concatenate([[True], np.diff(places) > 0.01 * step])
-        lines = places[first]
-        even = low[k] + extent[k] * np.linspace(0.0, 1.0, len(lines))
-        if len(lines) < 2 or np.abs(lines - even).max() > 0.01 * extent[k] / (len(lines) - 1):
+        is_line = np.concatenate([[True], np.diff(positions) > 0.01 * step])
+        lines = positions[is_line]
+        even_lines = low[k] + extent[k] * np.linspace(0.0, 1.0, len(lines))
+        if len(lines) < 2 or np.abs(lines - even_lines).max() > 0.01 * extent[k] / (len(lines) - 1):
             return None
         counts.append(len(lines))
     columns, rows = counts
@@ -164,10 +165,10 @@ def _grid_of(corners: Array, low: Array, extent: Array) -> tuple[int, int] | Non
     return (rows, columns) if 2 * n_cells == len(corners) and n_cells <= MAX_CELLS else None
 
 
-def _sampled(
+def _sample_grid(
     corners: Array, frame: Array, low: Array, extent: Array, size: tuple[int, int]
 ) -> HeightField | None:
-    """Sample a sheet at the nodes of a grid of some rows and columns; None where it has a hole."""
+    """Sample a sheet at the nodes of a grid of some rows and columns; None if it has a hole."""
     rows, columns = size
     spacing = extent / np.array([columns - 1, rows - 1])
     grid = corners.copy()  # x and y in cells
@@ -185,59 +186,59 @@ def _sampled(
 
 
 def _heights_at_nodes(grid: Array, rows: int, columns: int) -> Array:
-    """Heights of triangles (n, 3, 3), x and y in cells, at the nodes; nan where there is none."""
-    first = np.ceil(grid[..., :2].min(axis=1) - CLOSE).astype(np.int64)  # (n, 2)
-    counts = np.floor(grid[..., :2].max(axis=1) + CLOSE).astype(np.int64) - first + 1
-    owner, place = _ranges(counts[:, 0] * counts[:, 1])
-    wide = counts[owner, 0]
-    column, row = first[owner, 0] + place % wide, first[owner, 1] + place // wide
+    """Return heights of triangles (n, 3, 3), x and y in cells, at the nodes; nan outside them."""
+    first_nodes = np.ceil(grid[..., :2].min(axis=1) - TOLERANCE).astype(np.int64)  # (n, 2)
+    counts = np.floor(grid[..., :2].max(axis=1) + TOLERANCE).astype(np.int64) - first_nodes + 1
+    owner, index = _ranges(counts[:, 0] * counts[:, 1])
+    width = counts[owner, 0]
+    column, row = first_nodes[owner, 0] + index % width, first_nodes[owner, 1] + index // width
     a, b, c = (grid[owner, k] for k in range(3))
     x, y = column - a[:, 0], row - a[:, 1]
     ab, ac = b - a, c - a
-    doubled = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
-    s = (x * ac[:, 1] - y * ac[:, 0]) / doubled
-    t = (y * ab[:, 0] - x * ab[:, 1]) / doubled
-    inside = (s >= -CLOSE) & (t >= -CLOSE) & (s + t <= 1.0 + CLOSE)
-    inside &= (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
+    double_areas = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    s = (x * ac[:, 1] - y * ac[:, 0]) / double_areas
+    t = (y * ab[:, 0] - x * ab[:, 1]) / double_areas
+    is_inside = (s >= -TOLERANCE) & (t >= -TOLERANCE) & (s + t <= 1.0 + TOLERANCE)
+    is_inside &= (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
     heights = np.full((rows, columns), np.nan)
     values = a[:, 2] + s * ab[:, 2] + t * ac[:, 2]
-    heights[row[inside], column[inside]] = values[inside]
+    heights[row[is_inside], column[is_inside]] = values[is_inside]
     return heights
 
 
 def _greatest_difference(grid: Array, heights: Array) -> float:
-    """Greatest difference in height between triangles (n, 3, 3), x and y in cells, and a field.
+    """Compute the greatest height difference of a field and triangles (n, 3, 3), x and y in cells.
 
-    Both surfaces are flat between corners, nodes and the places where an edge of the one crosses an
-    edge of the other; at the nodes there is none.
+    Both surfaces are flat between corners, nodes and the points where an edge of the one crosses an
+    edge of the other; at the nodes the difference is 0.
     """
     points = [grid.reshape(-1, 3)]
-    begins, ends = grid.reshape(-1, 3), np.roll(grid, -1, axis=1).reshape(-1, 3)
+    starts, ends = grid.reshape(-1, 3), np.roll(grid, -1, axis=1).reshape(-1, 3)
     for family in ((1.0, 0.0), (0.0, 1.0), (-1.0, 1.0)):  # columns, rows, diagonals
-        a, b = (family[0] * each[:, 0] + family[1] * each[:, 1] for each in (begins, ends))
-        first = np.ceil(np.minimum(a, b) + CLOSE).astype(np.int64)
-        counts = np.floor(np.maximum(a, b) - CLOSE).astype(np.int64) - first + 1
-        owner, place = _ranges(np.maximum(counts, 0))
-        share = (first[owner] + place - a[owner]) / (b[owner] - a[owner])
-        points.append(begins[owner] + share[:, None] * (ends[owner] - begins[owner]))
-    every = np.concatenate(points)
-    return float(np.abs(_field_at(every, heights) - every[:, 2]).max())
+        a, b = (family[0] * ps[:, 0] + family[1] * ps[:, 1] for ps in (starts, ends))
+        first_lines = np.ceil(np.minimum(a, b) + TOLERANCE).astype(np.int64)
+        counts = np.floor(np.maximum(a, b) - TOLERANCE).astype(np.int64) - first_lines + 1
+        owner, index = _ranges(np.maximum(counts, 0))
+        share = (first_lines[owner] + index - a[owner]) / (b[owner] - a[owner])
+        points.append(starts[owner] + share[:, None] * (ends[owner] - starts[owner]))
+    all_points = np.concatenate(points)
+    return float(np.abs(_field_at(all_points, heights) - all_points[:, 2]).max())
 
 
 def _field_at(points: Array, heights: Array) -> Array:
-    """Heights of a field at points whose x and y are in cells, (n,)."""
+    """Return the heights of a field at points whose x and y are in cells, (n,)."""
     rows, columns = heights.shape
     j = np.clip(np.floor(points[:, 0]).astype(np.int64), 0, columns - 2)
     i = np.clip(np.floor(points[:, 1]).astype(np.int64), 0, rows - 2)
     u, v = points[:, 0] - j, points[:, 1] - i
     a, b = heights[i, j], heights[i, j + 1]
     c, d = heights[i + 1, j], heights[i + 1, j + 1]
-    found: Array = a + np.where(u >= v, u * (b - a) + v * (d - b), v * (c - a) + u * (d - c))
-    return found
+    rises = np.where(u >= v, u * (b - a) + v * (d - b), v * (c - a) + u * (d - c))
+    return np.asarray(a + rises)
 
 
 def _ranges(counts: Ints) -> tuple[Ints, Ints]:
-    """``0 .. count - 1`` for each count: the number of the count, and the number in it."""
+    """Return ``0 .. count - 1`` for each count: the index of the count, and the index in it."""
     owner = np.repeat(np.arange(len(counts)), counts)
-    begins = np.cumsum(counts) - counts
-    return owner, np.arange(len(owner)) - begins[owner]
+    starts = np.cumsum(counts) - counts
+    return owner, np.arange(len(owner)) - starts[owner]

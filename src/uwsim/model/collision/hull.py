@@ -1,4 +1,4 @@
-"""Extent of a vehicle: the bounding boxes of its links in the frame of its base."""
+"""The extent of a vehicle: the bounding boxes of its links in the frame of its base."""
 
 from __future__ import annotations
 
@@ -20,59 +20,59 @@ class LinkBox:
     """The bounding box of a link."""
 
     low: Array
-    """Least corner in the base's frame, (3,) [m]."""
+    """The least corner in the base's frame, (3,) [m]."""
     high: Array
-    """Greatest corner, (3,) [m]."""
+    """The greatest corner, (3,) [m]."""
     volume: float
-    """Of its boxes, overlaps counted twice [m3]."""
+    """The volume of its boxes, overlaps counted twice [m3]."""
 
     @property
     def extent(self) -> Array:
-        """Along x, y, z of the base, (3,) [m]."""
+        """The extent along x, y, z of the base, (3,) [m]."""
         return self.high - self.low
 
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """All links of a vehicle that have a shape; at least one."""
+    """The links of a vehicle that have a shape; at least one."""
 
     links: Mapping[str, LinkBox]
-    """By the name of the link."""
+    """The box of each link, by its name."""
 
     @property
     def low(self) -> Array:
-        """Least corner in the base's frame, (3,) [m]."""
+        """The least corner in the base's frame, (3,) [m]."""
         low: Array = np.min([box.low for box in self.links.values()], axis=0)
         return low
 
     @property
     def high(self) -> Array:
-        """Greatest corner in the base's frame, (3,) [m]."""
+        """The greatest corner in the base's frame, (3,) [m]."""
         high: Array = np.max([box.high for box in self.links.values()], axis=0)
         return high
 
     @property
     def size(self) -> float:
-        """Its longest extent [m]."""
+        """The longest extent [m]."""
         return float((self.high - self.low).max())
 
     @property
     def volume(self) -> float:
-        """Of all boxes [m3]."""
+        """The volume of all boxes [m3]."""
         return sum(box.volume for box in self.links.values())
 
     def distance(self, point: Array) -> float:
-        """How far a point of the base's frame, (3,), is from the box around all links [m]."""
-        beyond = np.maximum(np.maximum(self.low - point, point - self.high), 0.0)
-        return float(length(beyond))
+        """Compute the distance of a point of the base's frame, (3,), from the whole box [m]."""
+        offset = np.maximum(np.maximum(self.low - point, point - self.high), 0.0)
+        return float(length(offset))
 
 
 def hull_of(scene: ResolvedScene, index: int) -> Hull | None:
-    """Measure a vehicle, its joints as in the file; None where it has no shape.
+    """Measure a vehicle with its joints as in the file; None if it has no shape.
 
     Args:
         scene: the scene.
-        index: number of the vehicle.
+        index: the number of the vehicle.
 
     Raises:
         UwsimError: a mesh cannot be read.

@@ -1,7 +1,7 @@
-"""Disk cache of the convex polygons of meshes: finding those of the tank takes half a second.
+"""Disk cache of the convex polygons of meshes; those of the tank take half a second to compute.
 
-Polygons are found by the hash of the triangles and of what makes polygons of them: the sources
-and the versions of numpy and SciPy.
+The key is the hash of the triangles, of the sources that compute the polygons, and of the versions
+of numpy and SciPy.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from . import convex_faces
 
 
 def cached_faces(triangles: Array) -> list[Array]:
-    """`convex_faces.convex_faces` of the triangles (n, 3, 3) [m], from the cache if possible."""
+    """Return `convex_faces.convex_faces` of triangles (n, 3, 3) [m], from the cache if possible."""
     sources = [str(module.__file__) for module in (convex_faces, linear)]
     digest = hashlib.sha256(code_digest(sources, ("numpy", "scipy")))
     digest.update(np.ascontiguousarray(triangles).data)
@@ -27,14 +27,15 @@ def cached_faces(triangles: Array) -> list[Array]:
     data = disk_cache.read(file)
     if data is None:
         polygons = convex_faces.convex_faces(triangles)
-        disk_cache.write(file, _packed(polygons))
+        disk_cache.write(file, _to_bytes(polygons))
         return polygons
-    with np.load(io.BytesIO(data), allow_pickle=False) as kept:
-        return np.split(kept["corners"], kept["ends"])[:-1]
+    with np.load(io.BytesIO(data), allow_pickle=False) as archive:
+        return np.split(archive["corners"], archive["ends"])[:-1]
 
 
-def _packed(polygons: list[Array]) -> bytes:
-    packed = io.BytesIO()
+def _to_bytes(polygons: list[Array]) -> bytes:
+    buffer = io.BytesIO()
     corners = np.concatenate([*polygons, np.zeros((0, 3))])
-    np.savez(packed, corners=corners, ends=np.cumsum([len(each) for each in polygons], dtype=int))
-    return packed.getvalue()
+    ends = np.cumsum([len(polygon) for polygon in polygons], dtype=int)
+    np.savez(buffer, corners=corners, ends=ends)
+    return buffer.getvalue()

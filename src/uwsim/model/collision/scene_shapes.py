@@ -1,13 +1,12 @@
 """Collision shapes of the bodies of a scene.
 
-Every link of a vehicle, as the box around its collision geometry, else around what is seen of it;
-a finger, a link at the end of a chain that a joint moves, as its mesh where that is convex. And the
-objects that `uwsim.scene.spec.SceneSpec.solid_objects` names. Where a vehicle is simulated,
-or the scene asks for the original's physics, an object is loose if it has a mass and is not
-``isKinematic``; elsewhere it is fixed. Solid scenery without ``<physics>`` is its faces, a large
-mesh those of `uwsim.model.collision.fixed_mesh`. Not modelled: contacts of a vehicle with
-itself, of objects that stand still with each other; limits of objects; hollows between the hulls of
-a link.
+Each link of a vehicle is the box around its collision geometry, else around its visible geometry. A
+finger (a link at the end of a chain that a joint moves) is its mesh if that is convex. The objects
+are those of `uwsim.scene.spec.SceneSpec.solid_objects`. If a vehicle is simulated, or the scene
+requests the original's physics, an object is loose if it has a mass and is not ``isKinematic``;
+else it is fixed. Solid scenery without ``<physics>`` has its faces, a large mesh those of
+`uwsim.model.collision.fixed_mesh`. Not modelled: contacts of a vehicle with itself, of fixed
+objects with each other; limits of objects; hollows between the hulls of a link.
 """
 
 from __future__ import annotations
@@ -36,70 +35,70 @@ from .shapes import (
     CollisionShape,
     convex_shapes,
     fixed_mesh_of,
-    seen_from,
+    orient_upwards,
     shapes_of,
 )
 
 
 def simulated_shapes(
-    resolved: ResolvedScene, dynamics: Collection[int]
+    resolved_scene: ResolvedScene, dynamics: Collection[int]
 ) -> dict[str, tuple[CollisionShape, ...]]:
-    """Make the collision shapes of the engine; none where nothing is simulated.
+    """Make the collision shapes of the engine; none if nothing is simulated.
 
     Args:
-        resolved: the scene.
-        dynamics: numbers of the vehicles that are simulated.
+        resolved_scene: the scene.
+        dynamics: the numbers of the vehicles that are simulated.
     """
-    scene = resolved.scene
+    scene = resolved_scene.scene
     if scene.has_uwsim_physics:
-        return collision_shapes(resolved, resolved.robots, scene.solid_objects)
+        return collision_shapes(resolved_scene, resolved_scene.robots, scene.solid_objects)
     solid = simulated_solids(scene, dynamics)
     if not solid and len(dynamics) < 2:
         return {}
-    return collision_shapes(resolved, dynamics, solid)
+    return collision_shapes(resolved_scene, dynamics, solid)
 
 
 def simulated_solids(scene: SceneSpec, dynamics: Collection[int]) -> Mapping[int, PhysicsSpec]:
-    """Solid objects of the engine, by number; none where nothing is simulated."""
+    """Return the solid objects of the engine, by number; none if nothing is simulated."""
     if scene.has_uwsim_physics:
         return scene.solid_objects
     return scene.simulated_solids if dynamics else {}
 
 
 def collision_shapes(
-    resolved: ResolvedScene, vehicles: Collection[int], objects: Mapping[int, PhysicsSpec]
+    resolved_scene: ResolvedScene, vehicles: Collection[int], objects: Mapping[int, PhysicsSpec]
 ) -> dict[str, tuple[CollisionShape, ...]]:
     """Make the shapes of a scene, by the name of their body in the model.
 
     Args:
-        resolved: the scene.
-        vehicles: numbers of those that can be touched.
-        objects: what each object that can be touched is, by its number.
+        resolved_scene: the scene.
+        vehicles: the numbers of the vehicles that have contacts.
+        objects: the physics of each object that has contacts, by its number.
     """
-    scene, data_path = resolved.scene, resolved.data_path
+    scene, data_path = resolved_scene.scene, resolved_scene.data_path
     shapes: dict[str, tuple[CollisionShape, ...]] = {}
     load = object_models(scene, data_path)
     for index, physics in objects.items():
-        thing = scene.objects[index]
+        spec = scene.objects[index]
         shapes[object_body(index)] = shapes_of(
-            _touched_model(thing, physics, load),
-            _object_from_mesh(thing),
+            _contact_model(spec, physics, load),
+            _object_from_mesh(spec),
             physics.collision_shape_type,
             is_fixed=not physics.is_loose,
-            up=_up(thing, scene) if thing.is_ground else None,
-            error=thing.contact_error,
+            up=_up(spec, scene) if spec.is_ground else None,
+            error=spec.contact_error,
         )
     for index in vehicles:
-        robot = resolved.robots[index]
+        robot = resolved_scene.robots[index]
         fingers = _fingers(robot)
-        stretches = _stretches(robot, scene.vehicles[index])
+        link_scales = _link_scales(robot, scene.vehicles[index])
         for link in robot.links:
             boxes = [
                 box
                 for solid in link.solids
-                for box in _solid_shapes(
+                for box in _shapes_of_solid(
                     solid,
-                    stretches.get(link.name),
+                    link_scales.get(link.name),
                     robot,
                     data_path,
                     is_finger=link.name in fingers,
@@ -110,10 +109,10 @@ def collision_shapes(
     return shapes
 
 
-def _stretches(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
-    """What a vehicle's scale is in the frame of each link, (3, 3); nothing without a scale.
+def _link_scales(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
+    """Return a vehicle's scale as a matrix in each link's frame, (3, 3); empty without a scale.
 
-    An uneven scale is that of the joints as they are at the start: a box stays what it is.
+    An uneven scale applies at the joints' initial values: a box remains a box.
     """
     if vehicle.scale_factor == (1.0, 1.0, 1.0):
         return {}
@@ -126,27 +125,27 @@ def _stretches(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
 
 
 def _fingers(robot: RobotSpec) -> set[str]:
-    """Links that a joint moves and that carry no other."""
+    """Return the links that a joint moves and that have no child link."""
     parents = {joint.parent for joint in robot.joints}
     return {joint.child for joint in robot.joints if joint.moves} - parents
 
 
-def _solid_shapes(
+def _shapes_of_solid(
     solid: VisualSpec,
-    stretch: Array | None,
+    link_scale: Array | None,
     robot: RobotSpec,
     data_path: tuple[Path, ...],
     *,
     is_finger: bool,
 ) -> list[CollisionShape]:
-    """The collision shape of one shape of a link, in the link's frame."""
+    """Make the collision shapes of one solid of a link, in the link's frame."""
     model, scale = visual_model(solid, Path(robot.path).parent, data_path)
     link_from_solid = Pose.from_rpy(solid.position, solid.rpy)
     solid_from_mesh = np.diag([*scale, 1.0])
-    if stretch is not None:
+    if link_scale is not None:
         turn = link_from_solid.rotation
-        solid_from_mesh[:3, :3] = product(turn.T, product(stretch, turn)) * scale
-        link_from_solid = Pose(rotate(stretch, link_from_solid.position), turn)
+        solid_from_mesh[:3, :3] = product(turn.T, product(link_scale, turn)) * scale
+        link_from_solid = Pose(rotate(link_scale, link_from_solid.position), turn)
     shapes = convex_shapes(model, solid_from_mesh) if is_finger else None
     if shapes is None:
         shapes = shapes_of(model, solid_from_mesh, "box", is_fixed=False)
@@ -155,28 +154,27 @@ def _solid_shapes(
     ]
 
 
-def standing_faces(
+def fixed_faces(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> Array:
-    """Collision triangles of a fixed object in W, (n, 3, 3) [m].
+    """Return the collision triangles of a fixed object in W, (n, 3, 3) [m].
 
     Args:
-        scene: spec of the scene.
-        index: number of the object.
-        physics: what it is.
-        data_path: folders in which files are looked for.
+        scene: the spec of the scene.
+        index: the number of the object.
+        physics: the physics of the object.
+        data_path: the folders that are searched for files.
     """
-    thing = scene.objects[index]
-    world_from_object = scene.world_from_localized @ thing.localized_from_object
-    model = _touched_model(thing, physics, object_models(scene, data_path))
-    object_from_mesh = _object_from_mesh(thing)
-    object_from_mesh = _object_from_mesh(thing)
-    touched = touched_mesh(scene, index, physics, data_path)
-    if touched is None:
+    spec = scene.objects[index]
+    world_from_object = scene.world_from_localized @ spec.localized_from_object
+    model = _contact_model(spec, physics, object_models(scene, data_path))
+    object_from_mesh = _object_from_mesh(spec)
+    contacts = contact_mesh(scene, index, physics, data_path)
+    if contacts is None:
         shapes = shapes_of(model, object_from_mesh, physics.collision_shape_type, is_fixed=True)
         return triangles_of(shapes, world_from_object)
-    if not touched.is_exact:
-        corners = touched.triangles().reshape(-1, 3)
+    if not contacts.is_exact:
+        corners = contacts.triangles().reshape(-1, 3)
         return world_from_object.transform(corners).reshape(-1, 3, 3)
     world_from_mesh = product(world_from_object.matrix, object_from_mesh)
     faces = np.concatenate([mesh.vertices[mesh.triangles] for mesh in model.meshes])
@@ -184,52 +182,52 @@ def standing_faces(
     triangles = transform_points(corners, world_from_mesh[:3, :3], world_from_mesh[:3, 3]).reshape(
         -1, 3, 3
     )
-    return seen_from(np.array([0.0, 0.0, 1.0]), triangles) if thing.is_ground else triangles
+    return orient_upwards(np.array([0.0, 0.0, 1.0]), triangles) if spec.is_ground else triangles
 
 
-def standing_box(
+def fixed_box(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> Array:
-    """Least and greatest coordinates in W of a fixed object's mesh, (2, 3) [m]."""
-    thing = scene.objects[index]
-    model = _touched_model(thing, physics, object_models(scene, data_path))
-    world_from_object = scene.world_from_localized @ thing.localized_from_object
-    world_from_mesh = product(world_from_object.matrix, _object_from_mesh(thing))
+    """Return the least and greatest coordinates in W of a fixed object's mesh, (2, 3) [m]."""
+    spec = scene.objects[index]
+    model = _contact_model(spec, physics, object_models(scene, data_path))
+    world_from_object = scene.world_from_localized @ spec.localized_from_object
+    world_from_mesh = product(world_from_object.matrix, _object_from_mesh(spec))
     corners = transform_points(model.box.corners(), world_from_mesh[:3, :3], world_from_mesh[:3, 3])
     return np.stack([corners.min(axis=0), corners.max(axis=0)])
 
 
-def touched_mesh(
+def contact_mesh(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> FixedMesh | None:
-    """Find what is touched of a fixed mesh, in the object's frame; None of what is another shape.
+    """Return the collision surface of a fixed mesh, in the object's frame; None for other shapes.
 
     Args:
-        scene: spec of the scene.
-        index: number of the object.
-        physics: what it is.
-        data_path: folders in which files are looked for.
+        scene: the spec of the scene.
+        index: the number of the object.
+        physics: the physics of the object.
+        data_path: the folders that are searched for files.
     """
     if physics.is_loose or physics.collision_shape_type not in TRIMESHES:
         return None
-    thing = scene.objects[index]
-    model = _touched_model(thing, physics, object_models(scene, data_path))
-    up = _up(thing, scene) if thing.is_ground else None
-    return fixed_mesh_of(model, _object_from_mesh(thing), up=up, error=thing.contact_error)
+    spec = scene.objects[index]
+    model = _contact_model(spec, physics, object_models(scene, data_path))
+    up = _up(spec, scene) if spec.is_ground else None
+    return fixed_mesh_of(model, _object_from_mesh(spec), up=up, error=spec.contact_error)
 
 
-def _touched_model(thing: ObjectSpec, physics: PhysicsSpec, load: Callable[[str], Model]) -> Model:
-    """The model whose mesh is touched of an object."""
-    return load(physics.collision_shape or thing.file)
+def _contact_model(spec: ObjectSpec, physics: PhysicsSpec, load: Callable[[str], Model]) -> Model:
+    """Load the model of an object's collision mesh."""
+    return load(physics.collision_shape or spec.file)
 
 
-def _object_from_mesh(thing: ObjectSpec) -> Array:
-    """Where its mesh is on an object, with its scale, (4, 4) [m]."""
-    return product(np.diag([*thing.scale_factor, 1.0]), thing.object_from_mesh.matrix)
+def _object_from_mesh(spec: ObjectSpec) -> Array:
+    """Return the pose of an object's mesh on it, with its scale, (4, 4) [m]."""
+    return product(np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix)
 
 
-def _up(thing: ObjectSpec, scene: SceneSpec) -> Array:
-    """W's z in the axes of an object, (3,)."""
-    world_from_object = scene.world_from_localized @ thing.localized_from_object
+def _up(spec: ObjectSpec, scene: SceneSpec) -> Array:
+    """Return W's z in the axes of an object, (3,)."""
+    world_from_object = scene.world_from_localized @ spec.localized_from_object
     up: Array = world_from_object.rotation[2]
     return up

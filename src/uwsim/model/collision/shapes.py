@@ -12,10 +12,10 @@ compound trimesh   as trimesh
 =================  ======================================================================
 
 A fixed trimesh becomes plates behind its flat faces (`convex_faces`): a rectangle a slab, any other
-polygon a prism, `THICKNESS` deep, away from the side the face is seen from. A large one is
-simplified, or becomes tiles of a height field (`fixed_mesh`), which are `DEPTH` thick. Ground whose
-faces look down as a whole is turned over: its file has its corners the other way round. Not
-modelled: hollows of loose things, faces seen from both sides.
+polygon a prism, `PLATE_THICKNESS` deep, behind its front side. A large one is simplified, or
+becomes tiles of a height field (`fixed_mesh`), which are `FIELD_DEPTH` thick. Ground whose faces
+mainly face down is flipped: its file has the corners in reverse order. Not modelled: hollows of
+loose objects, faces with two front sides.
 """
 
 from __future__ import annotations
@@ -37,27 +37,27 @@ from .height_field import HeightField
 from .polygon_cache import cached_faces
 
 TRIMESHES = ("trimesh", "compound trimesh")
-"""The collisionShapeTypes that are faces where nothing moves."""
-THICKNESS = 0.1
-"""Of the plates of a fixed trimesh; not more than its shortest extent, unless it is `FLAT` [m]."""
-DEPTH = 1.0
-"""Of a height field below its lowest point [m]."""
-FLAT = 0.01
-"""A mesh no thicker than this is a plane [m]."""
-MAX_PIECES = 10_000
-"""Plates of one fixed trimesh."""
-LOWEST = 1e-6
-"""Least range of the heights of a height field that the engine takes [m]."""
-THINNEST = 1e-3
-"""Least edge of a box [m]."""
-BULGE = 0.01
-"""Of a mesh that counts as convex, share of its longest extent."""
-MAX_FACES = 1000
-"""Of a mesh that is touched as its own hull where it moves."""
-SQUARE = 1e-3
-"""How far a rectangle may be from one: cosine of its corner, share of its edge."""
-OPEN = 0.5
-"""Ground is a sheet that looks down if this share of its area, seen from above, does on balance."""
+"""The collisionShapeTypes that use the faces of a fixed mesh."""
+PLATE_THICKNESS = 0.1
+"""The thickness of a fixed trimesh's plates, at most its shortest extent unless it is flat [m]."""
+FIELD_DEPTH = 1.0
+"""The depth of a height field below its lowest point [m]."""
+MAX_PLANE_THICKNESS = 0.01
+"""The greatest thickness of a mesh that is a plane [m]."""
+MAX_PLATES = 10_000
+"""The greatest number of plates of one fixed trimesh."""
+MIN_HEIGHT_RANGE = 1e-6
+"""The least height range of a height field in the engine [m]."""
+MIN_EDGE = 1e-3
+"""The least edge of a box [m]."""
+MAX_BULGE = 0.01
+"""The greatest bulge of a mesh that counts as convex, as a share of its longest extent."""
+MAX_HULL_FACES = 1000
+"""The greatest number of faces of a moving mesh whose hull is its collision shape."""
+RECTANGLE_TOLERANCE = 1e-3
+"""The tolerance of a rectangle: cosine of its corner, share of its edge."""
+MIN_DOWNWARD_SHARE = 0.5
+"""The net share of a sheet's horizontal area that faces down, above which it is flipped."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -65,16 +65,17 @@ class CollisionShape:
     """A convex shape on a body."""
 
     kind: Literal["box", "sphere", "cylinder", "hull", "height field"]
-    """What it is."""
+    """The kind of shape."""
     body_from_shape: Pose
-    """Where its middle is; a cylinder's axis is z; of a height field at its lowest height."""
+    """The pose of the middle; a cylinder's axis is z; a height field begins at its lowest
+    height."""
     size: tuple[float, ...] = ()
-    """Half edges of a box; radius of a ball; radius and half length of a cylinder; half edges,
+    """The half edges of a box; radius of a ball; radius and half length of a cylinder; half edges,
     greatest height and depth of a height field [m]."""
     corners: Array | None = None
-    """Corners of a hull, in the shape's frame, (n, 3) [m]."""
+    """The corners of a hull, in the shape's frame, (n, 3) [m]."""
     heights: Array | None = None
-    """Of a height field above its lowest, a row along x for each y, (rows, columns) [m]."""
+    """The heights of a field above its lowest, a row along x for each y, (rows, columns) [m]."""
 
 
 def shapes_of(
@@ -89,12 +90,12 @@ def shapes_of(
     """Make the shapes of a body.
 
     Args:
-        model: its meshes.
-        body_from_mesh: where they are on the body, with their scale, (4, 4) [m].
-        kind: collisionShapeType; an unknown one is read as box.
-        is_fixed: whether the body never moves.
-        up: W's z in the body's axes, (3,), if it is the ground, which is seen from above.
-        error: greatest distance of a fixed trimesh from its mesh [m]; None: that of `fixed_mesh`.
+        model: the meshes of the body.
+        body_from_mesh: their pose on the body, with their scale, (4, 4) [m].
+        kind: the collisionShapeType; an unknown one is read as box.
+        is_fixed: True if the body never moves.
+        up: W's z in the body's axes, (3,), for the ground, which is seen from above.
+        error: the greatest distance of a fixed trimesh from its mesh [m]; None: the default.
 
     Raises:
         UwsimError: a fixed trimesh has too many faces.
@@ -130,49 +131,49 @@ def fixed_mesh_of(
     up: Array | None,
     error: float | None,
 ) -> FixedMesh:
-    """Find what is touched of a fixed trimesh; the arguments are those of `shapes_of`."""
+    """Return the collision surface of a fixed trimesh; the arguments are those of `shapes_of`."""
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     parts = [
         transform_points(mesh.vertices.astype(np.float64), turn, shift)[mesh.triangles]
         for mesh in model.meshes
     ]
     if up is not None:
-        whole = seen_from(up, np.concatenate(parts))
-        parts = np.split(whole, np.cumsum([len(part) for part in parts])[:-1])
+        triangles = orient_upwards(up, np.concatenate(parts))
+        parts = np.split(triangles, np.cumsum([len(part) for part in parts])[:-1])
     return cached_mesh(parts, error)
 
 
 def convex_shapes(
     model: Model, body_from_mesh: npt.NDArray[np.float64]
 ) -> tuple[CollisionShape, ...] | None:
-    """Return the hull of each material of a model, a box's as box; None if one is not convex.
+    """Return the hull of each material of a model, a box for a box; None if one is not convex.
 
     Args:
-        model: its meshes.
-        body_from_mesh: where they are on the body, with their scale, (4, 4) [m].
+        model: the meshes of the body.
+        body_from_mesh: their pose on the body, with their scale, (4, 4) [m].
     """
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     hulls = []
     for mesh in model.meshes:
         points = transform_points(mesh.vertices.astype(np.float64), turn, shift)
-        if len(mesh.triangles) > MAX_FACES or not is_convex(points[mesh.triangles]):
+        if len(mesh.triangles) > MAX_HULL_FACES or not is_convex(points[mesh.triangles]):
             return None
         hulls.append(box_around(points) if _is_box(points) else _hull(points))
     return tuple(hulls)
 
 
 def _is_box(points: Array) -> bool:
-    """Whether points are the eight corners of the box around them: flat pairs hold best."""
+    """Return whether points are the eight corners of their box (flat pairs grip best)."""
     low, high = points.min(axis=0), points.max(axis=0)
-    near = SQUARE * (high - low)
-    is_high = high - points <= near  # (n, 3)
-    if not np.all(is_high | (points - low <= near)):
+    tolerance = RECTANGLE_TOLERANCE * (high - low)
+    is_high = high - points <= tolerance  # (n, 3)
+    if not np.all(is_high | (points - low <= tolerance)):
         return False
     return len({tuple(corner) for corner in is_high.tolist()}) == 8
 
 
 def is_convex(triangles: Array) -> bool:
-    """Whether no corner of triangles (n, 3, 3) is in front of any by more than `BULGE`."""
+    """Return whether no corner of triangles (n, 3, 3) is over `MAX_BULGE` in front of any."""
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     sizes = np.linalg.norm(normals, axis=1)  # (n,) [m2]
     has_area = sizes > 0.0
@@ -181,98 +182,107 @@ def is_convex(triangles: Array) -> bool:
     normals = normals[has_area] / sizes[has_area, None]
     offsets = np.sum(normals * triangles[has_area, 0], axis=1)  # (n,) [m]
     corners = triangles.reshape(-1, 3)
-    out = float((product(corners, normals.T) - offsets).max())
-    return out <= BULGE * float(np.ptp(corners, axis=0).max())
+    bulge = float((product(corners, normals.T) - offsets).max())
+    return bulge <= MAX_BULGE * float(np.ptp(corners, axis=0).max())
 
 
 def box_around(points: Array) -> CollisionShape:
-    """The box along the axes around points (n, 3) [m]."""
+    """Make the axis-aligned box around points (n, 3) [m]."""
     low, high = points.min(axis=0), points.max(axis=0)
-    half = np.maximum(0.5 * (high - low), 0.5 * THINNEST)
+    half = np.maximum(0.5 * (high - low), 0.5 * MIN_EDGE)
     middle = Pose(0.5 * (low + high), np.eye(3))
     return CollisionShape(kind="box", body_from_shape=middle, size=tuple(half.tolist()))
 
 
 def _cylinder(box: CollisionShape) -> CollisionShape:
-    along = int(np.argmax(box.size))
-    across = [half for axis, half in enumerate(box.size) if axis != along]
-    turn = np.roll(np.eye(3), along - 2, axis=0)  # z becomes the longest axis
+    axis_index = int(np.argmax(box.size))
+    radii = [half for axis, half in enumerate(box.size) if axis != axis_index]
+    turn = np.roll(np.eye(3), axis_index - 2, axis=0)  # z becomes the longest axis
     place = Pose(box.body_from_shape.position, turn)
     return CollisionShape(
-        kind="cylinder", body_from_shape=place, size=(max(across), box.size[along])
+        kind="cylinder", body_from_shape=place, size=(max(radii), box.size[axis_index])
     )
 
 
 def _hull(points: Array) -> CollisionShape:
     extent = points.max(axis=0) - points.min(axis=0)
-    if extent.min() < THINNEST:  # flat: has no hull
+    if extent.min() < MIN_EDGE:  # a flat one has no hull
         return box_around(points)
     return CollisionShape(kind="hull", body_from_shape=Pose.identity(), corners=points)
 
 
-def seen_from(up: Array, triangles: Array) -> Array:
-    """Triangles (n, 3, 3) of the ground, flipped if they are a sheet that faces down.
+def orient_upwards(up: Array, triangles: Array) -> Array:
+    """Return triangles (n, 3, 3) of the ground, flipped if they are a sheet that faces down.
 
-    A closed mesh looks up as much as down and stays as it is.
+    A closed mesh faces up as much as down and is not changed.
     """
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
-    ways = product(normals, up)
-    turned: Array = triangles[:, ::-1] if ways.sum() < -OPEN * np.abs(ways).sum() else triangles
-    return turned
+    upward_parts = product(normals, up)
+    oriented_triangles: Array = (
+        triangles[:, ::-1]
+        if upward_parts.sum() < -MIN_DOWNWARD_SHARE * np.abs(upward_parts).sum()
+        else triangles
+    )
+    return oriented_triangles
 
 
 def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
-    """Slabs and prisms below the faces of triangles (n, 3, 3) [m]."""
+    """Make slabs and prisms below the faces of triangles (n, 3, 3) [m]."""
     faces = cached_faces(triangles)
-    if len(faces) > MAX_PIECES:
+    if len(faces) > MAX_PLATES:
         raise UwsimError(
-            f"{name!r} as a fixed trimesh would be {len(faces)} plates; at most {MAX_PIECES}. "
+            f"{name!r} as a fixed trimesh has {len(faces)} plates; expected at most {MAX_PLATES}. "
             "Set a greater <u:contactError>, name a simpler mesh in <collisionShape>, or another "
             "<collisionShapeType>."
         )
     if not faces:
         return ()
-    thinnest = float(np.min(np.ptp(triangles.reshape(-1, 3), axis=0)))
-    depth = THICKNESS if thinnest < FLAT else min(THICKNESS, thinnest)
-    found: dict[int, CollisionShape] = {}
+    min_extent = float(np.min(np.ptp(triangles.reshape(-1, 3), axis=0)))
+    depth = (
+        PLATE_THICKNESS if min_extent < MAX_PLANE_THICKNESS else min(PLATE_THICKNESS, min_extent)
+    )
+    plates: dict[int, CollisionShape] = {}
     sizes = np.array([len(face) for face in faces])
     for size in np.unique(sizes):
-        places = np.flatnonzero(sizes == size).tolist()
-        polygons = np.stack([faces[place] for place in places])
-        found.update(zip(places, _plates_of(polygons, depth), strict=True))
-    return tuple(found[place] for place in range(len(faces)))
+        indices = np.flatnonzero(sizes == size).tolist()
+        polygons = np.stack([faces[i] for i in indices])
+        plates.update(zip(indices, _plates_of(polygons, depth), strict=True))
+    return tuple(plates[i] for i in range(len(faces)))
 
 
 def _plates_of(faces: Array, depth: float) -> Iterator[CollisionShape]:
-    """The solids behind flat convex polygons, (n, k, 3) [m]: a slab behind a rectangle."""
+    """Yield the solids behind flat convex polygons, (n, k, 3) [m]: a slab behind a rectangle."""
     edges = np.roll(faces, -1, axis=1) - faces
     spokes = faces[:, 1:] - faces[:, :1]
     normals = _sum(np.cross(spokes[:, :-1], spokes[:, 1:]))
     normals /= np.sqrt(_dots(normals, normals))[:, None]
     lengths = np.sqrt(_dots(edges, edges))  # (n, k)
     if faces.shape[1] == 4:
-        first, second, third = edges[:, 0], edges[:, 1], edges[:, 2]
-        is_square = np.abs(_dots(first, second)) <= SQUARE * lengths[:, 0] * lengths[:, 1]
-        uneven = first + third
-        is_slab = is_square & (np.sqrt(_dots(uneven, uneven)) <= SQUARE * lengths[:, 0])
+        edge_0, edge_1, edge_2 = edges[:, 0], edges[:, 1], edges[:, 2]
+        is_square = (
+            np.abs(_dots(edge_0, edge_1)) <= RECTANGLE_TOLERANCE * lengths[:, 0] * lengths[:, 1]
+        )
+        difference = edge_0 + edge_2
+        is_slab = is_square & (
+            np.sqrt(_dots(difference, difference)) <= RECTANGLE_TOLERANCE * lengths[:, 0]
+        )
     else:
         is_slab = np.zeros(len(faces), bool)
-    along = edges[:, 0] / np.where(is_slab, lengths[:, 0], 1.0)[:, None]
-    turns = np.stack([along, np.cross(normals, along), normals], axis=2)  # body_from_shape
+    x_axes = edges[:, 0] / np.where(is_slab, lengths[:, 0], 1.0)[:, None]
+    turns = np.stack([x_axes, np.cross(normals, x_axes), normals], axis=2)  # body_from_shape
     middles = _sum(faces) / faces.shape[1] - 0.5 * depth * normals
     prisms = np.concatenate([faces, faces - (depth * normals)[:, None]], axis=1)
     for n in range(len(faces)):
         if is_slab[n]:
             half = (0.5 * float(lengths[n, 0]), 0.5 * float(lengths[n, 1]), 0.5 * depth)
-            place = Pose(middles[n], turns[n])
-            yield CollisionShape(kind="box", body_from_shape=place, size=half)
+            pose = Pose(middles[n], turns[n])
+            yield CollisionShape(kind="box", body_from_shape=pose, size=half)
         else:
-            place = Pose.identity()
-            yield CollisionShape(kind="hull", body_from_shape=place, corners=prisms[n])
+            pose = Pose.identity()
+            yield CollisionShape(kind="hull", body_from_shape=pose, corners=prisms[n])
 
 
 def _tiles(field: HeightField) -> Iterator[CollisionShape]:
-    """The tiles of a height field."""
     half_cell = 0.5 * field.spacing
     for middle, heights in field.tiles():
         low, high = float(heights.min()), float(heights.max())
@@ -281,13 +291,13 @@ def _tiles(field: HeightField) -> Iterator[CollisionShape]:
         yield CollisionShape(
             kind="height field",
             body_from_shape=Pose(middle + low * field.body_from_field[:, 2], field.body_from_field),
-            size=(float(half[0]), float(half[1]), max(high - low, LOWEST), DEPTH),
+            size=(float(half[0]), float(half[1]), max(high - low, MIN_HEIGHT_RANGE), FIELD_DEPTH),
             heights=heights - low,
         )
 
 
 def _sum(vectors: Array) -> Array:
-    """Sums of vectors (n, k, 3), first to last, (n, 3)."""
+    """Add vectors (n, k, 3) from first to last, (n, 3)."""
     total: Array = vectors[:, 0]
     for i in range(1, vectors.shape[1]):
         total = total + vectors[:, i]
@@ -295,14 +305,13 @@ def _sum(vectors: Array) -> Array:
 
 
 def _dots(left: Array, right: Array) -> Array:
-    """Scalar products of vectors (..., 3)."""
     products = left * right
-    found: Array = products[..., 0] + products[..., 1] + products[..., 2]
-    return found
+    sums: Array = products[..., 0] + products[..., 1] + products[..., 2]
+    return sums
 
 
 def bounds(shapes: Sequence[CollisionShape]) -> CollisionShape:
-    """The box along the body's axes around several shapes."""
+    """Make the box along the body's axes around several shapes."""
     points = []
     for shape in shapes:
         if shape.corners is not None:

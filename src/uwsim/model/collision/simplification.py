@@ -18,83 +18,83 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
-from .convex_faces import Ints, numbered
+from .convex_faces import Ints, number_corners
 
 N_TRIALS = 8
-"""Numbers of triangles that are tried at most."""
-SIZE = 10.0
-"""To which a mesh is scaled: the thresholds of the simplification are lengths. Measured on rocks
-and pipes: with 1 the error is up to ten times as large, with 30 edges are left that need not be."""
-LEAST = 12
-"""Triangles that are left at least."""
-FIRST = 0.05
-"""Share of the triangles that is tried first."""
-GOOD = 0.8
-"""An error that is at least this share of the one allowed ends the search."""
+"""The greatest number of simplifications that are tried."""
+SCALED_SIZE = 10.0
+"""The size to which a mesh is scaled: the thresholds of the simplification are lengths. Measured on
+rocks and pipes: with 1 the error is up to ten times as large, with 30 more edges remain."""
+MIN_TRIANGLES = 12
+"""The least number of triangles after simplification."""
+FIRST_SHARE = 0.05
+"""The share of the triangles that is tried first."""
+GOOD_ERROR_SHARE = 0.8
+"""The share of the allowed error that ends the search."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Simplified:
+class SimpleMesh:
     """A mesh of fewer triangles."""
 
     triangles: Array
-    """Its faces, turning as the mesh's do, (n, 3, 3) [m]."""
+    """The faces, turning as the mesh's do, (n, 3, 3) [m]."""
     error: float
-    """Its greatest distance from the mesh [m]."""
+    """The greatest distance from the mesh [m]."""
 
 
-def simplified(triangles: Array, error: float, at_most: int) -> Simplified:
-    """Simplify a mesh as far as an error allows, and to a number of triangles in any case.
+def simplify(triangles: Array, error: float, max_triangles: int) -> SimpleMesh:
+    """Simplify a mesh as far as an error allows, and to a limit of triangles in any case.
 
     Args:
-        triangles: its faces, (n, 3, 3) [m].
-        error: greatest distance allowed between the surfaces [m].
-        at_most: triangles that may be left; where the error needs more it is exceeded.
+        triangles: the faces of the mesh, (n, 3, 3) [m].
+        error: the greatest distance allowed between the surfaces [m].
+        max_triangles: the limit of triangles, which takes precedence over the error.
     """
-    points, faces = _welded(triangles)
+    points, faces = _weld(triangles)
     if not len(faces):
-        return Simplified(triangles=triangles, error=0.0)
+        return SimpleMesh(triangles=triangles, error=0.0)
     mesh = _Mesh(points, faces)
-    many = min(at_most, len(faces))
-    best = mesh.collapsed(many, math.inf)
-    if best.error > error or error <= 0.0:
-        return best
-    few, n = LEAST, round(FIRST * len(faces))
+    upper = min(max_triangles, len(faces))
+    best_mesh = mesh.collapse(upper, math.inf)
+    if best_mesh.error > error or error <= 0.0:
+        return best_mesh
+    lower, n = MIN_TRIANGLES, round(FIRST_SHARE * len(faces))
     for _ in range(N_TRIALS):
-        n = min(max(n, few + 1), many - 1)
-        if n <= few:
+        n = min(max(n, lower + 1), upper - 1)
+        if n <= lower:
             break
-        found = mesh.collapsed(n, 4.0 * error)
-        if found.error <= error:
-            best, many = found, n
-            if found.error >= GOOD * error:
+        simple_mesh = mesh.collapse(n, 4.0 * error)
+        if simple_mesh.error <= error:
+            best_mesh, upper = simple_mesh, n
+            if simple_mesh.error >= GOOD_ERROR_SHARE * error:
                 break
         else:
-            few = n
+            lower = n
         # of a smooth surface the error is inversely proportional to the number of triangles
-        n = round(n * min(max(found.error / (0.85 * error), 0.2), 5.0))
-        if not few < n < many:
-            n = round(math.sqrt(few * many))
-    return best
+        n = round(n * min(max(simple_mesh.error / (0.85 * error), 0.2), 5.0))
+        if not lower < n < upper:
+            n = round(math.sqrt(lower * upper))
+    return best_mesh
 
 
-def _welded(triangles: Array) -> tuple[Array, Ints]:
-    """Corners that lie apart, (k, 3) [m], and their numbers in each face that has area, (n, 3)."""
+def _weld(triangles: Array) -> tuple[Array, Ints]:
+    """Return distinct corners, (k, 3) [m], and their numbers in each face that has area, (n, 3)."""
     corners = triangles.reshape(-1, 3)
-    numbers = numbered(corners)
+    numbers = number_corners(corners)
     points = np.empty((int(numbers.max(initial=-1)) + 1, 3))
     points[numbers[::-1]] = corners[::-1]  # of equal ones the first
     faces = numbers.reshape(-1, 3)
-    apart = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
-    return points, faces[apart]
+    has_area = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
+    return points, faces[has_area]
 
 
 class _Mesh:
-    """A mesh and what distances from it need.
+    """A mesh with the surface from which errors are measured.
 
     Args:
-        points: its corners, (k, 3) [m].
-        faces: their numbers in each face, (n, 3).
+        points: the corners of the mesh, (k, 3) [m].
+        faces: the numbers of each face's corners, (n, 3).
     """
 
     def __init__(self, points: Array, faces: Ints) -> None:
@@ -102,26 +102,26 @@ class _Mesh:
         self._surface = _Surface(points[faces])
         self._low = points.min(axis=0)
         size = float((points.max(axis=0) - self._low).max())  # [m]
-        self._unit = max(size / SIZE, 1e-9)
+        self._unit = max(size / SCALED_SIZE, 1e-9)
 
-    def collapsed(self, n: int, enough: float) -> Simplified:
-        """Collapse edges until about n triangles are left; an error above ``enough`` is one."""
+    def collapse(self, n: int, limit: float) -> SimpleMesh:
+        """Collapse edges to about n triangles; errors above ``limit`` are not exact."""
         if n >= len(self._faces):
-            return Simplified(triangles=self._surface.triangles, error=0.0)
+            return SimpleMesh(triangles=self._surface.triangles, error=0.0)
         import fast_simplification
 
-        scaled = ((self._points - self._low) / self._unit).astype(np.float32)
+        scaled_points = ((self._points - self._low) / self._unit).astype(np.float32)
         corners, numbers = fast_simplification.simplify(
-            scaled, self._faces.astype(np.int32), target_count=n
+            scaled_points, self._faces.astype(np.int32), target_count=n
         )
         points = self._low + self._unit * np.asarray(corners, np.float64)
         if not len(numbers):
-            return Simplified(triangles=self._surface.triangles, error=math.inf)
-        left = _Surface(points[np.asarray(numbers, np.int64)])
-        error = left.distance(self._points, enough)
-        if error < enough:
-            error = max(error, self._surface.distance(points, enough))
-        return Simplified(triangles=left.triangles, error=error)
+            return SimpleMesh(triangles=self._surface.triangles, error=math.inf)
+        surface = _Surface(points[np.asarray(numbers, np.int64)])
+        error = surface.distance(self._points, limit)
+        if error < limit:
+            error = max(error, self._surface.distance(points, limit))
+        return SimpleMesh(triangles=surface.triangles, error=error)
 
 
 class _Surface:
@@ -131,47 +131,47 @@ class _Surface:
         self.triangles = np.ascontiguousarray(triangles)
         a, b, c = (triangles[:, k] for k in range(3))
         self._middles = (a + b + c) / 3.0
-        arms = [each - self._middles for each in (a, b, c)]
+        arms = [corners - self._middles for corners in (a, b, c)]
         squares = [x * x + y * y + z * z for x, y, z in (arm.T for arm in arms)]
         self._radii = np.sqrt(np.maximum(np.maximum(*squares[:2]), squares[2]))
 
-    def distance(self, points: Array, enough: float) -> float:
-        """Greatest distance of points (n, 3) from the surface [m]; ends above ``enough``."""
-        return _farthest(points, self.triangles, self._middles, self._radii, enough)
+    def distance(self, points: Array, limit: float) -> float:
+        """Compute the greatest distance of points (n, 3) from the surface [m], up to ``limit``."""
+        return _max_distance(points, self.triangles, self._middles, self._radii, limit)
 
 
 @njit
-def _farthest(
-    points: Array, triangles: Array, middles: Array, radii: Array, enough: float
+def _max_distance(
+    points: Array, triangles: Array, middles: Array, radii: Array, limit: float
 ) -> float:
-    """Greatest distance of points from triangles, whose middles and radii are given [m]."""
-    worst, last = 0.0, 0
+    """Compute the greatest distance of points from triangles, with their middles and radii [m]."""
+    max_squared, nearest_index = 0.0, 0
     for i in range(len(points)):
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
-        best = _squared(x, y, z, triangles[last])
-        reach = math.sqrt(best)
+        min_squared = _distance_squared(x, y, z, triangles[nearest_index])
+        min_distance = math.sqrt(min_squared)
         for k in range(len(triangles)):
-            if best <= worst:
-                break  # it is no farther than another
+            if min_squared <= max_squared:
+                break  # another point is farther
             dx, dy, dz = x - middles[k, 0], y - middles[k, 1], z - middles[k, 2]
-            far = reach + radii[k]
-            if dx * dx + dy * dy + dz * dz >= far * far:
+            bound = min_distance + radii[k]
+            if dx * dx + dy * dy + dz * dz >= bound * bound:
                 continue
-            squared = _squared(x, y, z, triangles[k])
-            if squared < best:
-                best, last = squared, k
-                reach = math.sqrt(best)
-        worst = max(worst, best)
-        if worst > enough * enough:
+            distance_squared = _distance_squared(x, y, z, triangles[k])
+            if distance_squared < min_squared:
+                min_squared, nearest_index = distance_squared, k
+                min_distance = math.sqrt(min_squared)
+        max_squared = max(max_squared, min_squared)
+        if max_squared > limit * limit:
             break
-    return math.sqrt(worst)
+    return math.sqrt(max_squared)
 
 
 @njit
-def _squared(x: float, y: float, z: float, triangle: Array) -> float:
-    """Square of the distance of a point from a triangle (3, 3) [m2].
+def _distance_squared(x: float, y: float, z: float, triangle: Array) -> float:
+    """Compute the squared distance of a point from a triangle (3, 3) [m2].
 
-    By the regions of C. Ericson, *Real-time collision detection*, 2005, section 5.1.5.
+    The regions are those of C. Ericson, *Real-time collision detection*, 2005, section 5.1.5.
     """
     ax, ay, az = triangle[0, 0], triangle[0, 1], triangle[0, 2]
     ux, uy, uz = triangle[1, 0] - ax, triangle[1, 1] - ay, triangle[1, 2] - az
@@ -188,7 +188,7 @@ def _squared(x: float, y: float, z: float, triangle: Array) -> float:
     if area > 0.0 and s >= 0.0 and t >= 0.0 and s + t <= area:
         s, t = s / area, t / area
     else:  # nearest to an edge
-        best_s, best_t, best = 0.0, 0.0, math.inf
+        best_s, best_t, min_squared = 0.0, 0.0, math.inf
         for edge in range(3):
             if edge == 0:
                 share = up / uu if uu > 0.0 else 0.0
@@ -202,10 +202,10 @@ def _squared(x: float, y: float, z: float, triangle: Array) -> float:
                 t = min(max(share, 0.0), 1.0)
                 s = 1.0 - t
             qx, qy, qz = px - s * ux - t * vx, py - s * uy - t * vy, pz - s * uz - t * vz
-            squared = qx * qx + qy * qy + qz * qz
-            if squared < best:
-                best_s, best_t, best = s, t, squared
+            q_squared = qx * qx + qy * qy + qz * qz
+            if q_squared < min_squared:
+                best_s, best_t, min_squared = s, t, q_squared
         s, t = best_s, best_t
     qx, qy, qz = px - s * ux - t * vx, py - s * uy - t * vy, pz - s * uz - t * vz
-    found: float = qx * qx + qy * qy + qz * qz
-    return found
+    result: float = qx * qx + qy * qy + qz * qz
+    return result

@@ -118,7 +118,7 @@ class BelowGround:
             elapsed: time since the last look [s].
         """
         ground = self._grounds[k]
-        way = ground.way_around(self.state.middles[i], middle)
+        way = ground.path_length_around(self.state.middles[i], middle)
         if way == 0.0 and depth == 0.0:  # far away
             self.state.above[i, k] = False
             return False
