@@ -138,7 +138,7 @@ def test_a_rule_that_fails_is_named_in_a_line(
         path = tmp_path / "robot.urdf"
         path.write_text('<robot name="rov"> <link name="base_link"/> </robot>')
     monkeypatch.setattr(table, kind, (Rule(find, need, in_runs=True),))
-    said = r"gives 'a text'; expected a Diagnostic|raised KeyError: 'lost'"
+    said = r"yields 'a text'; expected a Diagnostic|raised KeyError: 'lost'"
     named = r"The rule tests\.checks\.test_table\.(give_text|fail)"
     with pytest.raises(UwsimError, match=rf"^{named} ({said})\.$"):
         check_file(path)

@@ -125,7 +125,7 @@ def test_a_robot_that_is_nowhere_is_told_the_nearest_bundled_one(
     )
     assert status(str(file)) == 2
     said = capsys.readouterr().out
-    assert f"{file}:2: robot file 'data/scenes/g500_ARM5.urdf' is nowhere, and no bundled" in said
+    assert f"{file}:2: robot file 'data/scenes/g500_ARM5.urdf' is not found, and no bundled" in said
     assert "Did you mean g500ARM5.urdf? Searched: " in said
 
 
@@ -239,7 +239,8 @@ def test_what_a_vehicle_can_pass_through_is_named_until_the_file_says_that_it_is
     assert status(str(file)) == 0
     said = capsys.readouterr().out
     assert (
-        f"{file}:7: warning: simulated vehicles pass through what has no <physics>: 'wreck'" in said
+        f"{file}:7: warning: simulated vehicles pass through objects without <physics>: 'wreck'"
+        in said
     )
     assert f"{file}:6: warning: vehicle 'other': simulated vehicles pass through it" in said
     assert "'terrain'" not in said
@@ -273,7 +274,7 @@ def test_scenery_that_the_originals_physics_moves_is_named(
     ]:
         file.write_text(scene)
         assert status(str(file)) == 0
-        said = f"{file}:3: warning: what has no <physics> is a loose box of 1 kg"
+        said = f"{file}:3: warning: an object without <physics> is a loose box of 1 kg"
         assert (said in capsys.readouterr().out) is is_named
 
 
@@ -353,7 +354,7 @@ def test_a_library_of_macros_is_stated_to_be_one(
     file.write_text(f"<{root} {xmlns}><!-- parts -->{extra}{macros}</{root}>")
     assert status(str(file)) == 0
     said = capsys.readouterr().out
-    assert "warning: a library of xacro macros: fin, pod. It has nothing to simulate" in said
+    assert "warning: a library of xacro macros: fin, pod. It contains nothing to simulate" in said
     file.write_text(f'<robot {xmlns}>{macros}<link name="a"/></robot>')
     assert status(str(file)) == 0
     assert "library of xacro" not in capsys.readouterr().out

@@ -13,7 +13,7 @@ from uwsim.algorithms import ALGORITHMS
 from uwsim.assets.bundled import bundled_files
 from uwsim.benchmark.measures import MEASURES
 from uwsim.checks.benchmark_tables import bundled_tables
-from uwsim.checks.scene.not_simulated import read_only
+from uwsim.checks.scene.not_simulated import unsimulated_elements
 from uwsim.cli import main
 from uwsim.cli.list import KINDS, limit_in
 from uwsim.cli.options.descriptions import first_line, head_comment, without_title
@@ -77,7 +77,7 @@ def test_the_marks_are_those_that_check_gives_a_file(kind: str) -> None:
         scene = etree.fromstring(
             f"<UWSimScene xmlns:u='urn:uwsim:1'><{parent}><{name}/></{parent}></UWSimScene>"
         )
-        assert bool([*read_only(scene)]) == bool(limit_in(kind, name)), name
+        assert bool([*unsimulated_elements(scene)]) == bool(limit_in(kind, name)), name
 
 
 def test_every_sensor_device_and_interface_is_simulated(

@@ -40,11 +40,11 @@ def test_a_bundled_robot_replaces_a_lost_file_of_its_name_and_that_is_reported(
     file = scene(tmp_path, LOST_BUT_OURS, doctype=doctype)
     status, out, _ = call("check", file, capfd=capfd)
     assert status == 0
-    assert "is nowhere; the bundled g500ARM5.urdf is used" in out
+    assert "is not found; the bundled g500ARM5.urdf is used" in out
     status, _, err = call("render", file, "--camera", "eye", "-o", tmp_path / "a.png", capfd=capfd)
     assert status == 0
     assert err.count("uwsim: warning: ") == 1
-    assert "is nowhere; the bundled g500ARM5.urdf is used" in err
+    assert "is not found; the bundled g500ARM5.urdf is used" in err
 
 
 @pytest.mark.slow
@@ -59,7 +59,7 @@ def test_bench_says_once_that_a_bundled_robot_stands_for_a_lost_one(
     status, _, err = call(*words, *both, "--out", tmp_path / "r", capfd=capfd)
     assert status == 0
     assert err.count("uwsim: warning: ") == 1
-    assert "is nowhere; the bundled g500ARM5.urdf is used" in err
+    assert "is not found; the bundled g500ARM5.urdf is used" in err
 
 
 @pytest.mark.parametrize("doctype", [DOCTYPE, ""])
@@ -104,7 +104,7 @@ def test_a_lost_collision_shape_is_reported(
     file = scene(tmp_path, LOST_BUT_OURS, doctype="", objects=thing)
     status, out, _ = call("check", file, capfd=capfd)
     assert status == 2
-    assert "model 'gone.obj' is nowhere" in out
+    assert "model 'gone.obj' is not found" in out
 
 
 def test_a_stand_in_is_not_blamed_for_a_mass_that_the_lost_robot_may_have(

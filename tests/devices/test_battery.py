@@ -231,5 +231,5 @@ def test_a_battery_that_cannot_feed_all_thrusters_is_warned_of(
 ) -> None:
     with vehicle(replace(BATTERY, resistance=resistance)) as simulation:
         texts = [warning.message for warning in model_warnings(simulation.world.model)]
-    found = [text for text in texts if "'battery' feeds 156.2 W at most" in text]
+    found = [text for text in texts if "'battery' supplies 156.2 W at most" in text]
     assert bool(found) is warns

@@ -483,7 +483,7 @@ def test_a_topic_of_a_sensor_that_is_not_there_is_a_warning_as_in_the_original(
     )
     assert said == [
         "<VirtualCameraToROSImage>: no virtualCamera or virtualRangeImage is called 'bowtech2'. "
-        "Did you mean bowtech1? The interface is left out, as in the original"
+        "Did you mean bowtech1? The interface is ignored, as in the original"
     ]
 
 
@@ -589,9 +589,9 @@ def test_objects_that_a_search_never_finds_and_topics_of_two_are_named(tmp_path:
         tmp_path,
     )  # fmt: skip
     assert [str(diagnostic) for diagnostic in check_text(file)] == [
-        f"{file}:4: warning: the object 'a' is called as an object before it; "
+        f"{file}:4: warning: the object 'a' has the name of an object before it; "
         "searches find the first",
-        f"{file}:6: warning: the object 'g' is called as a vehicle before it; "
+        f"{file}:6: warning: the object 'g' has the name of a vehicle before it; "
         "searches find the first",
         f"{file}:8: warning: the topic '/o' carries 'g' and 'g'; readers get both",
     ]

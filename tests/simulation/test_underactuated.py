@@ -201,7 +201,7 @@ def test_bundled_vehicles_drive_all_that_keeps_a_place(name: str) -> None:
     assert {SURGE, SWAY, HEAVE, PITCH, YAW} <= set(found.axes)
     for axis in (SURGE, SWAY, HEAVE):
         assert found.reach(axis) == found.full_reach(axis)
-    assert 0.98 < balance.displaced / balance.mass < 1.03
+    assert 0.98 < balance.displaced_mass / balance.mass < 1.03
     assert thrusters_on_base(robot, vehicle.thrusters) == vehicle.thrusters
 
 
@@ -257,7 +257,7 @@ def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_pa
     )
     (said,) = said_of(tmp_path, STERN, TAIL, RUDDER)
     assert "surge (-40 to 40 N), pitch (-24 to 24 N m), yaw (-24 to 24 N m)" in said
-    assert "sway comes only together with yaw; heave comes only together with pitch" in said
+    assert "sway is driven only together with yaw; heave is driven only together with pitch" in said
     assert "depth is held by pitching while it moves ahead" in said
     assert said.endswith("If that is meant: <u:accept>thrust</u:accept>")
     scene = (tmp_path / "scene.xml").read_text()

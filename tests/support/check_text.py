@@ -23,8 +23,8 @@ def check_text(path: Path) -> list[Diagnostic]:
     document = parse_expanded(path)
     spec = read_document(document, diagnostics)
     assert spec is not None
-    scene = CheckedScene(spec, (), document=document, diagnostics=diagnostics, found=({}, {}))
+    scene = CheckedScene(spec, (), document=document, diagnostics=diagnostics, parts=({}, {}))
     for rule in SCENE_RULES:
-        if rule.in_check and rule.needs is Need.SPEC and rule.find not in ABOUT_FILES:
+        if rule.in_check and rule.need is Need.SPEC and rule.find not in ABOUT_FILES:
             diagnostics.extend(rule.find(scene))
     return diagnostics.to_list()

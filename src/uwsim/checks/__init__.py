@@ -1,13 +1,13 @@
-"""The errors and warnings about files: one table of rules, which `uwsim check` and every run read.
+"""The errors and warnings about files: one table of rules for `uwsim check` and every run.
 
-`uwsim.checks.table` names each rule with what it needs (`Need`). `check_file` applies those about a
+`uwsim.checks.table` lists each rule with its input (`Need`). `check_file` applies those about a
 file, `model_warnings` and `scene_warnings` those that a run reports before it begins.
 
-What keeps a spec from being built is no rule and stays with its reader: an element, a number or an
-expression that is wrong, sizes beyond a limit (`uwsim.scene.sizes`), variations, hydrodynamics
-files, the elements of a benchmark. Readers also warn of what they alone see: junk behind a number,
-old names, levels that never end. What a binding raises (`uwsim.benchmark.unknown_names`) and what
-compiling a scene raises (`uwsim.model.dynamics`) stays there; rules report it for a whole file.
+Errors that prevent the building of a spec belong to its reader: invalid elements, numbers,
+expressions, sizes beyond a limit (`uwsim.scene.sizes`), variations, hydrodynamics files, elements
+of a benchmark. Readers also warn of details that specs do not keep: text after a number, old
+names, levels that never end. Errors of a binding (`uwsim.benchmark.unknown_names`) and of a
+compilation (`uwsim.model.dynamics`) are raised there; rules report them for a whole file.
 """
 
 from .check import check_file, model_warnings, scene_warnings

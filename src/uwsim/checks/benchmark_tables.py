@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def bundled_tables() -> Tables:
-    """Return everything that comes with uwsim."""
+    """Return the tables of the parts that uwsim contains."""
     from ..algorithms import ALGORITHMS
     from ..benchmark.measures import MEASURES
     from ..benchmark.plugin_tables import Tables
@@ -25,18 +25,18 @@ def bundled_tables() -> Tables:
 
 
 def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tables]:
-    """Read the plugins; returns them and the tables with what they add.
+    """Read the plugins; return them and the tables with their additions.
 
     Raises:
-        PluginError: a plugin is wrong; with everything that is.
+        PluginError: a plugin is invalid; with all errors.
         BadSetting: a plugin is given twice.
     """
     from ..benchmark.plugin import read_plugin
     from ..benchmark.plugin_tables import with_plugins
 
-    wrong, plugins = ErrorCollector(), []
+    errors, plugins = ErrorCollector(), []
     for file in files or ():
-        with wrong.collect():
+        with errors.collect():
             plugins.append(read_plugin(file))
-    wrong.raise_errors()
+    errors.raise_errors()
     return tuple(plugins), with_plugins(bundled_tables(), plugins)

@@ -15,7 +15,7 @@ from .subjects import CheckedBenchmark
 
 
 def unknown_algorithm(benchmark: CheckedBenchmark) -> Iterator[Diagnostic]:
-    """Report an algorithm that is in no table; a class of a module is looked up by a run."""
+    """Report an algorithm that is in no table; a run imports classes of modules."""
     name = benchmark.spec.algorithm
     if name is not None and ":" not in name:
         try:
@@ -25,12 +25,12 @@ def unknown_algorithm(benchmark: CheckedBenchmark) -> Iterator[Diagnostic]:
 
 
 def names_in_scene(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
-    """Look up every name in the scene."""
+    """Report the names that the scene does not have."""
     return unknown_names(benchmark.spec, benchmark.stage, is_whole=benchmark.is_whole)
 
 
 def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
-    """Warn of values for joints that do not exist, and of those beyond the limits of joints."""
+    """Warn of values of joints that do not exist, or beyond the limits of joints."""
     if not benchmark.is_whole:
         return ()
     vehicles = [vehicle.name for vehicle in benchmark.model.scene.vehicles]
@@ -41,23 +41,23 @@ def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
         if spec.target not in vehicles:
             continue
         joints = benchmark.model.robots[vehicles.index(spec.target)].movable
-        for given, place in zip(spec.arm_position, node.iterfind("armPosition"), strict=True):
-            if len(given) > len(joints):
+        for values, parent in zip(spec.arm_position, node.iterfind("armPosition"), strict=True):
+            if len(values) > len(joints):
                 diagnostics.warning(
-                    place,
-                    f"<armPosition> has {len(given)} values for {len(joints)} joints "
+                    parent,
+                    f"<armPosition> has {len(values)} values for {len(joints)} joints "
                     f"({', '.join(joint.name for joint in joints)}); the rest is not used",
                 )
-            for joint, value, at in zip(joints, given, place.iterfind("joint"), strict=False):
-                held = joint.clamped(value)
-                if held != value:
-                    message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
-                    diagnostics.warning(at, message)
+            for joint, value, child in zip(joints, values, parent.iterfind("joint"), strict=False):
+                limited_value = joint.clamped(value)
+                if limited_value != value:
+                    message = f"joint {joint.name!r} at {value:g} is limited to {limited_value:g}"
+                    diagnostics.warning(child, message)
     return diagnostics.to_list()
 
 
 def recorded_truths(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
-    """Compare its recorded truths with what measures read of them."""
+    """Compare the recorded ground truths with those that measures read."""
     if not benchmark.is_whole:
         return ()
     return truth_diagnostics(benchmark.spec, benchmark.stage)

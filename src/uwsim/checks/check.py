@@ -1,4 +1,4 @@
-"""Checking files: reads them, and applies the rules of the table."""
+"""Checks of files: reading, and the rules of the table."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .subjects import CheckedBenchmark, CheckedScene
 
 MAX_MACROS = 12
-"""Macros or properties of a library that are listed."""
+"""The greatest number of macros or properties of a library that are listed."""
 
 
 def check_file(
@@ -34,17 +34,17 @@ def check_file(
     plugins: tuple[tuple[Plugin, ...], Tables] | None = None,
     arguments: Mapping[str, str] | None = None,
 ) -> list[Diagnostic]:
-    """Return the errors and warnings about a file; its root element says its kind.
+    """Return the errors and warnings about a file; its root element determines its kind.
 
-    Names are looked up in the files that the file names; nothing is run.
+    Names are resolved in the files that the file names; nothing is run.
 
     Args:
         file: the file.
-        strict: also compare it with the order of the original's grammar.
-        data_path: folders in which files are looked for.
+        strict: True to compare the file with the order of the original's grammar, too.
+        data_path: the folders that are searched for files.
         scene: the scene of a benchmark; None for the one that it names.
-        plugins: what `read_plugins` returns; None for what is bundled.
-        arguments: values of xacro arguments, by name.
+        plugins: the result of `read_plugins`; None for the bundled tables.
+        arguments: the values of xacro arguments, by name.
     """
     from ..scene.reader import ROOT
     from ..scene.xacro import library_of
@@ -62,8 +62,8 @@ def check_file(
 
         return check_robot(file, ROBOT_RULES, data_path=data_path, arguments=arguments)
     if root == "benchmark":
-        own, tables = plugins or read_plugins(())
-        return _check_benchmark(file, strict, scene, data_path, own, tables, arguments)
+        plugin_list, tables = plugins or read_plugins(())
+        return _check_benchmark(file, strict, scene, data_path, plugin_list, tables, arguments)
     if root == ROOT:
         return _check_scene(file, strict, data_path, arguments)
     if root == "hydrodynamics":
@@ -73,7 +73,7 @@ def check_file(
         "<hydrodynamics>"
     )
     if root.startswith("{") and node.prefix is None:
-        message += "; xmlns=... puts all elements in a namespace: write xmlns:u=..."
+        message += "; xmlns=... sets a namespace of all elements: write xmlns:u=..."
     return [Diagnostic(file=str(file), line=int(str(node.sourceline)), message=message)]
 
 
@@ -107,42 +107,42 @@ def scene_warnings(
 
     robots = read_robots(scene, data_path)
     dynamics = read_dynamics(ResolvedScene(scene=scene, robots=robots, data_path=data_path))
-    return _apply(CheckedScene(scene, data_path, timestep=timestep, found=(robots, dynamics)))
+    return _apply(CheckedScene(scene, data_path, timestep=timestep, parts=(robots, dynamics)))
 
 
 def model_warnings(model: SceneModel) -> list[Diagnostic]:
-    """Return the same of a scene that is compiled."""
+    """Return the warnings about a scene that is compiled, with the lines of its file."""
     from .subjects import CheckedScene
 
-    found = (model.robots, model.dynamics)
+    parts = (model.robots, model.dynamics)
     return _apply(
-        CheckedScene(model.varied_scene, model.data_path, timestep=model.timestep, found=found)
+        CheckedScene(model.varied_scene, model.data_path, timestep=model.timestep, parts=parts)
     )
 
 
 def _apply(scene: CheckedScene) -> list[Diagnostic]:
-    """Apply the rules in their order, each where what it needs could be made.
+    """Apply the rules in order, each if its need could be made.
 
-    What is about the spec is sorted by line, together with what the reader has reported.
+    Diagnostics about the spec are sorted by line, together with those of the reader.
     """
     from .table import SCENE_RULES
 
     rules = [rule for rule in SCENE_RULES if (rule.in_runs if scene.is_run else rule.in_check)]
-    found: list[Diagnostic] = []
-    wrong: set[Need] = set()
-    for need, group in groupby(rules, key=lambda rule: rule.needs):
+    diagnostics: list[Diagnostic] = []
+    failed_needs: set[Need] = set()
+    for need, group in groupby(rules, key=lambda rule: rule.need):
         if need >= Need.VALID and not scene.is_valid:
             continue
-        if need is Need.MODEL and Need.VALID in wrong:
+        if need is Need.MODEL and Need.VALID in failed_needs:
             continue
-        reported = chain.from_iterable(rule.apply(scene) for rule in group)
+        reports = chain.from_iterable(rule.apply(scene) for rule in group)
         if need is Need.SPEC:
-            scene.extend(reported)
-        listed = scene.diagnostics.to_list() if need is Need.SPEC else list(reported)
-        if _has_error(listed):
-            wrong.add(need)
-        found += listed
-    return found
+            scene.extend(reports)  # one by one: `Diagnostics.suggest` counts them
+        need_diagnostics = scene.diagnostics.to_list() if need is Need.SPEC else list(reports)
+        if _has_error(need_diagnostics):
+            failed_needs.add(need)
+        diagnostics += need_diagnostics
+    return diagnostics
 
 
 def _has_error(diagnostics: Iterable[Diagnostic]) -> bool:
@@ -163,17 +163,17 @@ def _check_library(
         document = parse_expanded(file, data_path=data_path, arguments=arguments)
     except FileError as error:
         return list(error.diagnostics)
-    listed = ", ".join(names[:MAX_MACROS]) + (", ..." if len(names) > MAX_MACROS else "")
+    listed_names = ", ".join(names[:MAX_MACROS]) + (", ..." if len(names) > MAX_MACROS else "")
     message = (
-        f"a library of xacro {kind}: {listed}. It has nothing to simulate by itself; check a file "
+        f"a library of xacro {kind}: {listed_names}. It contains nothing to simulate; check a file "
         "that includes it and uses them"
     )
-    whole = Diagnostic(file=str(file), line=None, message=message, severity="warning")
-    return [*document.expansion.warnings, whole]
+    warning = Diagnostic(file=str(file), line=None, message=message, severity="warning")
+    return [*document.expansion.warnings, warning]
 
 
 def _check_hydrodynamics(file: Path) -> list[Diagnostic]:
-    """Return everything wrong with a hydrodynamics file; its links are looked up with a scene."""
+    """Return all errors of a hydrodynamics file; its links are checked with a scene."""
     from ..scene.hydrodynamics.vehicle_file import read_vehicle_into
 
     diagnostics = Diagnostics(file)
@@ -190,14 +190,14 @@ def _check_benchmark(
     tables: Tables,
     arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
-    """Return everything wrong or worth knowing about a benchmark and about plugins in it."""
+    """Return the errors and warnings of a benchmark and of plugins in it."""
     from ..benchmark.plugin import attribute_errors_to
     from ..benchmark.reader import check_benchmark
     from .subjects import CheckedBenchmark
 
     try:
         with attribute_errors_to(plugins):
-            found, spec = check_benchmark(
+            diagnostics, spec = check_benchmark(
                 file,
                 strict=strict,
                 measures=tables.measures,
@@ -206,12 +206,12 @@ def _check_benchmark(
             )
             if spec is not None:
                 benchmark = CheckedBenchmark(
-                    spec, Diagnostics(file), tables, is_whole=not _has_error(found)
+                    spec, Diagnostics(file), tables, is_whole=not _has_error(diagnostics)
                 )
-                found += _apply_in_scene(benchmark, scene, data_path, plugins, arguments)
+                diagnostics += _apply_in_scene(benchmark, scene, data_path, plugins, arguments)
     except PluginError as error:
         return list(error.diagnostics)
-    return sorted(found, key=lambda each: (each.line is None, each.line or 0))
+    return sorted(diagnostics, key=lambda entry: (entry.line is None, entry.line or 0))
 
 
 def _apply_in_scene(
@@ -230,31 +230,31 @@ def _apply_in_scene(
 
     def apply(need: Need) -> list[Diagnostic]:
         return [
-            each
+            diagnostic
             for rule in BENCHMARK_RULES
-            if rule.needs is need
-            for each in rule.apply(benchmark, attribute_errors_to(plugins))
+            if rule.need is need
+            for diagnostic in rule.apply(benchmark, attribute_errors_to(plugins))
         ]
 
-    found, spec = apply(Need.SPEC), benchmark.spec
-    wanted, file = scene or spec.scene, Path(spec.path)
-    if wanted is None:
-        return found
+    diagnostics, spec = apply(Need.SPEC), benchmark.spec
+    scene_name, file = scene or spec.scene, Path(spec.path)
+    if scene_name is None:
+        return diagnostics
     try:
         named_by = file if scene is None else None
-        path = scene_file(str(wanted), (file.parent, *data_path), named_by=named_by)
-        read = read_scene(path, data_path=data_path, arguments=arguments)
-        model = compile_scene(read, data_path=data_path)
+        path = scene_file(str(scene_name), (file.parent, *data_path), named_by=named_by)
+        scene_spec = read_scene(path, data_path=data_path, arguments=arguments)
+        model = compile_scene(scene_spec, data_path=data_path)
         simulation = Simulation(model, is_blind=True, runs_code=False)
     except FileError:
         if scene is None:
-            message = f"the scene {str(wanted)!r} has errors: uwsim check {wanted}"
-            found.append(benchmark.error(spec, message))
-        return found
+            message = f"the scene {str(scene_name)!r} has errors: uwsim check {scene_name}"
+            diagnostics.append(benchmark.error(spec, message))
+        return diagnostics
     except UwsimError as error:
-        return [*found, benchmark.error(spec if scene is None else None, str(error))]
+        return [*diagnostics, benchmark.error(spec if scene is None else None, str(error))]
     try:
         benchmark.model, benchmark.stage = model, simulation.world.stage_view
-        return [*found, *apply(Need.MODEL)]
+        return [*diagnostics, *apply(Need.MODEL)]
     finally:
         simulation.close()

@@ -1,4 +1,4 @@
-"""The robot files of a scene, looked for; and from where files are looked for."""
+"""The search for the robot files of a scene, and the folders of a search."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from ..scene.vehicle import VehicleSpec
 from ..schema import Diagnostics, diagnostic_at
 
 MAX_FILES = 200
-"""Number of different robots and models of a scene, and meshes of a robot, that are looked for."""
+"""The greatest number of robots and models of a scene, and meshes of a robot, that are searched."""
 
 
-class Where(TypedDict):
-    """From where a file is looked for."""
+class FileSearch(TypedDict):
+    """The arguments of the search for a file."""
 
     named_by: Path | None
     data_path: tuple[Path, ...]
@@ -28,16 +28,16 @@ class Where(TypedDict):
 class RobotSearch:
     """The robots of a scene, found and read."""
 
-    def __init__(self, scene: SceneSpec, where: Where, diagnostics: Diagnostics) -> None:
+    def __init__(self, scene: SceneSpec, file_search: FileSearch, diagnostics: Diagnostics) -> None:
         self.robots: dict[int, RobotSpec] = {}
         """The robot of each vehicle that has one, by its number."""
         self.files: list[Path] = []
         """The files, each once."""
-        self.found: list[Diagnostic] = []
-        """The robots that are nowhere, or elsewhere than the scene states."""
+        self.diagnostics: list[Diagnostic] = []
+        """Errors and warnings about robots that are not found, or at other places than stated."""
         self.stand_ins: set[str] = set()
-        """Names of files in whose place a bundled robot is read."""
-        self._where, self._diagnostics = where, diagnostics
+        """The names of files that bundled robots replace."""
+        self._file_search, self._diagnostics = file_search, diagnostics
         robots: dict[str, RobotSpec | None] = {}
         for index, vehicle in enumerate(scene.vehicles):
             if vehicle.file not in robots and len(robots) < MAX_FILES:
@@ -49,28 +49,28 @@ class RobotSearch:
         """Read a vehicle's robot, or else the bundled one of the same file name."""
         name, remark = vehicle.file, ""
         try:
-            if path := find(name, **self._where):
-                remark = location_remark(name, path, **self._where)
+            if path := find(name, **self._file_search):
+                remark = location_remark(name, path, **self._file_search)
             elif path := bundled_robot(name):
                 self.stand_ins.add(name)
-                remark = f"robot file {name!r} is nowhere; the bundled {path.name} is used"
+                remark = f"robot file {name!r} is not found; the bundled {path.name} is used"
             else:
-                self.found.append(diagnostic_at(vehicle, self._lost(name)))
+                self.diagnostics.append(diagnostic_at(vehicle, self._missing_message(name)))
                 return None
         except AssetError as error:
-            self.found.append(diagnostic_at(vehicle, str(error)))
+            self.diagnostics.append(diagnostic_at(vehicle, str(error)))
             return None
         if remark:
-            self.found.append(diagnostic_at(vehicle, remark, severity="warning"))
+            self.diagnostics.append(diagnostic_at(vehicle, remark, severity="warning"))
         self.files.append(path)
         with suppress(SceneError):  # reported where the file is checked
-            return read_urdf(path, data_path=self._where["data_path"], arguments=arguments)
+            return read_urdf(path, data_path=self._file_search["data_path"], arguments=arguments)
         return None
 
-    def _lost(self, name: str) -> str:
-        searched = describe_search(name, **self._where)
-        near = self._diagnostics.suggest(name.strip().rpartition("/")[2], bundled_robots())
+    def _missing_message(self, name: str) -> str:
+        search_text = describe_search(name, **self._file_search)
+        suggestion = self._diagnostics.suggest(name.strip().rpartition("/")[2], bundled_robots())
         return (
-            f"robot file {name!r} is nowhere, and no bundled robot is called so.{near} "
-            f"{searched[0].upper()}{searched[1:]}"
+            f"robot file {name!r} is not found, and no bundled robot has this name.{suggestion} "
+            f"{search_text[0].upper()}{search_text[1:]}"
         )

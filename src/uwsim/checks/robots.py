@@ -40,59 +40,59 @@ def check_robot(
 
 def mesh_files(robot: CheckedRobot) -> Iterator[Diagnostic]:
     """Report meshes that are not found, cannot be read, or are likely not in metres."""
-    where = robot.where
+    file_search = robot.file_search
     for name, shape in itertools.islice(_meshes(robot.spec).items(), MAX_FILES):
-        if why := assets.model_read_error(name, **where):
-            yield robot.error(shape, why)
-        elif not assets.has_model(name, **where):
-            remark = assets.package_remark(name, **where)
-            message = f"there is no model {name!r}, nor a stand-in: a labelled box"
+        if text := assets.model_read_error(name, **file_search):
+            yield robot.error(shape, text)
+        elif not assets.has_model(name, **file_search):
+            remark = assets.package_remark(name, **file_search)
+            message = f"there is no model {name!r}, nor a stand-in: a labelled box replaces it"
             yield robot.warning(shape, f"{message}; {remark}" if remark else message)
-        elif why := assets.model_location_remark(name, **where) or mesh_unit_remark(
-            name, shape.scale, **where
+        elif (text := assets.model_location_remark(name, **file_search)) or (
+            text := mesh_unit_remark(name, shape.scale, **file_search)
         ):
-            yield robot.warning(shape, why)
-        for remark in assets.model_remarks(name, **where):
+            yield robot.warning(shape, text)
+        for remark in assets.model_remarks(name, **file_search):
             yield robot.warning(shape, remark)
 
 
 def _meshes(robot: RobotSpec) -> dict[str, VisualSpec]:
-    """The mesh files of a robot, each with the shape that names it first."""
-    first: dict[str, VisualSpec] = {}
+    """Return the mesh files of a robot, each with the first shape that names it."""
+    shapes: dict[str, VisualSpec] = {}
     for link in robot.links:
         for shape in (*link.visuals, *link.collisions):
             if shape.kind == "mesh":
-                first.setdefault(shape.file, shape)
-    return first
+                shapes.setdefault(shape.file, shape)
+    return shapes
 
 
 def robot_places(scene: CheckedScene) -> Iterable[Diagnostic]:
-    """Return that robot files are nowhere, or elsewhere than the scene states."""
-    return scene.robot_search.found
+    """Return the diagnostics of robot files that are not found, or at other places than stated."""
+    return scene.robot_search.diagnostics
 
 
 def robot_files(scene: CheckedScene, rules: Iterable[Rule[CheckedRobot]]) -> Iterator[Diagnostic]:
-    """Report what is wrong in the robot files, and else the arguments that no file has."""
+    """Report the errors in the robot files; if there are none, the arguments that no file has."""
     arguments = dict(scene.spec.expansion.arguments)
-    is_wrong = scene.diagnostics.has_errors
+    has_errors = scene.diagnostics.has_errors
     for path in scene.robot_search.files:
-        found = check_robot(path, rules, data_path=scene.data_path, arguments=arguments)
-        is_wrong = is_wrong or any(each.severity == "error" for each in found)
-        yield from found
-    if not is_wrong:  # else a robot that has the argument may be missing
+        diagnostics = check_robot(path, rules, data_path=scene.data_path, arguments=arguments)
+        has_errors = has_errors or any(item.severity == "error" for item in diagnostics)
+        yield from diagnostics
+    if not has_errors:  # else a robot that has the argument may be missing
         yield from unused_arguments(scene)
 
 
 def unused_arguments(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of each xacro argument from outside that no file of a scene has."""
+    """Warn of each xacro argument of the caller that no file of a scene has."""
     expansions = [scene.spec.expansion, *(robot.expansion for robot in scene.robots.values())]
-    known = [name for each in expansions for name in each.declared_arguments]
+    names = [name for expansion in expansions for name in expansion.declared_arguments]
     for name, _ in scene.spec.expansion.arguments:
-        if name not in known:
-            near = choices(name, sorted(set(known)), heading="Arguments")
+        if name not in names:
+            suggestion = choices(name, sorted(set(names)), heading="Arguments")
             yield scene.warning(
                 scene.spec,
-                f"no <xacro:arg> is called {name[:60]!r}, so that its value has no effect.{near}",
+                f"no <xacro:arg> is called {name[:60]!r}: its value has no effect.{suggestion}",
             )
 
 
@@ -101,4 +101,4 @@ def macro_warnings(scene: CheckedScene) -> Iterable[Diagnostic]:
     if not scene.is_run:
         return scene.spec.expansion.warnings
     expansions = [scene.spec.expansion, *(robot.expansion for robot in scene.robots.values())]
-    return dict.fromkeys(warning for each in expansions for warning in each.warnings)
+    return dict.fromkeys(warning for expansion in expansions for warning in expansion.warnings)

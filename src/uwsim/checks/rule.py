@@ -1,4 +1,4 @@
-"""A rule about files, and what it may need."""
+"""A rule about files, and the inputs that it needs."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ S = TypeVar("S")
 
 
 class Need(IntEnum):
-    """What a rule reads; a rule is applied only where that could be made."""
+    """The input of a rule; a rule is applied only if its input could be made."""
 
     DOCUMENT = 0
     """The document with its macros expanded."""
     SPEC = 1
-    """What the reader made of the document, perhaps with errors; listed by line."""
+    """The spec that the reader made of the document, perhaps with errors; listed by line."""
     FILES = 2
-    """The same, and the files that it names; listed after it."""
+    """The spec, and the files that it names; listed after it."""
     VALID = 3
     """A spec without errors, of which something is simulated."""
     MODEL = 4
-    """What follows from it: a model that could be compiled."""
+    """The model that could be compiled from the spec."""
 
 
 @dataclass(frozen=True)
@@ -34,40 +34,39 @@ class Rule(Generic[S]):
     """A rule of one of the tables in `uwsim.checks.table`."""
 
     find: Callable[[S], Iterable[Diagnostic]]
-    """Yields the errors and warnings about a subject."""
-    needs: Need
-    """What it reads of the subject."""
+    """The function that yields the errors and warnings about a subject."""
+    need: Need
+    """The input that it reads of the subject."""
     in_check: bool = True
-    """Whether ``uwsim check`` applies it."""
+    """A flag: ``uwsim check`` applies the rule."""
     in_runs: bool = False
-    """Whether a run applies it before it begins, for its warnings."""
+    """A flag: a run applies the rule before it begins, for its warnings."""
 
     @property
     def name(self) -> str:
-        """Module and name of its function."""
+        """The module and name of the function."""
         function = self.find.func if isinstance(self.find, partial) else self.find
         return f"{function.__module__}.{getattr(function, '__qualname__', type(function).__name__)}"
 
     def apply(
-        self, subject: S, within: AbstractContextManager[None] | None = None
+        self, subject: S, context: AbstractContextManager[None] | None = None
     ) -> Iterator[Diagnostic]:
-        """Yield what it finds.
+        """Yield the errors and warnings about a subject.
 
         Args:
-            subject: what it is about.
-            within: of the block in which the rule is asked; it may explain what is raised there.
+            subject: the file that is checked.
+            context: the context in which the rule is applied; it may explain its errors.
 
         Raises:
-            UwsimError: the rule raises, or gives something else; names its function.
+            UwsimError: the rule raises, or yields another type; names its function.
         """
         try:
-            with within or nullcontext():
-                for each in self.find(subject):
-                    if not isinstance(each, Diagnostic):
-                        raise UwsimError(
-                            f"The rule {self.name} gives {short_repr(each)}; expected a Diagnostic."
-                        )
-                    yield each
+            with context or nullcontext():
+                for diagnostic in self.find(subject):
+                    if not isinstance(diagnostic, Diagnostic):
+                        type_text = f"{short_repr(diagnostic)}; expected a Diagnostic"
+                        raise UwsimError(f"The rule {self.name} yields {type_text}.")
+                    yield diagnostic
         except UwsimError:
             raise
         except Exception as error:

@@ -7,7 +7,8 @@ from functools import partial
 from . import benchmarks, robots
 from .model import bottom, meshes, objects, places, simulated, starts, steps, thrust, vehicles
 from .rule import Need, Rule
-from .scene import angles, comms, forces, looks, models, names, not_simulated, shared_names, water
+from .scene import angles, comms, forces, models, names, not_simulated, shared_names, water
+from .scene import sensor_directions as directions
 from .subjects import CheckedBenchmark, CheckedRobot, CheckedScene
 
 ROBOT_RULES: tuple[Rule[CheckedRobot], ...] = (Rule(robots.mesh_files, Need.SPEC),)
@@ -15,23 +16,24 @@ ROBOT_RULES: tuple[Rule[CheckedRobot], ...] = (Rule(robots.mesh_files, Need.SPEC
 
 VEHICLE_NUMBERS = partial(
     vehicles.vehicle_numbers,
-    of_hull={"size": vehicles.size_said},
-    of_simulated={
-        "buoyancy": vehicles.buoyancy_said,
-        "balance": vehicles.balance_said,
-        "places": vehicles.places_said,
-        "strength": vehicles.strength_said,
-        "inertia": vehicles.inertia_said,
-        "drag": vehicles.drag_said,
-        "friction": vehicles.friction_said,
-        "thrust": thrust.thrust_said,
+    hull_checks={"size": vehicles.describe_size},
+    vehicle_checks={
+        "buoyancy": vehicles.describe_buoyancy,
+        "balance": vehicles.describe_balance,
+        "places": vehicles.describe_places,
+        "strength": vehicles.describe_strength,
+        "inertia": vehicles.describe_inertia,
+        "drag": vehicles.describe_drag,
+        "friction": vehicles.describe_friction,
+        "thrust": thrust.describe_thrust,
     },
 )
-"""Rules about one vehicle after another, by what its ``<u:accept>`` names."""
+"""Rules about each vehicle, by the name in its ``<u:accept>``."""
 OBJECT_NUMBERS = partial(
-    objects.object_numbers, checks={"places": objects.centre_said, "buoyancy": objects.volume_said}
+    objects.object_numbers,
+    checks={"places": objects.describe_centre, "buoyancy": objects.describe_volume},
 )
-"""Rules about one loose object after another, by what its ``<u:accept>`` names."""
+"""Rules about each loose object, by the name in its ``<u:accept>``."""
 
 SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(places.places_of_files, Need.DOCUMENT, in_check=False, in_runs=True),
@@ -45,13 +47,13 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(shared_names.shared_topics, Need.SPEC, in_runs=True),
     Rule(names.joint_values, Need.SPEC),
     Rule(comms.communication, Need.SPEC),
-    Rule(names.lamps_beyond_the_last, Need.SPEC),
+    Rule(names.excess_lamps, Need.SPEC),
     Rule(names.passable_objects, Need.SPEC),
     Rule(names.passable_vehicles, Need.SPEC),
     Rule(names.loose_scenery, Need.SPEC),
-    Rule(looks.directions, Need.SPEC),
-    Rule(looks.shared_camera_names, Need.SPEC),
-    Rule(looks.polished_cameras, Need.SPEC),
+    Rule(directions.directions, Need.SPEC),
+    Rule(directions.shared_camera_names, Need.SPEC),
+    Rule(directions.polished_cameras, Need.SPEC),
     Rule(angles.angles_in_degrees, Need.SPEC, in_runs=True),
     Rule(water.unstable_water, Need.SPEC),
     Rule(water.slow_currents, Need.SPEC),

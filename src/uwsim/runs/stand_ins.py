@@ -17,4 +17,4 @@ def warn_of_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
 
     for name, path in robot_stand_ins(scene, data_path).items():
         place = f"{scene.path}: " if scene.path else ""
-        warn(f"{place}robot file {name!r} is nowhere; the bundled {path.name} is used")
+        warn(f"{place}robot file {name!r} is not found; the bundled {path.name} is used")

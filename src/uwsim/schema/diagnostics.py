@@ -50,7 +50,7 @@ class Diagnostics:
         self._append(place, message, "warning")
 
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add existing errors and warnings."""
+        """Add errors and warnings one by one, so that `suggest` counts those before it."""
         for diagnostic in diagnostics:
             self._add(diagnostic)
 

@@ -14,7 +14,7 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim.checks import check_file, model_warnings, scene_warnings
-from uwsim.checks.model.vehicles import size_said
+from uwsim.checks.model.vehicles import describe_size
 from uwsim.cli.app import main
 from uwsim.errors import Diagnostic
 from uwsim.model.collision.hull import Hull, LinkBox
@@ -124,21 +124,21 @@ WRONG = {
         "robot",
         'size="0.5 0.4 0.3"',
         'size="0.15 0.2 0.1"',
-        "it displaces 0.0201 m3 and the boxes around its links hold 0.004 m3",
+        "it displaces 0.0201 m3 and the boxes around its links have 0.004 m3",
     ),
     "capsizes": (
         "balance",
         "water",
         "<z>-0.06</z>",
         "<z>0.06</z>",
-        "its centre of buoyancy lies 0.06 m below its centre of mass as it begins",
+        "its centre of buoyancy is 0.06 m below its centre of mass at the start",
     ),
     "upside down": (
         "balance",
         "scene",
         "</position>\n    <u:dyn",
         "</position> <orientation> <r>M_PI</r> <p>0</p> <y>0</y> </orientation>\n    <u:dyn",
-        "or it begins upside down",
+        "If it begins upside down",
     ),
     "millimetres": (
         "size",
@@ -152,14 +152,14 @@ WRONG = {
         "water",
         "<x>-0.2</x> <y>0.15</y>",
         "<x>-20</x> <y>15</y>",
-        "far off its hull, which is 0.6 m long, lies its thruster 'starboard' 24.7 m",
+        "far from its hull, which is 0.6 m long, is its thruster 'starboard' 24.7 m",
     ),
     "buoyancy in mm": (
         "places",
         "water",
         "<z>-0.06</z>",
         "<z>-60</z>",
-        "lies its centre of buoyancy 59.8 m",
+        "is its centre of buoyancy 59.8 m",
     ),
     "kN for N": (
         "strength",
@@ -196,7 +196,7 @@ WRONG = {
         "water",
         "5 8 8 0.5",
         "5e4 8 8 0.5",
-        "which stops it within a step",
+        "which stops it in a step",
     ),
     "friction of a placeholder": (
         "friction",
@@ -210,7 +210,7 @@ WRONG = {
         "scene",
         "<z>3</z>",
         "<z>-3</z>",
-        "it begins 2.85 m above the water: it falls; expected in it (up is -z in",
+        "it begins 2.85 m above the water and falls; expected a position in it (up is -z in",
     ),
     "under the floor": (
         "start",
@@ -268,7 +268,7 @@ def test_a_mistake_is_warned_of_until_it_is_accepted(mistake: str, tmp_path: Pat
 def test_a_vehicle_smaller_than_a_hand_is_asked_about() -> None:
     robot = RobotSpec(name="r", root="hull", links=(LinkSpec(name="hull"),), joints=())
     hull = Hull({"hull": LinkBox(np.zeros(3), np.full(3, 0.002), 8e-9)})
-    assert size_said(hull, robot).startswith(
+    assert describe_size(hull, robot).startswith(
         "it is 0.002 m long, its link 'hull' 0.002 m; expected"
     )
 
@@ -367,10 +367,10 @@ def test_the_model_of_a_sound_scene_has_no_warnings(tmp_path: Path) -> None:
 DVL = "<dvlSensor> <name>log</name> <relativeTo>base_link</relativeTo> {} </dvlSensor>"
 ASIDE = "<orientation> <r>M_PI_2</r> <p>0</p> <y>0</y> </orientation>"
 BLIND = {
-    "up": ("<u:lookAt>up</u:lookAt>", "it looks up; its x axis points aft, and its beams"),
-    "too high": ("<u:maxAltitude>1</u:maxAltitude>", "at 2 to 2 m; expected 3 beams or more"),
-    "too low": ("<u:minAltitude>2.5</u:minAltitude>", "that meet it at 2.5 to 81 m"),
-    "sideways": (ASIDE, "it looks port"),
+    "up": ("<u:lookAt>up</u:lookAt>", "It looks up; its x axis points aft, and its beams"),
+    "too high": ("<u:maxAltitude>1</u:maxAltitude>", "at 2 to 2 m; expected 3 hits or more"),
+    "too low": ("<u:minAltitude>2.5</u:minAltitude>", "expected 3 hits or more at 2.5 to 81 m"),
+    "sideways": (ASIDE, "It looks port"),
 }
 
 
@@ -379,7 +379,7 @@ def test_a_dvl_that_finds_no_bottom_at_the_start_is_reported(tmp_path: Path, nam
     part, text = BLIND[name]
     scene = SCENE.replace("    <u:dynamics>", f"    {DVL.format(part)} <u:dynamics>", 1)
     (found,) = asked(written(tmp_path, scene=scene))
-    assert found.message.startswith("'log': it has no bottom track at the start: ")
+    assert found.message.startswith("'log': it has no bottom track at the start. ")
     assert text in found.message
     accepted = scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>bottom</u:accept>")
     assert asked(written(tmp_path, scene=accepted)) == []

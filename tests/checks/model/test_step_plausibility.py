@@ -11,7 +11,7 @@ from tests.checks.model.test_plausibility import SCENE, written
 from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.checks import model_warnings
-from uwsim.checks.model.steps import thin_said
+from uwsim.checks.model.steps import describe_rotation
 from uwsim.model.collision.shapes import CollisionShape
 from uwsim.scene.object import PhysicsSpec
 from uwsim.scene.reader import read_scene
@@ -20,7 +20,7 @@ from uwsim.scene.reader import read_scene
 def said(mass: float, edges: tuple[float, float, float], timestep: float) -> str:
     half = tuple(0.5 * edge for edge in edges)
     box = CollisionShape(kind="box", size=half, body_from_shape=Pose.identity())
-    return thin_said(PhysicsSpec(mass=mass), [box], 1000.0, timestep)
+    return describe_rotation(PhysicsSpec(mass=mass), [box], 1000.0, timestep)
 
 
 @pytest.mark.parametrize(

@@ -72,7 +72,7 @@ def test_what_does_not_fit_is_named(
 def test_names_and_addresses_that_two_devices_share_are_named(tmp_path: Path) -> None:
     texts = [text for _, text in reported(tmp_path, {}, {})]
     assert any("two devices are called 'rf'" in text for text in texts)
-    assert any("both receive what is sent to it" in text for text in texts)
+    assert any("both receive packets that are sent to it" in text for text in texts)
 
 
 def test_two_channels_of_one_id(tmp_path: Path) -> None:

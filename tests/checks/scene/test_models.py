@@ -27,11 +27,11 @@ def said(folder: Path, *projectors: str, doctype: str = "") -> list[str]:
 
 def test_a_projector_whose_image_is_nowhere_is_reported(tmp_path: Path) -> None:
     lost = PROJECTOR.format("laser", "data/textures/laser_texture.png")
-    message = "image 'data/textures/laser_texture.png' is nowhere and projector 'laser' shines"
+    message = "image 'data/textures/laser_texture.png' is not found: projector 'laser' has no"
     (error,) = said(tmp_path, lost)
-    assert error.startswith(f"error 3: {message} nothing; searched: ")
+    assert error.startswith(f"error 3: {message} effect; searched: ")
     (warning,) = said(tmp_path, lost, doctype=DOCTYPE)
-    assert warning.startswith(f"warning 3: {message} nothing; searched: ")
+    assert warning.startswith(f"warning 3: {message} effect; searched: ")
     with open_scene(read_scene(tmp_path / "scene.xml"), is_blind=True) as simulation:
         simulation.advance(0.01)  # as the original, without light
 
@@ -41,5 +41,5 @@ def test_of_several_projectors_the_last_shines(tmp_path: Path, doctype: str) -> 
     one, other = (PROJECTOR.format(name, "data/textures/white.png") for name in ("one", "other"))
     assert said(tmp_path, one, doctype=doctype) == []
     assert said(tmp_path, one, other, doctype=doctype) == [
-        "warning 3: projector 'one' shines nothing: of several only the last shines"
+        "warning 3: projector 'one' has no effect: only the last projector shines"
     ]

@@ -48,7 +48,7 @@ def test_a_sensor_on_a_link_that_is_not_there(tmp_path: Path) -> None:
     (message,) = said(tmp_path, parts=lost)
     assert message == (
         "warning 5: <imu>: 'base_lonk' is no link of bluerov2_heavy.urdf. Did you mean base_link? "
-        "It is left out, as in the original"
+        "It is ignored, as in the original"
     )
 
 
@@ -72,13 +72,15 @@ def test_one_interface_twice_on_a_topic(tmp_path: Path) -> None:
 def test_a_topic_that_ros_cannot_name(topic: str, tmp_path: Path) -> None:
     again = f"<PATToROSOdom> <topic>{topic}</topic> <vehicleName>rov</vehicleName> </PATToROSOdom>"
     (message,) = said(tmp_path, interfaces=again)
-    assert message == f"warning 9: <PATToROSOdom>: the topic {topic!r} is no name of a topic in ROS"
+    assert (
+        message == f"warning 9: <PATToROSOdom>: the topic {topic!r} is no valid topic name in ROS"
+    )
 
 
 def test_a_topic_that_is_heard_has_a_name_too(tmp_path: Path) -> None:
     heard = "<ROSTwistToPAT> <topic>/a b</topic> <vehicleName>rov</vehicleName> </ROSTwistToPAT>"
     (message,) = said(tmp_path, interfaces=heard)
-    assert message.endswith("<ROSTwistToPAT>: the topic '/a b' is no name of a topic in ROS")
+    assert message.endswith("<ROSTwistToPAT>: the topic '/a b' is no valid topic name in ROS")
 
 
 def test_a_rate_that_nothing_has(tmp_path: Path) -> None:

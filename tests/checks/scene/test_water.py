@@ -28,7 +28,7 @@ def profile(numbers: str, name: str = "density") -> str:
         (profile("5 5 20", "temperature"), "3 warning <u:profile> has 999."),
         (
             "<u:density>1025</u:density>\n<u:temperature>10</u:temperature>",
-            "4 warning <u:temperature> counts for sound alone: <u:density> says how dense",
+            "4 warning <u:temperature> affects sound only: <u:density> sets the density",
         ),
     ],
 )
@@ -74,6 +74,6 @@ def test_a_current_that_python_computes_is_said_to_slow_down_what_floats_in_it(
     slow = [text for text in found if "my_eddy" in text]
     assert len(slow) == n
     assert all(
-        text.startswith("4 warning <u:function> is 'my_eddy:eddy': Python asks it in every step")
+        text.startswith("4 warning <u:function> is 'my_eddy:eddy': Python calls it in every step")
         for text in slow
     )

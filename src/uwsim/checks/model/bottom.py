@@ -1,7 +1,7 @@
-"""Warnings about DVLs that find no bottom at the start.
+"""Warnings about DVLs that do not detect the bottom at the start.
 
-The bottom is what stands fixed and can be touched, and terrain; other vehicles and free objects
-are not looked at.
+The bottom consists of the fixed objects that have contacts, and of terrain. Not checked: other
+vehicles and loose objects.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from ...sensors.dvl_sensor import DvlSensorSpec
 from ...sensors.janus import ENOUGH, Janus
 from ..subjects import CheckedScene
 
-FARTHEST = 20000.0
-"""How far the bottom is looked for along each beam [m]."""
+MAX_RANGE = 20000.0
+"""The greatest range of the search for the bottom along each beam [m]."""
 
 
 def velocity_logs(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of DVLs that find no bottom at the start."""
+    """Warn of DVLs that do not detect the bottom at the start."""
     vehicles, robots = scene.spec.vehicles, scene.robots
     logs = [
         (index, spec)
@@ -42,16 +42,16 @@ def velocity_logs(scene: CheckedScene) -> Iterator[Diagnostic]:
     with suppress(UwsimError):  # reported where models are checked
         bottom = Bottom(scene.spec, scene.data_path) if logs else None
         for index, spec in logs:
-            if text := bottom and bottom.missed_by(spec, index, robots[index]):
-                yield scene.warning(spec, f"{spec.name!r}: {text}. {unless_meant('bottom')}")
+            if message := bottom and bottom.describe_miss(spec, index, robots[index]):
+                yield scene.warning(spec, f"{spec.name!r}: {message}. {unless_meant('bottom')}")
 
 
 class Bottom:
     """The bottom of a scene, for the beams of DVLs.
 
     Args:
-        scene: spec of the scene.
-        data_path: folders in which files are looked for.
+        scene: the spec of the scene.
+        data_path: the folders that are searched for files.
 
     Raises:
         UwsimError: a mesh cannot be read.
@@ -60,20 +60,20 @@ class Bottom:
     def __init__(self, scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
         self._scene = scene
         faces = ground_faces(scene, data_path)
-        self._rays = RayScene([[Surface(index, each, True) for index, each in faces.items()]])
+        self._rays = RayScene([[Surface(index, part, True) for index, part in faces.items()]])
 
-    def missed_by(self, spec: DvlSensorSpec, index: int, robot: RobotSpec) -> str:
-        """Describe how a DVL of a vehicle misses the bottom at the start; empty if it finds it."""
+    def describe_miss(self, spec: DvlSensorSpec, index: int, robot: RobotSpec) -> str:
+        """Describe the bottom that a DVL misses at the start; empty if it detects it."""
         frames = MountFrames(self._scene.vehicles[index], robot, self._scene.world_from_localized)
         janus = Janus(math.radians(spec.beam_angle))
-        hits = self._rays.cast(frames.world_from_mounted(spec), janus.directions, FARTHEST)
+        hits = self._rays.cast(frames.world_from_mounted(spec), janus.directions, MAX_RANGE)
         axial = hits.distance * janus.cosine
         if spec.is_bottom(axial).sum() >= ENOUGH:
             return ""
-        met = axial[np.isfinite(axial)]
-        where = f"at {met.min():.3g} to {met.max():.3g} m" if len(met) else "nowhere"
+        ranges = axial[np.isfinite(axial)]
+        place = f"at {ranges.min():.3g} to {ranges.max():.3g} m" if len(ranges) else "nowhere"
         return (
-            f"it has no bottom track at the start: it {describe_direction(spec, frames)}, and its "
-            f"beams meet the bottom {where}; expected {ENOUGH} beams or more that meet it at "
+            f"it has no bottom track at the start. It {describe_direction(spec, frames)}, and its "
+            f"beams hit the bottom {place}; expected {ENOUGH} hits or more at "
             f"{spec.min_altitude:g} to {spec.max_altitude:g} m"
         )

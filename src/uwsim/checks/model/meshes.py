@@ -1,4 +1,4 @@
-"""Warnings about large fixed meshes: how far what is touched lies from them, and how much it is."""
+"""Warnings about large fixed meshes: inexact contact surfaces, and too many plates."""
 
 from __future__ import annotations
 
@@ -12,41 +12,41 @@ from ...model.collision.scene_shapes import contact_mesh, simulated_solids
 from ..subjects import CheckedScene
 
 MAX_PLATES = 5000
-"""Plates of all fixed meshes of a scene; more are reported."""
-MAX_NAMED = 4
-"""Objects that one warning names."""
-BY_HAND = 2.0
+"""The number of plates of all fixed meshes of a scene above which a warning is reported."""
+MAX_LISTED_OBJECTS = 4
+"""The greatest number of objects that one warning names."""
+ERROR_FACTOR = 2.0
 """The error that is recommended, as a multiple of the present one."""
 
 
 def fixed_meshes(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of meshes that are touched as others, and of too many plates."""
+    """Warn of meshes with a simplified contact surface, and of too many plates."""
     meshes = dict(_fixed_meshes(scene))
-    others = {
+    inexact_meshes = {
         index: mesh
         for index, mesh in meshes.items()
         if not mesh.is_exact and scene.spec.objects[index].contact_error is None
     }
-    if others:
-        errors = {index: f"{mesh.error:.2g} m" for index, mesh in others.items()}
+    if inexact_meshes:
+        errors = {index: f"{mesh.error:.2g} m" for index, mesh in inexact_meshes.items()}
         message = (
-            f"contacts with {_named(scene, errors)} use a simpler surface, up to that far from the "
-            f"mesh, which has more than {MAX_EXACT_FACES} flat faces. Set the greatest distance "
-            "[m] with <u:contactError> in the object"
+            f"contacts with {_list_objects(scene, errors)} use a simpler surface, up to that far "
+            f"from the mesh of more than {MAX_EXACT_FACES} flat faces. Set the greatest distance "
+            "with <u:contactError> in the object [m]"
         )
-        yield scene.warning(scene.spec.objects[next(iter(others))], message, "file")
+        yield scene.warning(scene.spec.objects[next(iter(inexact_meshes))], message, "file")
     plates = {index: len(cached_faces(mesh.faces)) for index, mesh in meshes.items()}
     if sum(plates.values()) > MAX_PLATES:
-        most = sorted(plates, key=lambda index: -plates[index])
-        counts = {index: f"{plates[index]} plates" for index in most}
-        error = BY_HAND * max(meshes[most[0]].error, DEFAULT_ERROR)
+        sorted_objects = sorted(plates, key=lambda index: -plates[index])
+        counts = {index: f"{plates[index]} plates" for index in sorted_objects}
+        error = ERROR_FACTOR * max(meshes[sorted_objects[0]].error, DEFAULT_ERROR)
         message = (
-            f"contacts with fixed meshes are with {sum(plates.values())} plates, most of "
-            f"{_named(scene, counts)}; expected {MAX_PLATES} at most, or the scene opens and steps "
-            f"slowly. <u:contactError>{error:.1g}</u:contactError> in the object leaves fewer; so "
-            "does a simpler mesh in <collisionShape>, or <collisionShapeType> box"
+            f"fixed meshes have {sum(plates.values())} plates for contacts, mostly of "
+            f"{_list_objects(scene, counts)}; expected {MAX_PLATES} at most, or the scene opens "
+            f"and steps slowly. Set <u:contactError>{error:.1g}</u:contactError> in the object, "
+            "a simpler mesh in <collisionShape>, or <collisionShapeType> box"
         )
-        yield scene.warning(scene.spec.objects[most[0]], message, "file")
+        yield scene.warning(scene.spec.objects[sorted_objects[0]], message, "file")
 
 
 def _fixed_meshes(scene: CheckedScene) -> Iterator[tuple[int, FixedMesh]]:
@@ -57,8 +57,9 @@ def _fixed_meshes(scene: CheckedScene) -> Iterator[tuple[int, FixedMesh]]:
                 yield index, mesh
 
 
-def _named(scene: CheckedScene, facts: dict[int, str]) -> str:
-    """Name the first objects, each with a fact."""
+def _list_objects(scene: CheckedScene, facts: dict[int, str]) -> str:
+    """Return the names of the first objects, each with a fact."""
     objects = scene.spec.objects
-    shown = [f"{objects[i].name!r} ({fact})" for i, fact in list(facts.items())[:MAX_NAMED]]
-    return ", ".join([*shown, "..."] if len(facts) > MAX_NAMED else shown)
+    names = [f"{objects[i].name!r} ({fact})" for i, fact in facts.items()]
+    is_long = len(names) > MAX_LISTED_OBJECTS
+    return ", ".join([*names[:MAX_LISTED_OBJECTS], *(["..."] if is_long else [])])

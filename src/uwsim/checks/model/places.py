@@ -1,4 +1,4 @@
-"""Warnings about files that are not where the scene or its robots state, or broken in part."""
+"""Warnings about files at other places than the scene or its robots state, or partly broken."""
 
 from __future__ import annotations
 
@@ -8,28 +8,28 @@ from pathlib import Path
 from ... import assets
 from ...errors import Diagnostic, UwsimError
 from ...schema import Spec, diagnostic_at
-from ..robot_search import Where
+from ..robot_search import FileSearch
 from ..subjects import CheckedScene
 
 
 def places_of_files(scene: CheckedScene) -> list[Diagnostic]:
-    """Warn of each file found elsewhere, each lost package, and each model broken in part."""
+    """Warn of each file at another place, each missing package, and each partly broken model."""
     remarks: dict[str, Spec] = {}
     for vehicle in scene.spec.vehicles:
         try:
-            path = assets.find(vehicle.file, **scene.where)
+            path = assets.find(vehicle.file, **scene.file_search)
         except UwsimError:
             continue
-        remark = assets.location_remark(vehicle.file, path, **scene.where)
+        remark = assets.location_remark(vehicle.file, path, **scene.file_search)
         remarks.setdefault(remark, vehicle)
     for spec, name, file in _models(scene):
-        where = Where(named_by=file, data_path=scene.data_path)
-        remark = assets.model_location_remark(name, **where)
-        if not remark and not assets.has_model(name, **where):
-            lost = assets.package_remark(name, **where) or "there is no model, nor a stand-in"
-            remark = f"{lost}: a labelled box in place of {name!r}"
-        for said in (remark, *assets.model_remarks(name, **where)):
-            remarks.setdefault(said, spec)
+        file_search = FileSearch(named_by=file, data_path=scene.data_path)
+        remark = assets.model_location_remark(name, **file_search)
+        if not remark and not assets.has_model(name, **file_search):
+            cause = assets.package_remark(name, **file_search) or "no model, nor a stand-in"
+            remark = f"{cause}: a labelled box replaces {name!r}"
+        for message in (remark, *assets.model_remarks(name, **file_search)):
+            remarks.setdefault(message, spec)
     return [
         diagnostic_at(spec, remark, "file", severity="warning")
         for remark, spec in remarks.items()
@@ -38,9 +38,9 @@ def places_of_files(scene: CheckedScene) -> list[Diagnostic]:
 
 
 def _models(scene: CheckedScene) -> Iterator[tuple[Spec, str, Path | None]]:
-    """Give every model with the element and the file that name it."""
-    for thing in scene.spec.objects:
-        yield thing, thing.file, scene.where["named_by"]
+    """Yield every model with the element and the file that name it."""
+    for spec in scene.spec.objects:
+        yield spec, spec.file, scene.file_search["named_by"]
     for robot in scene.robots.values():
         for link in robot.links:
             for shape in (*link.visuals, *link.collisions):

@@ -18,23 +18,23 @@ def hydrodynamic_names(scene: CheckedScene) -> Iterable[Diagnostic]:
 
 
 def object_shapes(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report objects of which the engine can make no collision shape, or that it cannot move."""
+    """Report objects for which the engine has no collision shape, or that it cannot move."""
     dynamics, spec = scene.dynamics, scene.spec
     density = next(iter(dynamics.values())).density if dynamics else None
     for index, physics in simulated_solids(spec, dynamics).items():
-        thing = spec.objects[index]
+        object_spec = spec.objects[index]
         try:
-            made = collision_shapes(scene.resolved, (), {index: physics})
+            shapes = collision_shapes(scene.resolved_scene, (), {index: physics})
             if physics.is_loose:
-                yield from object_errors(thing, physics, made[object_body(index)], density)
+                yield from object_errors(object_spec, physics, shapes[object_body(index)], density)
         except UwsimError as error:
-            yield scene.error(thing, str(error).removesuffix("."), "physics")
+            yield scene.error(object_spec, str(error).removesuffix("."), "physics")
 
 
 def missing_floors(scene: CheckedScene) -> Iterable[Diagnostic]:
-    """Return what of a scene is to stand on a floor that is not there."""
+    """Return the errors of bodies that have no floor below them."""
     try:
-        set_on_floor(scene.resolved)
+        set_on_floor(scene.resolved_scene)
     except SceneError as error:
         return error.diagnostics
     except UwsimError:  # reported where robots and models are checked

@@ -1,7 +1,7 @@
 """Warnings about loose objects that are too thin for the step of a simulation.
 
-A thin thing that rolls as fast as it sinks turns by a large angle in a step, and its contacts are
-then sampled too coarsely: it may end the run, or come to rest where it should not.
+A thin object that rolls as fast as it sinks turns by a large angle in a step, and its contacts are
+then sampled too coarsely: it may end the run, or come to rest at a wrong place.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ...world import GRAVITY
 from ..subjects import CheckedScene
 
 MAX_TURN = math.pi
-"""In a step: beyond half a turn it is not even known which way a thing turns [rad]."""
+"""The greatest rotation in a step; beyond half a turn its direction is ambiguous [rad]."""
 
 
 def thin_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -30,39 +30,41 @@ def thin_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
     density = next(iter(scene.dynamics.values())).density
     for index, physics in scene.loose_objects.items():
         with suppress(UwsimError):  # reported where models are checked
-            shapes = collision_shapes(scene.resolved, (), {index: physics})
-            text = thin_said(physics, shapes[object_body(index)], density, scene.timestep)
-            if text:
-                thing = scene.spec.objects[index]
-                yield scene.warning(thing, f"the object {thing.name!r}: {text}", "physics")
+            shapes = collision_shapes(scene.resolved_scene, (), {index: physics})
+            message = describe_rotation(
+                physics, shapes[object_body(index)], density, scene.timestep
+            )
+            if message:
+                spec = scene.spec.objects[index]
+                yield scene.warning(spec, f"the object {spec.name!r}: {message}", "physics")
 
 
-def thin_said(
+def describe_rotation(
     physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float, timestep: float
 ) -> str:
-    """Warn of an object that may turn by more than `MAX_TURN` in a step.
+    """Describe an object that may turn by more than `MAX_TURN` in a step; empty if none does.
 
     It rolls about its longest axis, whose radius is half the middle edge of the box around it, as
     fast as it sinks on its broadest side.
     """
     water = loose_hydrodynamics("", physics, shapes, density)
-    sinking = GRAVITY * (physics.mass - density * water.volume)
+    weight_in_water = GRAVITY * (physics.mass - density * water.volume)
     drag = max(water.quadratic_damping[:3])
-    if sinking <= 0.0 or drag <= 0.0:
+    if weight_in_water <= 0.0 or drag <= 0.0:
         return ""
-    speed = math.sqrt(sinking / drag)
+    speed = math.sqrt(weight_in_water / drag)
     radius = sorted(bounds(shapes).size)[1]
     if speed * timestep <= MAX_TURN * radius:
         return ""
     return (
-        f"it is {2000.0 * radius:.3g} mm thick and sinks at {speed:.2g} m/s; where it rolls as "
-        f"fast it turns by {speed * timestep / radius:.2g} rad in a step of {timestep:g} s, and "
-        f"contacts may throw it or end the run; expected steps of "
-        f"{_rounded_down(MAX_TURN * radius / speed):g} s at most"
+        f"it is {2000.0 * radius:.3g} mm thick and sinks at {speed:.2g} m/s. If it rolls as fast, "
+        f"it turns by {speed * timestep / radius:.2g} rad in a step of {timestep:g} s. Contacts "
+        f"may throw it or end the run; expected steps of "
+        f"{_round_down(MAX_TURN * radius / speed):g} s at most"
     )
 
 
-def _rounded_down(time: float) -> float:
-    """To one digit."""
+def _round_down(time: float) -> float:
+    """Round a time down to one digit."""
     unit = 10.0 ** math.floor(math.log10(time))
     return math.floor(time / unit * (1.0 + 1e-9)) * unit

@@ -1,4 +1,4 @@
-"""Warnings about what the autopilots of a scene cannot do."""
+"""Warnings about axes that the autopilots of a scene cannot control."""
 
 from __future__ import annotations
 
@@ -21,76 +21,80 @@ from ...physics.actuation.allocation import (
     thrusters_on_base,
 )
 from ...physics.actuation.power import greatest_power
-from .vehicles import Candidate
+from .vehicles import SimulatedVehicle
 
-WANTED = (SURGE, SWAY, HEAVE, YAW)
-"""What an autopilot holds a place with."""
-HELD_BY = {SWAY: "sway", HEAVE: "depth (heave)", YAW: "heading (yaw)", SURGE: "surge"}
+STATION_AXES = (SURGE, SWAY, HEAVE, YAW)
+"""The axes that an autopilot needs for station keeping."""
+AXIS_LABELS = {SWAY: "sway", HEAVE: "depth (heave)", YAW: "heading (yaw)", SURGE: "surge"}
 
 
-def thrust_said(one: Candidate) -> str:
-    """Report what the thrusters of a simulated vehicle cannot do; empty if nothing.
+def describe_thrust(vehicle: SimulatedVehicle) -> str:
+    """Describe the limits of the thrusters of a simulated vehicle; empty if there are none.
 
-    Axes that they cannot drive, and thrusts that no battery of the vehicle can feed.
+    Limits are axes that they cannot drive, and power that no battery of the vehicle supplies.
     """
-    messages = [limits_said(allocation_of(one))]
-    dynamics = one.dynamics
-    greatest = sum(greatest_power(each, dynamics.density) for each in dynamics.thrusters)
-    for battery in one.vehicle.parts_of(BatterySpec):
-        if greatest + battery.hotel_load > battery.max_load:
+    messages = [describe_limits(allocation_of(vehicle))]
+    dynamics = vehicle.dynamics
+    max_power = sum(greatest_power(thruster, dynamics.density) for thruster in dynamics.thrusters)
+    for battery in vehicle.spec.parts_of(BatterySpec):
+        if max_power + battery.hotel_load > battery.max_load:
             messages.append(
-                f"the battery {battery.name!r} feeds {battery.max_load:.4g} W at most, and "
-                f"all thrusters draw up to {greatest:.4g} W: they then give less thrust; "
+                f"the battery {battery.name!r} supplies {battery.max_load:.4g} W at most, and "
+                f"all thrusters draw up to {max_power:.4g} W. They then give less thrust; "
                 "expected a higher <voltage> or a lower <resistance>"
             )
     return "; ".join(filter(None, messages))
 
 
-def allocation_of(one: Candidate) -> Allocation:
-    """The thrust allocation of a vehicle at its start."""
-    body = one.dynamics.body(one.robot.root)
+def allocation_of(vehicle: SimulatedVehicle) -> Allocation:
+    """Compute the thrust allocation of a vehicle at its start."""
+    body = vehicle.dynamics.body(vehicle.robot.root)
     reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
-    thrusters = thrusters_on_base(one.robot, one.dynamics.thrusters, one.vehicle.joint_values)
-    return allocate(thrusters, reference, one.balance.stiffness(one.up))
+    values = vehicle.spec.joint_values
+    thrusters = thrusters_on_base(vehicle.robot, vehicle.dynamics.thrusters, values)
+    return allocate(thrusters, reference, vehicle.balance.stiffness(vehicle.up))
 
 
-def limits_said(found: Allocation) -> str:
-    """Describe the limits of an allocation; empty where there are none."""
-    if not found.wrenches.shape[1]:
+def describe_limits(allocation: Allocation) -> str:
+    """Describe the limits of an allocation; empty if there are none."""
+    if not allocation.wrenches.shape[1]:
         return "it has no thrusters: it drifts"
-    missing = [axis for axis in WANTED if axis not in found.axes]
-    short = [axis for axis in found.axes if found.reach(axis) != found.full_reach(axis)]
+    missing_axes = [axis for axis in STATION_AXES if axis not in allocation.axes]
     messages = []
-    if missing:
-        reached = [_reach(found, axis) for axis in found.axes]
+    if missing_axes:
+        ranges = ", ".join(_describe_range(allocation, axis) for axis in allocation.axes)
         messages.append(
-            f"its thrusters ({found.wrenches.shape[1]}) drive {', '.join(reached) or 'nothing'}; "
+            f"its thrusters ({allocation.wrenches.shape[1]}) drive {ranges or 'nothing'}; "
             "expected surge, sway, heave and yaw. "
-            f"Not held: {', '.join(HELD_BY[axis] for axis in missing)}"
+            f"Not held: {', '.join(AXIS_LABELS[axis] for axis in missing_axes)}"
         )
-        messages += [_together(found, axis) for axis in missing if _is_coupled(found, axis)]
-    if HEAVE in missing and PITCH in found.axes:
+        coupled_axes = (axis for axis in missing_axes if _is_coupled(allocation, axis))
+        messages += [_describe_coupling(allocation, axis) for axis in coupled_axes]
+    if HEAVE in missing_axes and PITCH in allocation.axes:
         messages.append("depth is held by pitching while it moves ahead")
-    for axis in short:
-        there, full = max(found.reach(axis)), max(found.full_reach(axis))
+    for axis in allocation.axes:
+        if allocation.reach(axis) == allocation.full_reach(axis):
+            continue
+        limit, full_limit = max(allocation.reach(axis)), max(allocation.full_reach(axis))
         messages.append(
-            f"{AXES[axis]} is asked for up to {there:.3g} N of {full:.3g} N, beyond which the hull "
-            f"would lean by more than {np.degrees(LEAN):.0f} degrees"
+            f"{AXES[axis]} is limited to {limit:.3g} N of {full_limit:.3g} N, beyond which the "
+            f"hull would pitch or roll by more than {np.degrees(LEAN):.0f} degrees"
         )
     return "; ".join(messages)
 
 
-def _reach(found: Allocation, axis: int) -> str:
-    least, greatest = found.reach(axis)
-    return f"{AXES[axis]} ({least:.3g} to {greatest:.3g} {UNITS[axis]})"
+def _describe_range(allocation: Allocation, axis: int) -> str:
+    minimum, maximum = allocation.reach(axis)
+    return f"{AXES[axis]} ({minimum:.3g} to {maximum:.3g} {UNITS[axis]})"
 
 
-def _is_coupled(found: Allocation, axis: int) -> bool:
-    return bool(length(found.wrenches[axis]) > MIN_LEVER)
+def _is_coupled(allocation: Allocation, axis: int) -> bool:
+    return bool(length(allocation.wrenches[axis]) > MIN_LEVER)
 
 
-def _together(found: Allocation, axis: int) -> str:
-    """Report the driven axes to which an axis is coupled."""
-    shares = product(found.wrenches[axis], found.share)  # of each driven axis
-    bound = [AXES[a] for a, share in zip(found.axes, shares, strict=True) if abs(share) > 1e-3]
-    return f"{AXES[axis]} comes only together with {' and '.join(bound)}"
+def _describe_coupling(allocation: Allocation, axis: int) -> str:
+    """Describe the driven axes to which an axis is coupled."""
+    shares = product(allocation.wrenches[axis], allocation.share)  # of each driven axis
+    pairs = zip(allocation.axes, shares, strict=True)
+    coupled_axes = [AXES[a] for a, share in pairs if abs(share) > 1e-3]
+    return f"{AXES[axis]} is driven only together with {' and '.join(coupled_axes)}"

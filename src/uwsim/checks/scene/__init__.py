@@ -1,1 +1,1 @@
-"""Errors and warnings about what a scene file says."""
+"""Errors and warnings about the contents of a scene file."""

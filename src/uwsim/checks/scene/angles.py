@@ -30,7 +30,7 @@ def _angles_beyond_a_turn(spec: object) -> Iterator[tuple[int | None, str]]:
 
 @functools.cache
 def _angles(cls: Hashable) -> tuple[Field, ...]:
-    """The fields of a spec that are angles; a phase may have any number of turns."""
+    """Return the fields of a spec that are angles; a phase may have any number of turns."""
     assert isinstance(cls, type)
     return tuple(
         field
@@ -41,13 +41,13 @@ def _angles(cls: Hashable) -> tuple[Field, ...]:
 
 def _parts(spec: object) -> Iterator[object]:
     kind: type = type(spec)
-    for field in _nested(kind):
-        held = getattr(spec, field)
-        yield from held if isinstance(held, tuple) else () if held is None else (held,)
+    for field in _nested_fields(kind):
+        parts = getattr(spec, field)
+        yield from parts if isinstance(parts, tuple) else () if parts is None else (parts,)
 
 
 @functools.cache
-def _nested(cls: Hashable) -> tuple[str, ...]:
+def _nested_fields(cls: Hashable) -> tuple[str, ...]:
     assert isinstance(cls, type)
-    nested = (field.name for field in fields_of(cls) if field.kind in ("spec", "choice"))
-    return tuple(dict.fromkeys(nested))
+    names = (field.name for field in fields_of(cls) if field.kind in ("spec", "choice"))
+    return tuple(dict.fromkeys(names))

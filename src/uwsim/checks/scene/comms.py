@@ -22,36 +22,36 @@ PROTOCOLS = "ALOHA, slottedALOHA, CSMA"
 
 
 def communication(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report formulas that cannot be read, and names and addresses that lead nowhere or twice."""
+    """Report invalid formulas, and names and addresses that are unknown or used twice."""
     channels: set[str] = set()
-    given: tuple[CustomCommsChannelSpec | AcousticCommsChannelSpec, ...]
-    given = (*scene.spec.custom_comms_channels, *scene.spec.acoustic_comms_channels)
-    for each in given:
-        if each.name in channels:
-            yield scene.warning(each, f"several channels have the id {each.id}; the first is used")
-        channels.add(each.name)
+    channel_specs: tuple[CustomCommsChannelSpec | AcousticCommsChannelSpec, ...]
+    channel_specs = (*scene.spec.custom_comms_channels, *scene.spec.acoustic_comms_channels)
+    for spec in channel_specs:
+        if spec.name in channels:
+            yield scene.warning(spec, f"several channels have the id {spec.id}; the first is used")
+        channels.add(spec.name)
     names: dict[str, None] = {}
     addresses: dict[tuple[str, int], str] = {}
-    for device in (one for vehicle in scene.spec.vehicles for one in comms_devices(vehicle)):
+    for device in (unit for vehicle in scene.spec.vehicles for unit in comms_devices(vehicle)):
         if device.name in names:
-            said = f"two devices are called {device.name!r}: they share their topics"
-            yield scene.warning(device, said)
+            message = f"two devices are called {device.name!r}: they share their topics"
+            yield scene.warning(device, message)
         names[device.name] = None
         for channel in _channels_of(device):
             if channel not in channels:
                 kind, _, number = channel.partition("/")
                 element = {"custom": "CustomCommsChannel", "acoustic": "AcousticCommsChannel"}[kind]
-                said = f"{device.name!r}: no <{element}> has the id {number}"
-                yield scene.warning(device, f"{said}; one with the defaults is used")
+                message = f"{device.name!r}: no <{element}> has the id {number}"
+                yield scene.warning(device, f"{message}; one with the defaults is used")
         key = (_channels_of(device)[-1], device.mac)
         if key in addresses:
-            said = f"{device.name!r} has the address {device.mac} of {addresses[key]!r}"
-            yield scene.warning(device, f"{said}: both receive what is sent to it")
+            message = f"{device.name!r} has the address {device.mac} of {addresses[key]!r}"
+            yield scene.warning(device, f"{message}: both receive packets that are sent to it")
         addresses.setdefault(key, device.name)
         protocol = device.mac_protocol
         if protocol is not None and mac_kind(protocol.name) is None:
-            said = f"<macProtocol> is {protocol.name[:60]!r}; read as ALOHA; known: {PROTOCOLS}"
-            yield scene.warning(protocol, said)
+            message = f"<macProtocol> is {protocol.name[:60]!r}; read as ALOHA; known: {PROTOCOLS}"
+            yield scene.warning(protocol, message)
         model = device.rate_error_model if isinstance(device, CustomCommsDeviceSpec) else None
         if model is not None:
             try:
@@ -63,8 +63,5 @@ def communication(scene: CheckedScene) -> Iterator[Diagnostic]:
 def _channels_of(device: CommsDeviceSpec) -> tuple[str, ...]:
     if isinstance(device, AcousticCommsDeviceSpec):
         return (acoustic_channel_name(device.channel_id),)
-    sends, listens = (
-        custom_channel_name(device.tx_channel_id),
-        custom_channel_name(device.rx_channel_id),
-    )
-    return (sends,) if sends == listens else (sends, listens)
+    ids = device.tx_channel_id, device.rx_channel_id
+    return tuple(dict.fromkeys(map(custom_channel_name, ids)))

@@ -1,4 +1,4 @@
-"""Checks that the models and images that a scene names are there and can be read."""
+"""Checks that the models and images that a scene names exist and can be read."""
 
 from __future__ import annotations
 
@@ -16,32 +16,28 @@ from ..subjects import CheckedScene
 
 def model_files(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report models of objects and devices that are not found or cannot be read."""
-    first: dict[str, object] = {}
-    for device in (each for vehicle in scene.spec.vehicles for each in comms_devices(vehicle)):
+    specs: dict[str, object] = {}
+    for device in (unit for vehicle in scene.spec.vehicles for unit in comms_devices(vehicle)):
         if device.mesh is not None:
-            first.setdefault(device.mesh.path, device.mesh)
-    for thing in scene.spec.objects:
-        first.setdefault(thing.file, thing)
-        if thing.physics is not None and thing.physics.collision_shape:
-            first.setdefault(thing.physics.collision_shape, thing)
-    for name, spec in itertools.islice(first.items(), MAX_FILES):
-        if why := assets.model_read_error(name, **scene.where):
-            yield scene.error(spec, why)
-        elif not assets.has_model(name, **scene.where):
-            yield _lost(
-                scene,
-                spec,
-                f"model {strip_file_scheme(name)!r} is nowhere and has no stand-in",
-                name,
-            )
-        elif remark := assets.model_location_remark(name, **scene.where):
+            specs.setdefault(device.mesh.path, device.mesh)
+    for object_spec in scene.spec.objects:
+        specs.setdefault(object_spec.file, object_spec)
+        if object_spec.physics is not None and object_spec.physics.collision_shape:
+            specs.setdefault(object_spec.physics.collision_shape, object_spec)
+    for name, spec in itertools.islice(specs.items(), MAX_FILES):
+        if message := assets.model_read_error(name, **scene.file_search):
+            yield scene.error(spec, message)
+        elif not assets.has_model(name, **scene.file_search):
+            message = f"model {strip_file_scheme(name)!r} is not found and has no stand-in"
+            yield _missing_file(scene, spec, message, name)
+        elif remark := assets.model_location_remark(name, **scene.file_search):
             yield scene.warning(spec, remark)
-        for said in assets.model_remarks(name, **scene.where):
-            yield scene.warning(spec, said)
+        for text in assets.model_remarks(name, **scene.file_search):
+            yield scene.warning(spec, text)
 
 
 def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report projectors that shine nothing: of several the last shines, if its image is there."""
+    """Report projectors without light: only the last one shines, if its image is found."""
     projectors = [
         projector
         for vehicle in scene.spec.vehicles
@@ -49,29 +45,28 @@ def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:
         for projector in vehicle.parts_of(StructuredLightProjectorSpec)
     ]
     for projector in projectors[:-1]:
-        message = f"projector {projector.name!r} shines nothing: of several only the last shines"
+        message = f"projector {projector.name!r} has no effect: only the last projector shines"
         yield scene.warning(projector, message)
     for projector in projectors[-1:]:
         image = projector.image_name
         try:
-            path = assets.find(image, **scene.where)
+            path = assets.find(image, **scene.file_search)
         except AssetError as error:
             yield scene.error(projector, str(error))
             continue
         if path is None:
-            so = f"projector {projector.name!r} shines nothing"
-            yield _lost(
-                scene, projector, f"image {strip_file_scheme(image)!r} is nowhere and {so}", image
-            )
-        elif remark := assets.location_remark(image, path, **scene.where):
+            effect = f"projector {projector.name!r} has no effect"
+            message = f"image {strip_file_scheme(image)!r} is not found: {effect}"
+            yield _missing_file(scene, projector, message, image)
+        elif remark := assets.location_remark(image, path, **scene.file_search):
             yield scene.warning(projector, remark)
 
 
-def _lost(scene: CheckedScene, place: object, message: str, name: str) -> Diagnostic:
+def _missing_file(scene: CheckedScene, place: object, message: str, name: str) -> Diagnostic:
     """Report a missing file: an error, but in a scene of the original a warning.
 
-    The archive with the original's models is no longer to be had, so that a scene with the
-    original's DOCTYPE is not at error for naming what lay in it.
+    The archive with the original's models is no longer available. So models that are missing in a
+    scene with the original's DOCTYPE are not errors.
     """
     report = scene.warning if scene.spec.is_original else scene.error
-    return report(place, f"{message}; {assets.describe_search(name, **scene.where)}")
+    return report(place, f"{message}; {assets.describe_search(name, **scene.file_search)}")

@@ -1,6 +1,6 @@
 """Checks that names in a scene exist: links, sensors, vehicles.
 
-An error where the original, too, would stop or crash; a warning where it warns and goes on.
+They are errors where the original stops or crashes, too, and warnings where it warns and continues.
 """
 
 from __future__ import annotations
@@ -24,8 +24,8 @@ from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from ..subjects import CheckedScene
 from .shared_names import source_of
 
-MAX_NAMED = 8
-"""Objects that one warning names."""
+MAX_LISTED_OBJECTS = 8
+"""The greatest number of objects that one warning names."""
 
 
 def unknown_links(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -40,22 +40,24 @@ def unknown_links(scene: CheckedScene) -> Iterator[Diagnostic]:
             if link not in links:
                 is_error = isinstance(part, ForceSensorSpec | LampSpec)
                 severity = "error" if is_error else "warning"
-                near = scene.diagnostics.suggest(link, links, severity)
-                message = f"{format_tag(element)}: {link!r} is no link of {vehicle.file}.{near}"
+                suggestion = scene.diagnostics.suggest(link, links, severity)
+                message = f"{format_tag(element)}: {link!r} is no link of {vehicle.file}."
                 if is_error:
-                    yield scene.error(part, message)
+                    yield scene.error(part, f"{message}{suggestion}")
                 else:
-                    yield scene.warning(part, f"{message} It is left out, as in the original")
+                    remark = "It is ignored, as in the original"
+                    yield scene.warning(part, f"{message}{suggestion} {remark}")
             elif isinstance(part, ForceSensorSpec) and scene.spec.sim_params.enable_physics:
-                mass = next(each.mass for each in robot.links if each.name == link)
+                mass = next(
+                    robot_link.mass for robot_link in robot.links if robot_link.name == link
+                )
                 if mass <= 0 and not scene.has_stand_in(index):
-                    yield scene.warning(
-                        part, f"{format_tag(element)}: its link {link!r} has no mass"
-                    )
+                    message = f"{format_tag(element)}: its link {link!r} has no mass"
+                    yield scene.warning(part, message)
 
 
 def joint_values(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of joint values that are too many, or beyond the limits of their joints."""
+    """Warn of too many joint values, or values beyond the limits of their joints."""
     for index, robot in scene.robots.items():
         vehicle = scene.spec.vehicles[index]
         place = line_of(vehicle, "jointValues")
@@ -67,144 +69,144 @@ def joint_values(scene: CheckedScene) -> Iterator[Diagnostic]:
                 f"joints ({joints}); the rest is not used",
             )
         for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
-            held = joint.clamped(value)
-            if held != value:
-                message = f"joint {joint.name!r} at {value:g} is limited to {held:g}"
+            limited_value = joint.clamped(value)
+            if limited_value != value:
+                message = f"joint {joint.name!r} at {value:g} is limited to {limited_value:g}"
                 if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
                     message += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
                 yield scene.warning(place, message)
 
 
 def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
-    """Element -> the names that elements of that kind have, in their order."""
-    known: dict[str, dict[str, None]] = {
+    """Return the names of each kind of element, in their order."""
+    names: dict[str, dict[str, None]] = {
         "vehicle": {vehicle.name: None for vehicle in scene.vehicles},
-        "object": {thing.name: None for thing in scene.objects},
+        "object": {spec.name: None for spec in scene.objects},
     }
     for vehicle in scene.vehicles:
         for element, part in vehicle.all_parts():
             name = str(getattr(part, "name", None) or getattr(part, "dccomms_id", ""))
-            known.setdefault(element, {})[name] = None
-    return known
+            names.setdefault(element, {})[name] = None
+    return names
 
 
 def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report interfaces whose vehicle, camera or sensor does not exist."""
-    known = _names(scene.spec)
+    known_names = _names(scene.spec)
     for interface in unwrapped(scene.spec.ros_interfaces):
         if isinstance(interface, SensorToROSSpec):
-            continue  # not left out as in the original: `NamedSensors.error` reports it
+            continue  # not ignored as in the original: `NamedSensors.error` reports it
         element = element_of(interface)
-        wanted = source_of(interface)
-        if wanted is None:
+        source = source_of(interface)
+        if source is None:
             continue
         kinds = interface.sources
-        if not any(wanted in known.get(kind, {}) for kind in kinds):
-            names = chain(*(known.get(kind, {}) for kind in kinds))
-            near = scene.diagnostics.suggest(wanted, names, "warning")
+        if not any(source in known_names.get(kind, {}) for kind in kinds):
+            names = chain(*(known_names.get(kind, {}) for kind in kinds))
+            suggestion = scene.diagnostics.suggest(source, names, "warning")
             yield scene.warning(
                 interface,
-                f"{format_tag(element)}: no {' or '.join(kinds)} is called {wanted!r}.{near} "
-                "The interface is left out, as in the original",
+                f"{format_tag(element)}: no {' or '.join(kinds)} is called {source!r}.{suggestion} "
+                "The interface is ignored, as in the original",
             )
         elif (
             isinstance(interface, VirtualCameraToROSImageSpec)
             and interface.depth
-            and wanted not in known.get("virtualRangeImage", {})
+            and source not in known_names.get("virtualRangeImage", {})
         ):
             yield scene.error(
                 interface,
-                f"{format_tag(element)}: <depth> 1 needs a virtualRangeImage; {wanted!r} is none",
+                f"{format_tag(element)}: <depth> 1 needs a virtualRangeImage; {source!r} is none",
             )
 
 
 def shared_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of several interfaces on one camera, of which the original keeps the last."""
+    """Warn of several interfaces on one camera, of which the original serves the last."""
     cameras = [
         interface
         for interface in scene.spec.ros_interfaces
         if isinstance(interface, VirtualCameraToROSImageSpec)
     ]
     last_of = {interface.camera_name: interface for interface in cameras}
-    for name in _repeated(interface.camera_name for interface in cameras):
-        last = last_of[name]
+    for name in _repeated_names(interface.camera_name for interface in cameras):
+        last_interface = last_of[name]
         yield scene.warning(
-            last,
+            last_interface,
             f"camera {name!r} has several interfaces; the original serves this last one only",
         )
     vehicles = scene.spec.vehicles
-    for name in _repeated(vehicle.name for vehicle in vehicles):
+    for name in _repeated_names(vehicle.name for vehicle in vehicles):
         second = [vehicle for vehicle in vehicles if vehicle.name == name][1]
         message = f"several vehicles are called {name!r}; searches find the first"
         yield scene.warning(second, message)
 
 
-def lamps_beyond_the_last(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report lamps that are more than can be drawn."""
-    drawn = [vehicle for vehicle in scene.spec.vehicles if not vehicle.vr]
-    lamps = [lamp for vehicle in drawn for lamp in vehicle.parts_of(LampSpec)]
+def excess_lamps(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Report lamps beyond the limit of the renderer."""
+    vehicles = [vehicle for vehicle in scene.spec.vehicles if not vehicle.vr]
+    lamps = [lamp for vehicle in vehicles for lamp in vehicle.parts_of(LampSpec)]
     for lamp in lamps[MAX_LAMPS:]:
         yield scene.error(lamp, f"<u:lamp> {lamp.name!r}: more than {MAX_LAMPS} lamps")
 
 
 def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report the objects that simulated vehicles pass through, unless the file declares them so."""
-    things = [
-        thing
-        for thing in (scene.spec.objects if scene.spec.is_dynamic else ())
-        if thing.is_solid is None and not thing.is_touched(in_water=True)
+    """Report the objects that simulated vehicles pass through, unless the file states it."""
+    specs = [
+        spec
+        for spec in (scene.spec.objects if scene.spec.is_dynamic else ())
+        if spec.is_solid is None and not spec.is_touched(in_water=True)
     ]
-    if things:
+    if specs:
         yield scene.warning(
-            things[0],
-            f"simulated vehicles pass through what has no <physics>: {_named(things)}; "
-            "<u:solid>1</u:solid> in the object makes it solid, <u:solid>0</u:solid> says that it "
-            "is meant",
+            specs[0],
+            f"simulated vehicles pass through objects without <physics>: {_list_objects(specs)}. "
+            "<u:solid>1</u:solid> in the object makes it solid; <u:solid>0</u:solid> accepts the "
+            "warning",
         )
 
 
 def loose_scenery(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report scenery that the original's physics moves beside objects that have ``<physics>``."""
     objects = scene.spec.objects if scene.spec.is_original_physics else ()
-    things = [
-        thing
-        for thing in objects
-        if thing.is_solid is None and thing.physics is None and not thing.is_ground
+    specs = [
+        spec
+        for spec in objects
+        if spec.is_solid is None and spec.physics is None and not spec.is_ground
     ]
-    if things and any(thing.physics is not None for thing in objects):
+    if specs and any(spec.physics is not None for spec in objects):
         yield scene.warning(
-            things[0],
-            f"what has no <physics> is a loose box of 1 kg, as in the original: {_named(things)}; "
-            "<u:solid>1</u:solid> in the object makes it solid and fixed, as one called 'terrain' "
-            "is; <u:solid>0</u:solid> lets everything through",
+            specs[0],
+            "an object without <physics> is a loose box of 1 kg, as in the original: "
+            f"{_list_objects(specs)}. With <u:solid>1</u:solid> it is solid and fixed, like "
+            "'terrain'. Bodies pass through it with <u:solid>0</u:solid>",
         )
 
 
-def _named(things: Sequence[ObjectSpec]) -> str:
-    """Name the first of some objects, with their lines."""
-    named = [f"{thing.name!r} (line {line_of(thing) or '?'})" for thing in things[:MAX_NAMED]]
-    more = f" and {len(things) - MAX_NAMED} more" if len(things) > MAX_NAMED else ""
-    return f"{', '.join(named)}{more}"
+def _list_objects(specs: Sequence[ObjectSpec]) -> str:
+    """Return the names of the first objects, with their lines."""
+    names = [f"{spec.name!r} (line {line_of(spec) or '?'})" for spec in specs[:MAX_LISTED_OBJECTS]]
+    n_others = len(specs) - len(names)
+    return ", ".join(names) + (f" and {n_others} more" if n_others else "")
 
 
 def passable_vehicles(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report the vehicles that simulated ones pass through, and those without any shape."""
+    """Report vehicles that simulated ones pass through, and those without any shape."""
     robots = scene.robots
     for index, vehicle in enumerate(scene.spec.vehicles if scene.spec.is_dynamic else ()):
         if "passable" in vehicle.accepts or vehicle.vr:
             continue
         links = robots[index].links if index in robots else ()
         if vehicle.dynamics is None:
-            why = "simulated vehicles pass through it: it has no <u:dynamics>"
+            message = "simulated vehicles pass through it: it has no <u:dynamics>"
         elif links and not any(link.solids for link in links):
-            why = "it passes through everything: no link has a <collision> or a <visual>"
+            message = "it passes through everything: no link has a <collision> or a <visual>"
         else:
             continue
         yield scene.warning(
             vehicle,
-            f"vehicle {vehicle.name!r}: {why}; if that is meant: <u:accept>passable</u:accept>",
+            f"vehicle {vehicle.name!r}: {message}. If intended: <u:accept>passable</u:accept>",
         )
 
 
-def _repeated(names: Iterable[str]) -> list[str]:
+def _repeated_names(names: Iterable[str]) -> list[str]:
     return [name for name, count in Counter(names).items() if count > 1]

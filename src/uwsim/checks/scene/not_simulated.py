@@ -15,11 +15,11 @@ from ..subjects import CheckedScene
 def not_simulated(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of every kind of element that is read and not simulated yet, with its lines."""
     if scene.document is not None:
-        for line, message in read_only(scene.document.root):
+        for line, message in unsimulated_elements(scene.document.root):
             yield scene.warning(line, message)
 
 
-def read_only(root: etree._Element) -> Iterator[tuple[int, str]]:
+def unsimulated_elements(root: etree._Element) -> Iterator[tuple[int, str]]:
     """Yield a line and a message for each kind of element that is read and not simulated yet."""
     lines: dict[str, list[int]] = {}
     is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
@@ -36,11 +36,12 @@ def read_only(root: etree._Element) -> Iterator[tuple[int, str]]:
             kind = "limits of objects"
         if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
             lines.setdefault(kind, []).append(_line(node))
-    for kind, where in sorted(lines.items(), key=lambda entry: entry[1][0]):
-        shown = sorted(set(where))
-        listed = ", ".join(map(str, shown[:8])) + (", ..." if len(shown) > 8 else "")
-        many = "line" if len(shown) == 1 else "lines"
-        yield shown[0], f"{READ_ONLY}: {kind} ({many} {listed})"
+    for kind, kind_lines in sorted(lines.items(), key=lambda entry: entry[1][0]):
+        sorted_lines = sorted(set(kind_lines))
+        is_long = len(sorted_lines) > 8
+        line_list = ", ".join(map(str, sorted_lines[:8])) + (", ..." if is_long else "")
+        noun = "line" if len(sorted_lines) == 1 else "lines"
+        yield sorted_lines[0], f"{READ_ONLY}: {kind} ({noun} {line_list})"
 
 
 def _line(node: etree._Element) -> int:

@@ -1,4 +1,4 @@
-"""Warnings about names and topics that parts of a scene share, and that ROS cannot name."""
+"""Warnings about shared names and topics, and about topic names that are invalid in ROS."""
 
 from __future__ import annotations
 
@@ -13,78 +13,78 @@ from ...topics.interface import VehiclePublisherSpec
 from ...topics.simulated_device_ros import unwrapped
 from ..subjects import CheckedScene
 
-NAME = re.compile(r"[A-Za-z]\w*(/\w+)*", re.ASCII)
-"""Of a topic in ROS, without the slash that it may begin with."""
+TOPIC_NAME = re.compile(r"[A-Za-z]\w*(/\w+)*", re.ASCII)
+"""The valid topic names in ROS, without the slash that may precede them."""
 
 
 def shared_object_names(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of objects that are hidden by another thing of the same name."""
-    first: dict[str, str] = {vehicle.name: "a vehicle" for vehicle in scene.spec.vehicles}
-    shared: set[str] = set()
-    for thing in scene.spec.objects:
-        if thing.name in first and thing.name not in shared:
-            shared.add(thing.name)
+    """Warn of objects with the name of an earlier vehicle or object."""
+    owners: dict[str, str] = {vehicle.name: "a vehicle" for vehicle in scene.spec.vehicles}
+    shared_names: set[str] = set()
+    for spec in scene.spec.objects:
+        if spec.name in owners and spec.name not in shared_names:
+            shared_names.add(spec.name)
             yield scene.warning(
-                thing,
-                f"the object {thing.name!r} is called as {first[thing.name]} before it; searches "
+                spec,
+                f"the object {spec.name!r} has the name of {owners[spec.name]} before it; searches "
                 "find the first",
             )
-        first.setdefault(thing.name, "an object")
+        owners.setdefault(spec.name, "an object")
 
 
 def shared_part_names(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Of one kind the last of a name is found; parts of one vehicle share noise and faults."""
-    of_kind: set[tuple[str, str]] = set()
+    """Warn of parts of one kind with the same name, and of shared names in one vehicle."""
+    names_by_kind: set[tuple[str, str]] = set()
     for vehicle in scene.spec.vehicles:
-        of_vehicle: dict[str, str] = {}
+        elements: dict[str, str] = {}
         for element, part in vehicle.all_parts():
             name = getattr(part, "name", None)
             if name is None:
                 continue
-            if (element, name) in of_kind and not isinstance(part, VirtualCameraSpec):
-                why = f"several are called {name!r}; interfaces find the last"
-            elif name in of_vehicle and of_vehicle[name] != element:
-                why = (
-                    f"{name!r} is the name of a <{of_vehicle[name]}> of the vehicle, too; they "
+            if (element, name) in names_by_kind and not isinstance(part, VirtualCameraSpec):
+                message = f"several are called {name!r}; interfaces find the last"
+            elif name in elements and elements[name] != element:
+                message = (
+                    f"{name!r} is the name of a <{elements[name]}> of the vehicle, too; they "
                     "share random streams and faults"
                 )
             else:
-                why = ""
-            if why:
-                yield scene.warning(part, f"{format_tag(element)}: {why}")
-            of_kind.add((element, name))
-            of_vehicle.setdefault(name, element)
+                message = ""
+            if message:
+                yield scene.warning(part, f"{format_tag(element)}: {message}")
+            names_by_kind.add((element, name))
+            elements.setdefault(name, element)
 
 
 def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of topics with two publishers, and of those that ROS cannot name."""
+    """Warn of topics with two publishers, and of invalid topic names."""
     writers: dict[str, tuple[str, str]] = {}
     for interface in unwrapped(scene.spec.ros_interfaces):
-        element, own = element_of(interface), source_of(interface) or ""
+        element, source = element_of(interface), source_of(interface) or ""
         for field in interface.carries():
             topic = str(getattr(interface, field))
             key = topic.strip("/")
-            if not NAME.fullmatch(key):
-                why = "is no name of a topic in ROS"
-                yield scene.warning(interface, f"{format_tag(element)}: the topic {topic!r} {why}")
+            if not TOPIC_NAME.fullmatch(key):
+                message = f"the topic {topic!r} is no valid topic name in ROS"
+                yield scene.warning(interface, f"{format_tag(element)}: {message}")
             if interface.subscribes:
                 continue
             other = writers.get(key)
             if other is not None and isinstance(interface, VehiclePublisherSpec):
                 yield scene.warning(
                     interface,
-                    f"the topic {topic!r} carries {own!r} and {other[1]!r}; readers get both",
+                    f"the topic {topic!r} carries {source!r} and {other[1]!r}; readers get both",
                 )
             elif other is not None:
                 yield scene.warning(
                     interface,
-                    f"{format_tag(element)}: the topic {topic!r} of {own!r} carries {other[1]!r} "
-                    f"of {format_tag(other[0])}, too; readers get both",
+                    f"{format_tag(element)}: the topic {topic!r} of {source!r} carries "
+                    f"{other[1]!r} of {format_tag(other[0])}, too; readers get both",
                 )
-            writers.setdefault(key, (element, own))
+            writers.setdefault(key, (element, source))
 
 
 def source_of(interface: InterfaceSpec) -> str | None:
     """Return the vehicle, camera or sensor that an interface publishes; None if it names none."""
-    named = (getattr(interface, each, None) for each in ("vehicle_name", "camera_name", "name"))
-    return next((str(each) for each in named if each is not None), None)
+    names = (getattr(interface, field, None) for field in ("vehicle_name", "camera_name", "name"))
+    return next((str(name) for name in names if name is not None), None)

@@ -1,4 +1,4 @@
-"""Warnings about the water of a scene: its density, what does not count, and what is slow."""
+"""Warnings about the water of a scene: its density, unused values, and slow currents."""
 
 from __future__ import annotations
 
@@ -9,44 +9,44 @@ from ...errors import Diagnostic
 from ...schema import NAMESPACE, line_of
 from ..subjects import CheckedScene
 
-OF_SOUND = ("temperature", "salinity")
-"""What the speed and the loss of sound are reckoned from, too."""
-STABLE = 0.01
-"""By so much the density may fall with depth, for rounded numbers [kg/m3]."""
+SOUND_ELEMENTS = ("temperature", "salinity")
+"""The elements from which the speed and the loss of sound are computed, too."""
+MAX_DENSITY_DECREASE = 0.01
+"""The greatest decrease of density with depth, for rounded numbers [kg/m3]."""
 
 
 def unstable_water(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of water that would turn over, and of densities that are said twice."""
+    """Warn of unstable layers of water, and of densities that are given twice."""
     water = scene.spec.ocean_state
     profile = water.profile
     if profile is not None:
-        for (above, heavy), (below, light) in pairwise(profile.levels):
-            if light < heavy - STABLE:
+        for (depth, density), (lower_depth, lower_density) in pairwise(profile.levels):
+            if lower_density < density - MAX_DENSITY_DECREASE:
                 yield scene.warning(
                     profile,
-                    f"<u:profile> has {heavy:.6g} kg/m3 at {above:g} m and {light:.6g} at "
-                    f"{below:g} m: heavier water over lighter sinks; expected the same or more "
-                    "with depth",
+                    f"<u:profile> has {density:.6g} kg/m3 at {depth:g} m and {lower_density:.6g} "
+                    f"at {lower_depth:g} m: heavier water over lighter sinks; expected the same "
+                    "or more with depth",
                 )
                 break
-    for name in OF_SOUND if water.density is not None and profile is None else ():
+    for name in SOUND_ELEMENTS if water.density is not None and profile is None else ():
         if getattr(water, name) is not None:
             yield scene.warning(
                 line_of(water, f"{{{NAMESPACE}}}{name}"),
-                f"<u:{name}> counts for sound alone: <u:density> says how dense the water is",
+                f"<u:{name}> affects sound only: <u:density> sets the density of the water",
             )
 
 
 def slow_currents(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of currents that are asked in Python at every step."""
+    """Warn of currents that call Python at every step."""
     if not scene.spec.vehicles:
         return
     for current in scene.spec.ocean_state.currents:
         if current.code:
             yield scene.warning(
                 current,
-                f"<u:function> is {current.code!r}: Python asks it in every step for each body in "
-                "the water, which slows steps down several times; the other currents are compiled, "
-                "and <u:field> reads what a program has computed beforehand",
+                f"<u:function> is {current.code!r}: Python calls it in every step for each body in "
+                "the water, which makes steps several times slower. The other currents are "
+                "compiled; <u:field> reads a flow that a program has computed before",
                 "function",
             )

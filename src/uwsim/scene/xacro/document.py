@@ -80,7 +80,7 @@ class _NamedFiles:
         """Read an included file; returns its root element."""
         return parse(path, error=self._error).root
 
-    def place_remark(self, name: str, path: Path, named_by: Path) -> str:
+    def location_remark(self, name: str, path: Path, named_by: Path) -> str:
         """Say that a file was found elsewhere than its name states; empty if it is there."""
         from ...assets import location_remark
 

@@ -63,7 +63,7 @@ class Files(Protocol):
     def parse(self, path: Path) -> etree._Element:
         """Read an included file; returns its root element."""
 
-    def place_remark(self, name: str, path: Path, named_by: Path) -> str:
+    def location_remark(self, name: str, path: Path, named_by: Path) -> str:
         """Say that a file was found elsewhere than its name states; empty if it is there."""
 
 
@@ -327,7 +327,7 @@ class Expander:
             raise
         root = self._files.parse(path)
         whole = [root] if keeps_root and not _is_stripped(root) else list(root)
-        if remark := self._files.place_remark(name, path, self._file):
+        if remark := self._files.location_remark(name, path, self._file):
             self._of_file().warning(node, remark)
         with self._nested(path, self._line_of(node)):
             made = list(self._expanded(whole, scope))
