@@ -59,7 +59,7 @@ def _topics(*, simulated: bool) -> str:
         summary = (spec.__doc__ or "").strip().split("\n")[0]
         elements = {field.label: field for field in fields_of(spec)}
         topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
-        publishes = not spec.subscribes and (topics or spec.carries())
+        publishes = not spec.subscribes and (topics or spec.message_types())
         if publishes and simulated is (limit_in("interfaces", name) == ""):
             rate = f"{elements['rate'].default:g} Hz" if "rate" in elements else "-"
             rows.append((_linked(name), summary, topics or "-", rate))

@@ -12,7 +12,7 @@ from uwsim.errors import Diagnostic
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.topics.sensor_topic import EchoROSSpec
-from uwsim.topics.simulated_device_ros import unwrapped
+from uwsim.topics.simulated_device_ros import unwrap_interfaces
 
 VEHICLE = "<vehicle><name>g</name><file>data/scenes/g500ARM5.urdf</file>{}</vehicle>"
 
@@ -75,7 +75,7 @@ def test_a_named_wrapper_of_june_2013_names_the_device_in_it(
     (vehicle,) = scene.vehicles
     wrapped = [echo for box in vehicle.parts_of(SimulatedDevicesSpec) for echo in box.echo]
     (echo,) = [*vehicle.parts_of(EchoSpec), *wrapped]
-    (interface,) = unwrapped(scene.ros_interfaces)
+    (interface,) = unwrap_interfaces(scene.ros_interfaces)
     assert isinstance(interface, EchoROSSpec)
     assert (echo.name, echo.info) == ("e1", "hello")
     assert (interface.name, interface.topic, interface.rate) == ("e1", "/t", 2.0)

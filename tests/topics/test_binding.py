@@ -20,7 +20,7 @@ from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
 from uwsim.sensors.sensor import Carrier, SensorSpec, measured_by
-from uwsim.topics import INTERFACES, InterfaceSpec, element_of
+from uwsim.topics import INTERFACES, InterfaceSpec, element_name
 from uwsim.topics.sensor_topic import (
     ImuToROSImuSpec,
     PressureSensorToROSSpec,
@@ -36,13 +36,13 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-sc
 def test_what_has_no_bind_is_reported_as_read_only(name: str) -> None:
     spec = INTERFACES[name]
     assert bool(limit_of("rosInterfaces", name)) is not spec.is_simulated()
-    assert bool(spec.carries()) is spec.is_simulated()
+    assert bool(spec.message_types()) is spec.is_simulated()
 
 
 @pytest.mark.parametrize("spec", INTERFACES.values())
 def test_topics_are_fields_and_sources_are_elements(spec: type[InterfaceSpec]) -> None:
     fixed = {name for name, value in vars(spec).items() if isinstance(value, str)}
-    assert set(spec.carries()) <= {field.name for field in fields_of(spec)} | fixed
+    assert set(spec.message_types()) <= {field.name for field in fields_of(spec)} | fixed
     assert set(spec.sources) <= {*map(prefixed_name, {**SENSORS, **DEVICES}), "vehicle", "object"}
 
 
@@ -67,7 +67,7 @@ def test_an_interface_of_a_sensor_that_is_simulated_is_simulated(
 
 
 def test_an_interface_knows_its_element() -> None:
-    assert element_of(ImuToROSImuSpec(name="imu", topic="/imu")) == "ImuToROSImu"
+    assert element_name(ImuToROSImuSpec(name="imu", topic="/imu")) == "ImuToROSImu"
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)

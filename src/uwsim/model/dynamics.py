@@ -25,7 +25,7 @@ from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics, Spec, diagnostic_at
 from ..sensors.sensor import measured_by
 from ..sensors.virtual_camera import VirtualCameraSpec
-from ..topics import element_of
+from ..topics import element_name
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
 from ..world import GRAVITY
 from .inertias import MAX_BUOYANCY, MIN_MASS, check_inertias
@@ -309,7 +309,7 @@ class NameResolution:
         }
         topics: dict[str, tuple[type, str]] = {}
         for interface in self._scene.ros_interfaces:
-            element = element_of(interface).replace(U, "u:")
+            element = element_name(interface).replace(U, "u:")
             if isinstance(interface, AutopilotTopicSpec) and (
                 error := self._autopilot_error(interface, vehicles)
             ):

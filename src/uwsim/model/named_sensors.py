@@ -30,7 +30,7 @@ class NamedSensors:
     def message_types(self, interface: InterfaceSpec) -> Mapping[str, type]:
         """Return the types of an interface's messages, by the field that names the topic."""
         if not isinstance(interface, SensorToROSSpec):
-            return interface.carries()
+            return interface.message_types()
         types = [*self._types.get(interface.name, {}).values()]
         return {"topic": types[-1]} if types else {}
 

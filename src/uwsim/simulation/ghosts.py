@@ -83,7 +83,7 @@ def commanded_topics(simulation: Simulation, vehicles: tuple[str, ...]) -> froze
         f"/{getattr(spec, field).strip('/')}"
         for spec in simulation.world.model.scene.ros_interfaces
         if spec.subscribes and getattr(spec, "vehicle_name", None) in vehicles
-        for field in spec.carries()
+        for field in spec.message_types()
     )
 
 

@@ -14,7 +14,7 @@ from ..messages import SpawnMarker, String
 from ..model.scene_model import SceneModel
 from ..network import Channel, Network
 from ..scene.spec import SceneSpec
-from ..topics.interface import Binds, Interface
+from ..topics.interface import Interface, SimulatedInterface
 from ..topics.virtual_camera_to_ros_image import ImagePublisher
 from .datagrams import Datagrams
 from .forces import bind_forces
@@ -136,7 +136,7 @@ def _bound_interfaces(spec: SceneSpec, world: TopicView) -> Iterator[Interface]:
         # one that names what is not there is left out, as in the original
         with suppress(UnknownName):
             if interface.is_simulated():
-                yield cast("Binds", interface).bind(world)
+                yield cast("SimulatedInterface", interface).bind(world)
 
 
 def _markers(model: SceneModel, clock: Callable[[], float]) -> Markers:

@@ -10,13 +10,13 @@
       </VirtualCameraToROSImage>
     </rosInterfaces>
 
-The bus uses these topics whether or not there is any ROS. An interface without ``bind`` is read
-and not simulated.
+The bus has these topics with and without ROS. An interface without ``bind`` is read and not
+simulated.
 
 =====================  ===========================  =============================================
 interface              message                      effect
 =====================  ===========================  =============================================
-ROSPoseToPAT           geometry_msgs/Pose           the vehicle is put there (in L)
+ROSPoseToPAT           geometry_msgs/Pose           the pose of the vehicle in L is set
 ROSTwistToPAT          geometry_msgs/TwistStamped   one step of the twist (in the base frame)
 ROSOdomToPAT           nav_msgs/Odometry            a pose that is not all zero as ROSPoseToPAT,
                                                     else its twist as ROSTwistToPAT
@@ -27,11 +27,11 @@ u:ROSFinsToPAT         std_msgs/Float64MultiArray   angles of the fins [rad], si
 u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque, simulated only
 =====================  ===========================  =============================================
 
-Commands are carried out at the start of the next step, in the order in which they arrived. Poses
-and positions between two velocities do not count, as in the original: they take no time from a
-velocity. A vehicle that is simulated (``u:dynamics``) is never put anywhere by a message: its
-autopilot takes a pose for the place to go to and stay at, and holds a twist, a wrench or thruster
-commands until the next of any of them; so do its joints' servos with theirs.
+Commands are applied at the start of the next step, in the order of their arrival. Poses and
+positions between two velocities do not affect the interval between these, as in the original. A
+message never sets the pose of a simulated vehicle (``u:dynamics``): a pose is the setpoint of its
+autopilot. A twist, a wrench or thruster commands hold until the next command of any kind, and so do
+the commands of its joints' servos.
 """
 
 from __future__ import annotations
@@ -107,12 +107,13 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     f"{{{NAMESPACE}}}motorCurrentsToROS": MotorCurrentsToROSSpec,
     f"{{{NAMESPACE}}}sensorToROS": SensorToROSSpec,
 }
-"""Element -> spec, in the order of the original grammar; ours last."""
+"""The table of elements and their specs, in the order of the original grammar; extensions are
+last."""
 
 
-def element_of(interface: InterfaceSpec) -> str:
-    """Return the name of the element that an interface was read from, as the table has it."""
+def element_name(interface: InterfaceSpec) -> str:
+    """Return the name of the element from which an interface was read, as in the table."""
     return next(name for name, spec in INTERFACES.items() if spec is type(interface))
 
 
-__all__ = ["INTERFACES", "InterfaceSpec", "element_of"]
+__all__ = ["INTERFACES", "InterfaceSpec", "element_name"]

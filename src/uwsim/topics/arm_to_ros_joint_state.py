@@ -1,4 +1,4 @@
-"""ArmToROSJointState: publishes the joints of a vehicle.
+"""ArmToROSJointState: the joints of a vehicle on a topic.
 
 As in the original the velocities of a vehicle that is not simulated are missing and its efforts
 are zero.
@@ -20,27 +20,27 @@ from .interface import SampledTopic, TopicWorld, VehiclePublisherSpec
 
 @dataclass(frozen=True, kw_only=True)
 class ArmToROSJointStateSpec(VehiclePublisherSpec):
-    """Publishes the joints of a vehicle as sensor_msgs/JointState."""
+    """A publisher of the joints of a vehicle as sensor_msgs/JointState."""
 
     messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
 
     def bind(self, world: TopicWorld) -> SampledTopic:
-        """Publish from now on; raises UnknownName if there is no such vehicle."""
+        """Start to publish; raises UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
-        make = partial(joint_state, tuple(vehicle.joint_names))
+        make_message = partial(joint_state, tuple(vehicle.joint_names))
         publish = world.bus.publisher(self.topic, JointState)
-        sampled = SampledTopic(self.topic, vehicle.compiled.joint_sampler(), make, publish)
-        sampled.begin(self.rate, world)
-        return sampled
+        topic = SampledTopic(self.topic, vehicle.compiled.joint_sampler(), make_message, publish)
+        topic.begin(self.rate, world)
+        return topic
 
 
 def joint_state(names: Sequence[str], time: float, values: Array) -> JointState:
     """Return the joint vector and, of a simulated vehicle, its velocities and efforts.
 
     Args:
-        names: of the joints.
-        time: of the sample [s].
-        values: of `CompiledVehicle.joint_sampler`.
+        names: the names of the joints.
+        time: the time of the sample [s].
+        values: the values of `CompiledVehicle.joint_sampler`.
     """
     n = len(names)
     position, velocity, effort = values[:n].copy(), values[n : 2 * n].copy(), np.zeros(n)

@@ -1,4 +1,4 @@
-"""Where communication devices are: their link's pose on a topic, their frame on ``/tf``."""
+"""Poses of communication devices: the link's pose on a topic, the device's frame on ``/tf``."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class CommsDeviceROSSpec(SensorTopicSpec):
     """An interface of a communication device."""
 
     def bind(self, world: TopicWorld) -> CommsDevicePublisher:
-        """Publish from now on; raises UnknownName if the device is not there."""
+        """Start to publish; raises UnknownName if there is no such device."""
         device = world.sensors.sensor(self.name, self.sources)
         if not isinstance(device, CommsDevice):
             raise UnknownName("communication device", self.name, ())
@@ -30,20 +30,20 @@ class CommsDeviceROSSpec(SensorTopicSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class CustomCommsDeviceROSSpec(CommsDeviceROSSpec):
-    """Publishes the link of a communication device as geometry_msgs/Pose, and its frame on /tf."""
+    """A publisher of a communication device: its link as geometry_msgs/Pose, its frame on /tf."""
 
     sources: ClassVar[tuple[str, ...]] = ("CustomCommsDevice",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class AcousticCommsDeviceROSSpec(CommsDeviceROSSpec):
-    """Publishes the link of an acoustic modem as geometry_msgs/Pose, and its frame on /tf."""
+    """A publisher of an acoustic modem: its link as geometry_msgs/Pose, its frame on /tf."""
 
     sources: ClassVar[tuple[str, ...]] = ("AcousticCommsDevice",)
 
 
 class CommsDevicePublisher(Interface):
-    """Publishes where a device is."""
+    """A publisher of the pose of a device."""
 
     def __init__(self, topic: str, device: CommsDevice, world: TopicWorld) -> None:
         self._device, self._world = device, world
@@ -51,7 +51,7 @@ class CommsDevicePublisher(Interface):
         self._publish_frame = world.bus.publisher(TF, TFMessage)
 
     def publish(self) -> None:
-        """Publish where it is now."""
+        """Publish the present pose."""
         device, time = self._device, self._world.time
         self._publish(device.sample(time))
         pose = device.parent_from_device

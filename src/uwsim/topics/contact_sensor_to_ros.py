@@ -1,4 +1,4 @@
-"""contactSensorToROS: publishes whether a vehicle or object is in contact."""
+"""contactSensorToROS: the contact of a vehicle or object on a topic."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sampl
 
 @dataclass(frozen=True, kw_only=True)
 class ContactSensorToROSSpec(InterfaceSpec):
-    """Publishes whether something touches, as std_msgs/Bool."""
+    """A publisher of whether a vehicle or object is in contact, as std_msgs/Bool."""
 
     sources: ClassVar[tuple[str, ...]] = ("vehicle", "object")
     messages: ClassVar[Mapping[str, type]] = {"topic": Bool}
 
     name: str
-    """Name of the vehicle or object."""
+    """The name of the vehicle or object."""
     topic: str
-    """Name of the topic."""
+    """The name of the topic."""
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> ContactPublisher:
-        """Publish from now on; raises UnknownName if there is nothing of that name to touch."""
+        """Start to publish; raises UnknownName if no body of that name has a shape."""
         if not world.contacts.is_possible(self.name):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
@@ -37,12 +37,12 @@ class ContactSensorToROSSpec(InterfaceSpec):
 
 
 class ContactPublisher(Interface):
-    """Publishes whether a body is in contact."""
+    """A publisher of whether a body is in contact."""
 
     def __init__(self, name: str, topic: str, world: TopicWorld) -> None:
         self._name, self._world = name, world
         self._publish = world.bus.publisher(topic, Bool)
 
     def publish(self) -> None:
-        """Publish it as it is now; the message has no time."""
+        """Publish the present state; the message has no time."""
         self._publish(Bool(data=bool(self._world.contacts.find(self._name))))

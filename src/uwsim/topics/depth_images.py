@@ -1,6 +1,6 @@
-"""Interfaces that publish depth: images of range as in REP 118, and point clouds.
+"""Interfaces that publish depth: range images as in REP 118, and point clouds.
 
-Colour cameras may be named, too: their depth is exact, and none of it is what the water hides.
+Colour cameras are possible, too; their depth is exact and does not depend on the water.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ..messages import CameraInfo, Image, PointCloud2, depth_image, point_cloud
 from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 CAMERAS = ("virtualRangeImage", "virtualCamera")
-"""Elements whose depth may be published."""
+"""The elements whose depth may be published."""
 
 
 @runtime_checkable
@@ -31,43 +31,43 @@ class DepthCamera(Protocol):
 
     @property
     def intrinsics(self) -> Intrinsics:
-        """Its pinhole."""
+        """The intrinsics of the camera."""
 
     def depth(self, time: float) -> Array:
-        """Measure at ``time`` [s]: along the optical axis, (h, w) [m]; +inf: nothing there."""
+        """Measure depth along the optical axis at ``time`` [s], (h, w) [m]; +inf: no surface."""
 
     def info(self, time: float) -> CameraInfo:
-        """Build its CameraInfo, stamped ``time`` [s]."""
+        """Create the camera's CameraInfo, stamped ``time`` [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RangeImageSensorToROSImageSpec(InterfaceSpec):
-    """Publishes a depth camera as sensor_msgs/Image and CameraInfo."""
+    """A publisher of a depth camera as sensor_msgs/Image and CameraInfo."""
 
     sources: ClassVar[tuple[str, ...]] = CAMERAS
     messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "info_topic": CameraInfo}
 
     camera_name: str
-    """Name of the depth camera."""
+    """The name of the depth camera."""
     image_topic: str
-    """Topic of the images."""
+    """The topic of the images."""
     info_topic: str
-    """Topic of the camera's description."""
+    """The topic of the camera's description."""
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> DepthImagePublisher:
-        """Publish from now on; raises UnknownName if there is no such camera."""
+        """Start to publish; raises UnknownName if there is no such camera."""
         return publish_depth(
             world, self.camera_name, (self.image_topic, self.info_topic), self.rate
         )
 
 
 class DepthImagePublisher(Interface):
-    """Publishes the depth of a camera; without a reader nothing is measured."""
+    """A publisher of the depth of a camera; nothing is measured without a subscriber."""
 
     def __init__(self, name: str, image_topic: str, info_topic: str, world: TopicWorld) -> None:
-        camera = _find(world, name)
+        camera = _find_camera(world, name)
         self._camera, self._world = camera, world
         self._image_topic, self._info_topic = image_topic, info_topic
         self._publish_image = world.sensors.publisher(name, image_topic, Image)
@@ -85,21 +85,21 @@ class DepthImagePublisher(Interface):
 
 @dataclass(frozen=True, kw_only=True)
 class RangeCameraToPCLSpec(InterfaceSpec):
-    """Publishes a depth camera as sensor_msgs/PointCloud2."""
+    """A publisher of a depth camera as sensor_msgs/PointCloud2."""
 
     sources: ClassVar[tuple[str, ...]] = CAMERAS
     messages: ClassVar[Mapping[str, type]] = {"topic": PointCloud2}
 
     camera_name: str
-    """Name of the depth camera."""
+    """The name of the depth camera."""
     topic: str
-    """Name of the topic."""
+    """The name of the topic."""
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> PointCloudPublisher:
-        """Publish from now on; raises UnknownName if there is no such camera."""
-        camera = _find(world, self.camera_name)
+        """Start to publish; raises UnknownName if there is no such camera."""
+        camera = _find_camera(world, self.camera_name)
         publisher = PointCloudPublisher(camera, self.camera_name, self.topic, world)
         is_read = partial(world.bus.has_readers, self.topic)
         world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
@@ -107,9 +107,9 @@ class RangeCameraToPCLSpec(InterfaceSpec):
 
 
 class PointCloudPublisher(Interface):
-    """Publishes the depth of a camera as points in its optical frame, one a pixel.
+    """A publisher of the depth of a camera as points in its optical frame, one for each pixel.
 
-    The frame has the name of the camera, as on ``/tf``. A pixel that sees nothing is NaN.
+    The frame has the name of the camera, as on ``/tf``. A pixel that shows no surface is NaN.
     """
 
     def __init__(self, camera: DepthCamera, frame_id: str, topic: str, world: TopicWorld) -> None:
@@ -120,14 +120,14 @@ class PointCloudPublisher(Interface):
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
         time = self._world.time
-        places = optical_points(self._camera.depth(time), self._camera.intrinsics)
-        self._publish(point_cloud(places, time=time, frame_id=self._frame_id))
+        optical_positions = optical_points(self._camera.depth(time), self._camera.intrinsics)
+        self._publish(point_cloud(optical_positions, time=time, frame_id=self._frame_id))
 
 
-def optical_points(depth: Array, lens: Intrinsics) -> Array:
-    """Return the point of each pixel, (h, w, 3) [m]: x right, y down, z ahead; NaN: nothing."""
-    ahead = np.where(np.isfinite(depth), depth, np.nan)
-    points: Array = lens.rays() * [1.0, -1.0, -1.0] * ahead[..., None]
+def optical_points(depth: Array, intrinsics: Intrinsics) -> Array:
+    """Return the point of each pixel, (h, w, 3) [m]: x right, y down, z ahead; NaN: no surface."""
+    measured_depth = np.where(np.isfinite(depth), depth, np.nan)
+    points: Array = intrinsics.rays() * [1.0, -1.0, -1.0] * measured_depth[..., None]
     return points
 
 
@@ -144,7 +144,7 @@ def publish_depth(
     return publisher
 
 
-def _find(world: TopicWorld, name: str) -> DepthCamera:
+def _find_camera(world: TopicWorld, name: str) -> DepthCamera:
     camera = world.sensors.sensor(name, CAMERAS)
     if not isinstance(camera, DepthCamera):
         raise UnknownName("camera", name, ())

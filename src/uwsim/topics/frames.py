@@ -1,4 +1,4 @@
-"""Frames of a scene, as transforms of ROS's ``/tf``."""
+"""The frames of a scene, as transforms on ROS's ``/tf``."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ TF = "/tf"
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """A named frame and where it is in another."""
+    """A named frame and its pose in another frame."""
 
     parent: str
-    """Name of the other frame; empty: L, whatever the interface calls it."""
+    """The name of the other frame; empty: L, whatever its name in the interface."""
     child: str
-    """Its name."""
+    """The name of the frame."""
     parent_from_child: Callable[[], Pose]
-    """Returns where it is now."""
+    """A function that returns the present pose."""
     is_fixed: bool = False
-    """Whether it stays there."""
+    """A flag: the pose is constant."""

@@ -1,4 +1,4 @@
-"""The interface of the elements of ``<rosInterfaces>``, and the world as they see it."""
+"""The base of the elements of ``<rosInterfaces>``, and the protocol of the world for them."""
 
 from __future__ import annotations
 
@@ -24,19 +24,19 @@ from .frames import Frame
 
 M = TypeVar("M")
 MAX_RATE = 10_000
-"""Nothing is published more often [Hz]."""
+"""The greatest rate of publication [Hz]."""
 MIN_RATE = 0.001
-"""Nor less often [Hz]."""
+"""The smallest rate of publication [Hz]."""
 
 
 class BodyContacts(Protocol):
-    """Contacts between bodies, as an interface sees them."""
+    """The contacts between bodies, for interfaces."""
 
     def is_possible(self, name: str) -> bool:
-        """Whether there is a vehicle or object of that name, with a shape that others touch."""
+        """Return whether a vehicle or object has that name and a collision shape."""
 
     def find(self, name: str) -> Sequence[Contact]:
-        """Find where a vehicle or object touches others now; UnknownName if there is none."""
+        """Find the present contacts of a vehicle or object; UnknownName if there is none."""
 
 
 class TopicSensors(Protocol):
@@ -49,31 +49,31 @@ class TopicSensors(Protocol):
         """Find a sensor or device of one of these elements that publishes; UnknownName if none."""
 
     def publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
-        """Return what publishes the messages of a sensor on a topic, with the sensor's faults."""
+        """Return a function that publishes messages of a sensor on a topic, with its faults."""
 
     def has_faults(self, sensor: str) -> bool:
-        """Whether something becomes of the messages of a sensor before they are published."""
+        """Return whether faults change the messages of a sensor before they are published."""
 
 
 class Segmenter(Protocol):
-    """Images of the bodies that pixels see."""
+    """Images of the bodies that pixels show."""
 
     @property
     def part_names(self) -> Mapping[int, str]:
-        """Number in segmentation images -> ``vehicle/link`` or object."""
+        """The names of bodies by their number in images: ``vehicle/link`` or an object."""
 
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> npt.NDArray[np.uint16]:
-        """Return the number of the body that each pixel sees, (h, w); 0: none."""
+        """Return the number of the body that each pixel shows, (h, w); 0: none."""
 
 
 class TopicWorld(TimedWorld, Protocol):
-    """The world as an interface sees it: vehicles, sensors, frames, timers and commands."""
+    """The world for an interface: vehicles, sensors, frames, timers and commands."""
 
     @property
     def world_from_localized(self) -> Pose:
-        """W from L: the scene's offset."""
+        """The pose of L in W: the scene's offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
@@ -81,7 +81,7 @@ class TopicWorld(TimedWorld, Protocol):
 
     @property
     def is_blind(self) -> bool:
-        """Whether images are black and nothing is drawn."""
+        """A flag: images are black and nothing is drawn."""
 
     def body(self, name: str) -> Body:
         """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""
@@ -95,17 +95,17 @@ class TopicWorld(TimedWorld, Protocol):
 
     @property
     def contacts(self) -> BodyContacts:
-        """Contacts between bodies."""
+        """The contacts between bodies."""
 
     @property
     def segmenter(self) -> Segmenter:
-        """What tells which body a pixel sees."""
+        """The segmentation of images into bodies."""
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""
 
     def marker_frames(self) -> Sequence[Frame]:
-        """List the frames of the markers that are there now."""
+        """List the frames of the markers that exist now."""
 
     def every(
         self,
@@ -115,20 +115,20 @@ class TopicWorld(TimedWorld, Protocol):
         is_needed: Callable[[], bool] | None = None,
         sampling: Sampling | None = None,
     ) -> Callable[[], None]:
-        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop.
+        """Call ``call`` at the samples of ``rate`` [Hz] from now on; return a function to stop.
 
-        With ``is_needed`` it is called only where that says so; ``sampling`` takes a sample before,
-        needed or not.
+        With ``is_needed`` it is called only if that returns True; ``sampling`` takes a sample
+        before, needed or not.
         """
 
     def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
-        """Return what has ``apply(message)`` called at the start of the next step."""
+        """Return a function that defers ``apply(message)`` to the start of the next step."""
 
 
 def rate_element() -> Any:
     """Declare the field of a rate."""
-    lenient = Original(allows_trailing_text=True)
-    return element(default=10.0, minimum=MIN_RATE, maximum=MAX_RATE, original=lenient)
+    original = Original(allows_trailing_text=True)
+    return element(default=10.0, minimum=MIN_RATE, maximum=MAX_RATE, original=original)
 
 
 def sample_rate(rate: float, world: TopicWorld) -> float:
@@ -137,18 +137,18 @@ def sample_rate(rate: float, world: TopicWorld) -> float:
 
 
 class Interface:
-    """A bound interface: it publishes or subscribes from the time it is bound."""
+    """A bound interface: it publishes or subscribes from its binding on."""
 
     state: Record = NoState()
-    """All that changes of it as time goes by; `Simulation.save` keeps it."""
+    """The record of all that changes with time; `Simulation.save` stores it."""
 
 
 @runtime_checkable
-class Binds(Protocol):
+class SimulatedInterface(Protocol):
     """The spec of a simulated interface; one without ``bind`` is read and has no effect."""
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Find its vehicle or sensor and start it; raises UnknownName if there is none."""
+        """Resolve the vehicle or sensor and start; raises UnknownName if there is none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,21 +156,21 @@ class InterfaceSpec(Spec):
     """An element of ``<rosInterfaces>``."""
 
     subscribes: ClassVar[bool] = False
-    """Whether it takes messages; the others publish them."""
+    """A flag: it subscribes to its topics; otherwise it publishes on them."""
     sources: ClassVar[tuple[str, ...]] = ()
-    """Elements of which it may name one; none: it names nothing."""
+    """The elements of which it may name one; empty: it names none."""
     messages: ClassVar[Mapping[str, type]] = {}
-    """Types of its messages, by the field that names the topic."""
+    """The types of its messages, by the field that names the topic."""
 
     @classmethod
-    def carries(cls) -> Mapping[str, type]:
+    def message_types(cls) -> Mapping[str, type]:
         """Return the types of its messages, by the field that names the topic."""
         return cls.messages
 
     @classmethod
     def is_simulated(cls) -> bool:
-        """Whether it is simulated."""
-        return issubclass(cls, Binds)
+        """Return whether the interface is simulated."""
+        return issubclass(cls, SimulatedInterface)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -180,9 +180,9 @@ class VehicleTopicSpec(InterfaceSpec):
     sources: ClassVar[tuple[str, ...]] = ("vehicle",)
 
     topic: str
-    """Name of the topic."""
+    """The name of the topic."""
     vehicle_name: str
-    """Name of the vehicle."""
+    """The name of the vehicle."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -190,23 +190,23 @@ class VehiclePublisherSpec(VehicleTopicSpec):
     """An interface that publishes a quantity of a vehicle."""
 
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
 
 
-def is_needed(bus: Bus, topic: str) -> bool:
-    """Whether anyone reads a topic now, or may later ask for what is published on it now."""
+def is_sample_needed(bus: Bus, topic: str) -> bool:
+    """Return whether a topic has a subscriber, or its present message may be requested later."""
     return bus.keeps_unread or bus.has_readers(topic)
 
 
 class SampledTopic(Interface):
-    """Publishes the samples that compiled code takes.
+    """A publisher of the samples that compiled code takes.
 
-    A message is made where somebody reads the topic, and of the newest sample when it is asked for.
+    A message is created if the topic has a subscriber, or of the newest sample on request.
 
     Args:
-        topic: its name.
-        sampler: what takes the samples.
-        make: makes a message of the time and the numbers of a sample; None for none.
+        topic: the name of the topic.
+        sampler: the sampler of the values.
+        make: creates a message of the time and the values of a sample; None for none.
         publish: publishes a message.
     """
 
@@ -227,27 +227,27 @@ class SampledTopic(Interface):
         """Take samples from now on.
 
         Args:
-            rate: how often [Hz].
-            world: which takes them.
-            is_faulty: whether something becomes of each message before it is published.
-            is_pure: whether a sample changes nothing, so that it need not be taken for nobody.
+            rate: the rate of the samples [Hz].
+            world: the world that takes them.
+            is_faulty: faults change each message before it is published.
+            is_pure: a sample changes nothing, so none is taken without a subscriber.
         """
         bus, topic = world.bus, self._topic
         sampling = Sampling(
-            self._sampler, self.state, partial(is_needed, bus, topic) if is_pure else None
+            self._sampler, self.state, partial(is_sample_needed, bus, topic) if is_pure else None
         )
         is_read = None if is_faulty else bus.reader_check(topic)
         if not is_faulty:
-            bus.defer_unread(topic, self.newest)
+            bus.defer_unread(topic, self.newest_message)
         world.every(sample_rate(rate, world), self.publish, is_needed=is_read, sampling=sampling)
 
-    def newest(self) -> object | None:
-        """Make the message of the newest sample; None before the first."""
+    def newest_message(self) -> object | None:
+        """Create the message of the newest sample; None before the first."""
         numbers = self.state.numbers
         time = float(numbers[0])
         return None if math.isnan(time) else self._make(time, numbers[1:])
 
     def publish(self) -> None:
         """Publish the newest sample."""
-        if (message := self.newest()) is not None:
+        if (message := self.newest_message()) is not None:
             self._publish(message)

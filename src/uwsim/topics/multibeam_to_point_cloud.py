@@ -1,4 +1,4 @@
-r"""u:multibeamToPointCloud2: the points that a multibeam or profiling sonar hits, as a cloud.
+r"""u:multibeamToPointCloud2: the hits of a multibeam or profiling sonar as a point cloud.
 
 .. code-block:: xml
 
@@ -7,8 +7,8 @@ r"""u:multibeamToPointCloud2: the points that a multibeam or profiling sonar hit
     </u:multibeamToPointCloud2>
 
 A beam at the angle :math:`a` with the range :math:`r` is the point :math:`(r \cos a, r \sin a, 0)`
-of the sensor's frame, as of its LaserScan; a beam that hits nothing within the range is left out.
-Each message is a sample of its own: its noise is not that of the LaserScan of the same time.
+of the sensor's frame, as of its LaserScan; a beam without a hit within the range is left out.
+Each message is a separate sample: its noise is not that of the LaserScan of the same time.
 """
 
 from __future__ import annotations
@@ -27,30 +27,30 @@ from .sensor_topic import SensorPublisher, SensorTopicSpec
 
 @dataclass(frozen=True, kw_only=True)
 class MultibeamToPointCloud2Spec(SensorTopicSpec):
-    """Publishes the hits of a multibeam or profiling sonar as sensor_msgs/PointCloud2."""
+    """A publisher of the hits of a multibeam or profiling sonar as sensor_msgs/PointCloud2."""
 
     sources: ClassVar[tuple[str, ...]] = ("multibeamSensor", "ProfilingSonar")
 
     @classmethod
-    def carries(cls) -> Mapping[str, type]:
+    def message_types(cls) -> Mapping[str, type]:
         """Return the message type."""
         return {"topic": PointCloud2}
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Publish the sensor from now on; raises UnknownName if it is not there."""
+        """Start to publish; raises UnknownName if there is no such sensor."""
         sensor = world.sensors.sensor(self.name, self.sources)
         publish = world.sensors.publisher(self.name, self.topic, PointCloud2)
-        publisher = SensorPublisher(sensor, partial(_publish, publish), lambda: world.time)
+        publisher = SensorPublisher(sensor, partial(_publish_cloud, publish), lambda: world.time)
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 
-def _publish(publish: Callable[[object], None], scan: object) -> None:
+def _publish_cloud(publish: Callable[[object], None], scan: object) -> None:
     assert isinstance(scan, LaserScan)
-    publish(cloud_of(scan))
+    publish(scan_point_cloud(scan))
 
 
-def cloud_of(scan: LaserScan) -> PointCloud2:
+def scan_point_cloud(scan: LaserScan) -> PointCloud2:
     """Return the hits of a scan as points of its frame [m]."""
     ranges = scan.ranges.astype(np.float64)
     angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))

@@ -1,4 +1,4 @@
-"""PATToROSOdom: publishes the odometry of a vehicle.
+"""PATToROSOdom: the odometry of a vehicle on a topic.
 
 As in the original the frames have no name, the covariances are zero, and the twist of a vehicle
 that is not simulated is zero.
@@ -32,19 +32,19 @@ from .interface import SampledTopic, TopicWorld, VehiclePublisherSpec
 
 @dataclass(frozen=True, kw_only=True)
 class PATToROSOdomSpec(VehiclePublisherSpec):
-    """Publishes the pose of a vehicle as nav_msgs/Odometry."""
+    """A publisher of the pose of a vehicle as nav_msgs/Odometry."""
 
     messages: ClassVar[Mapping[str, type]] = {"topic": Odometry}
 
     def bind(self, world: TopicWorld) -> SampledTopic:
-        """Publish from now on; raises UnknownName if there is no such vehicle."""
+        """Start to publish; raises UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
         localized_from_world = world.world_from_localized.inverse()
-        make = partial(odometry, localized_from_world, vehicle.autopilot is not None)
+        make_message = partial(odometry, localized_from_world, vehicle.autopilot is not None)
         publish = world.bus.publisher(self.topic, Odometry)
-        sampled = SampledTopic(self.topic, vehicle.compiled.base_sampler(), make, publish)
-        sampled.begin(self.rate, world)
-        return sampled
+        topic = SampledTopic(self.topic, vehicle.compiled.base_sampler(), make_message, publish)
+        topic.begin(self.rate, world)
+        return topic
 
 
 def odometry(
@@ -53,10 +53,10 @@ def odometry(
     """Return the base in L and, of a simulated vehicle, its twist over ground, base axes.
 
     Args:
-        localized_from_world: L from W.
-        is_simulated: whether the vehicle is.
-        time: of the sample [s].
-        values: of `CompiledVehicle.base_sampler`, (18,).
+        localized_from_world: the pose of W in L.
+        is_simulated: the vehicle is simulated.
+        time: the time of the sample [s].
+        values: the values of `CompiledVehicle.base_sampler`, (18,).
     """
     world_from_base = PoseOfBody(values[:3].copy(), values[3:12].reshape(3, 3).copy())
     pose = localized_from_world @ world_from_base

@@ -1,8 +1,8 @@
-"""ROSJointStateToArm: commands the joints of a vehicle, by servos if it is simulated.
+"""ROSJointStateToArm: commands for the joints of a vehicle; servos apply them if it is simulated.
 
-Positions, else velocities, else efforts. The joints of a vehicle that is not simulated are put
-there, clamped to their limits, or moved by one step of the velocities. Not modelled: that a
-command is refused when the arm would touch something.
+Positions are applied, else velocities, else efforts. The joints of a vehicle that is not simulated
+are set, clamped to their limits, or moved by one step of the velocities. Not modelled: the refusal
+of a command because of a collision of the arm.
 """
 
 from __future__ import annotations
@@ -23,91 +23,93 @@ from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_twist_to_pat import Gap, GapState
 
 MAX_VALUE = sys.float_info.max
-"""Of joints and servos the limits are those in the robot file."""
+"""The greatest command; the limits of joints and servos are those of the robot file."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSJointStateToArmSpec(VehicleTopicSpec):
-    """Moves the joints of a vehicle by sensor_msgs/JointState."""
+    """A subscription to commands for the joints of a vehicle as sensor_msgs/JointState."""
 
     subscribes: ClassVar[bool] = True
 
     messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
 
     def bind(self, world: TopicWorld) -> JointCommand:
-        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raises UnknownName if there is no such vehicle."""
         command = JointCommand(world.vehicle(self.vehicle_name), Gap(world))
         world.bus.subscribe(
             self.topic,
             JointState,
-            world.at_next_step(command.obey),
-            remark=lambda m: find_invalid_number(m, [field_that_counts(m)], MAX_VALUE),
+            world.at_next_step(command.apply_command),
+            remark=lambda m: find_invalid_number(m, [used_field(m)], MAX_VALUE),
         )
         return command
 
 
-def field_that_counts(message: JointState) -> str:
-    """Positions, else velocities, else efforts."""
+def used_field(message: JointState) -> str:
+    """Return the name of the first nonempty field of position, velocity, effort."""
     if message.position.size:
         return "position"
     return "velocity" if message.velocity.size else "effort"
 
 
 class JointCommand(Interface):
-    """Moves the joints of a vehicle."""
+    """A command for the joints of a vehicle."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
-        self._names = list(vehicle.joint_names)
-        self._named: list[str] = []  # by the newest message
-        self._places: Numbers = np.arange(len(self._names))  # of those in the joint vector, or -1
+        self._joint_names = list(vehicle.joint_names)
+        self._message_names: list[str] = []  # in the newest message
+        self._joint_indices: Numbers = np.arange(len(self._joint_names))  # -1: no such joint
         self.state: GapState = gap.state
 
-    def obey(self, message: JointState) -> None:
-        """Take positions, else velocities, else efforts."""
+    def apply_command(self, message: JointState) -> None:
+        """Apply positions, else velocities, else efforts."""
         servos = self._vehicle.servos
         if servos is not None:
-            self._steer(servos, message)
+            self._command_servos(servos, message)
             return
         joints = self._vehicle.joints  # (n,) [rad or m]
         if message.position.size:
-            numbers, values = self._numbered(message, message.position)
-            joints[numbers] = values
+            joint_indices, values = self._select_joints(message, message.position)
+            joints[joint_indices] = values
         elif message.velocity.size:
-            numbers, values = self._numbered(message, message.velocity)
-            joints[numbers] += values * self._gap.take()
+            joint_indices, values = self._select_joints(message, message.velocity)
+            joints[joint_indices] += values * self._gap.measure()
         self._vehicle.set_joints(joints)
 
-    def _steer(self, servos: Servos, message: JointState) -> None:
+    def _command_servos(self, servos: Servos, message: JointState) -> None:
         if message.position.size:
-            servos.aim(*self._numbered(message, message.position))
+            servos.aim(*self._select_joints(message, message.position))
         elif message.velocity.size:
-            servos.drive(*self._numbered(message, message.velocity))
+            servos.drive(*self._select_joints(message, message.velocity))
         else:
-            servos.push(*self._numbered(message, message.effort))
+            servos.push(*self._select_joints(message, message.effort))
 
-    def _numbered(self, message: JointState, given: Array) -> tuple[Numbers, Array]:
-        """The joints and their values, (n,) each; by name, or without names in order.
+    def _select_joints(self, message: JointState, commands: Array) -> tuple[Numbers, Array]:
+        """Return joint indices and values, (n,) each; by name, or without names in order.
 
-        Left out are unknown joints and values that are not finite; of a joint that is named twice
-        the last value counts.
+        Unknown joints and values that are not finite are left out; of a joint that is named twice
+        the last value is used.
         """
-        if message.name != self._named:
-            self._named = list(message.name)
-            named = self._named or self._names
-            self._places = np.array([self._place(name) for name in named], np.int64)
-        n = min(len(self._places), len(given))
-        places, values = self._places[:n], np.array(given[:n], dtype=np.float64)
-        last = {
-            place: i
-            for i, (place, value) in enumerate(zip(places.tolist(), values.tolist(), strict=True))
-            if place >= 0 and math.isfinite(value)
+        if message.name != self._message_names:
+            self._message_names = list(message.name)
+            names = self._message_names or self._joint_names
+            self._joint_indices = np.array([self._joint_index(name) for name in names], np.int64)
+        n = min(len(self._joint_indices), len(commands))
+        joint_indices, values = self._joint_indices[:n], np.array(commands[:n], dtype=np.float64)
+        last_rows = {
+            index: i
+            for i, (index, value) in enumerate(
+                zip(joint_indices.tolist(), values.tolist(), strict=True)
+            )
+            if index >= 0 and math.isfinite(value)
         }
-        if len(last) == n:
-            return places, values
-        chosen = list(last.values())
-        return places[chosen], values[chosen]
+        if len(last_rows) == n:
+            return joint_indices, values
+        rows = list(last_rows.values())
+        return joint_indices[rows], values[rows]
 
-    def _place(self, name: str) -> int:
-        """Number of a joint in the joint vector; below 0 there is none."""
-        return self._names.index(name) if name in self._names else -1
+    def _joint_index(self, name: str) -> int:
+        """Return the index of a joint in the joint vector; -1 if there is none."""
+        return self._joint_names.index(name) if name in self._joint_names else -1

@@ -1,4 +1,4 @@
-"""ROSOdomToPAT: moves a vehicle by odometry: by its pose or, where that is all zero, its twist."""
+"""ROSOdomToPAT: commands for a vehicle by odometry: its pose or, if that is all zero, its twist."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from ..base.message_fields import find_invalid_number
 from ..bus import Remark
 from ..messages import Odometry
 from .interface import Interface, TopicWorld, VehicleTopicSpec
-from .ros_pose_to_pat import PoseCommand, odd_pose
+from .ros_pose_to_pat import PoseCommand, check_pose
 from .ros_twist_to_pat import TWIST, Gap, GapState, TwistCommand
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSOdomToPATSpec(VehicleTopicSpec):
-    """Moves a vehicle by nav_msgs/Odometry.
+    """A subscription that moves a vehicle by nav_msgs/Odometry.
 
-    A position or turn that is not all zero puts it there, in L; else it goes on by the twist, in
-    its own axes, for the time since the twist before (1 s at most). A pose takes no time from a
-    twist.
+    A position or orientation that is not all zero sets the pose in L. Otherwise the vehicle moves
+    by the twist, in its own axes, for the interval since the previous twist (1 s at most). Poses do
+    not affect that interval.
     """
 
     subscribes: ClassVar[bool] = True
@@ -29,7 +29,7 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": Odometry}
 
     def bind(self, world: TopicWorld) -> OdometryCommand:
-        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raises UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
         command = OdometryCommand(
             PoseCommand(vehicle, world.world_from_localized), TwistCommand(vehicle, Gap(world))
@@ -37,35 +37,35 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             Odometry,
-            world.at_next_step(command.obey),
-            remark=odd_odometry,
+            world.at_next_step(command.apply_command),
+            remark=check_odometry,
         )
         return command
 
 
 def has_pose(odometry: Odometry) -> bool:
-    """Whether its position or turn is not all zero: it is the pose that counts then."""
+    """Return whether the position or orientation is not all zero; then the pose is applied."""
     p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
     return any((p.x, p.y, p.z, q.x, q.y, q.z))
 
 
-def odd_odometry(odometry: Odometry) -> Remark | None:
-    """Report what is odd about the pose, or the twist, that counts."""
+def check_odometry(odometry: Odometry) -> Remark | None:
+    """Report an invalid number in the pose or the twist, whichever is applied."""
     if has_pose(odometry):
-        return odd_pose(odometry, "pose.pose.")
+        return check_pose(odometry, "pose.pose.")
     return find_invalid_number(odometry, [f"twist.{path}" for path in TWIST], MAX_COMMAND)
 
 
 class OdometryCommand(Interface):
-    """Sets the pose of a vehicle or moves it by a twist."""
+    """A command that sets the pose of a vehicle or moves it by a twist."""
 
     def __init__(self, pose: PoseCommand, twist: TwistCommand) -> None:
         self._pose, self._twist = pose, twist
         self.state: GapState = twist.state
 
-    def obey(self, odometry: Odometry) -> None:
-        """Take a pose in L, or a twist in the base's axes."""
+    def apply_command(self, odometry: Odometry) -> None:
+        """Apply a pose in L, or a twist in the base's axes."""
         if has_pose(odometry):
-            self._pose.obey(odometry.pose.pose)
+            self._pose.apply_command(odometry.pose.pose)
         else:
-            self._twist.obey(odometry.twist.twist)
+            self._twist.apply_command(odometry.twist.twist)

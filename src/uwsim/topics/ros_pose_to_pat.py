@@ -1,4 +1,4 @@
-"""ROSPoseToPAT: sets the pose of a vehicle; a simulated one moves there."""
+"""ROSPoseToPAT: commands for the pose of a vehicle; a simulated one moves there."""
 
 from __future__ import annotations
 
@@ -18,61 +18,60 @@ from ..vehicle import Vehicle, go_or_place
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 MAX_VALUE = sys.float_info.max
-"""Of a quaternion, whose length does not matter."""
+"""The greatest element of a quaternion, whose length does not matter."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSPoseToPATSpec(VehicleTopicSpec):
-    """Moves a vehicle by geometry_msgs/Pose."""
+    """A subscription that moves a vehicle by geometry_msgs/Pose."""
 
     subscribes: ClassVar[bool] = True
 
     messages: ClassVar[Mapping[str, type]] = {"topic": PoseMessage}
 
     def bind(self, world: TopicWorld) -> PoseCommand:
-        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raises UnknownName if there is no such vehicle."""
         command = PoseCommand(world.vehicle(self.vehicle_name), world.world_from_localized)
         world.bus.subscribe(
             self.topic,
             PoseMessage,
-            world.at_next_step(command.obey),
-            remark=odd_pose,
+            world.at_next_step(command.apply_command),
+            remark=check_pose,
         )
         return command
 
 
 class PoseCommand(Interface):
-    """Sets the pose of a vehicle, or the goal of its autopilot."""
+    """A command for the pose of a vehicle, or the goal of its autopilot."""
 
     def __init__(self, vehicle: Vehicle, world_from_localized: Pose) -> None:
         self._vehicle, self._world_from_localized = vehicle, world_from_localized
 
-    def obey(self, pose: PoseMessage) -> None:
-        """Take a pose in L; an invalid quaternion counts as no rotation."""
+    def apply_command(self, pose: PoseMessage) -> None:
+        """Apply a pose in L; an invalid quaternion counts as no rotation."""
         localized_from_base = pose_in_localized(pose)
         if localized_from_base is not None:
             go_or_place(self._vehicle, self._world_from_localized @ localized_from_base)
 
 
-def odd_pose(message: object, at: str = "") -> Remark | None:
-    """Report a position that is no place, or an orientation that is not finite.
+def check_pose(message: object, prefix: str = "") -> Remark | None:
+    """Report an invalid position, or an orientation that is not finite.
 
     Args:
-        message: that has the pose.
-        at: path to the pose in it, with a dot behind it.
+        message: the message with the pose.
+        prefix: the path to the pose in it, with a dot at its end.
     """
-    positions = [f"{at}position.{axis}" for axis in "xyz"]
-    found = find_invalid_number(message, positions, MAX_COMMAND)
-    if found is None:
-        odd = find_invalid_number(
-            message, [f"{at}orientation.{axis}" for axis in "xyzw"], MAX_VALUE
-        )
-        found = None if odd is None else (odd[0], "a finite number; it counts as no rotation")
-    return found
+    positions = [f"{prefix}position.{axis}" for axis in "xyz"]
+    remark = find_invalid_number(message, positions, MAX_COMMAND)
+    if remark is None:
+        elements = [f"{prefix}orientation.{axis}" for axis in "xyzw"]
+        remark = find_invalid_number(message, elements, MAX_VALUE)
+        remark = remark and (remark[0], "a finite number; it counts as no rotation")
+    return remark
 
 
 def pose_in_localized(pose: PoseMessage) -> Pose | None:
-    """Return a message's pose, in L; None if its position is no place.
+    """Return a message's pose, in L; None if its position is not finite.
 
     An invalid quaternion counts as no rotation.
     """

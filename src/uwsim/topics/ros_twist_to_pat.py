@@ -1,4 +1,4 @@
-"""ROSTwistToPAT, u:ROSCmdVelToPAT: move a vehicle by twists; a simulated one holds the last.
+"""ROSTwistToPAT, u:ROSCmdVelToPAT: twists for a vehicle; a simulated one holds the last twist.
 
 .. code-block:: xml
 
@@ -6,14 +6,14 @@
       <topic>/cmd_vel</topic> <vehicleName>girona500</vehicleName>
     </u:ROSCmdVelToPAT>
 
-A velocity moves a vehicle that is not simulated by the time since the velocity before it on its
-interface (nothing for the first, or after more than 1 s). Time is simulation time, where the
-original took the wall's.
+A velocity moves a vehicle that is not simulated for the interval since the previous velocity of its
+interface (0 for the first, or after more than 1 s). The interval is in simulation time; the
+original uses wall time.
 
 ``cmd_vel``, as common teleoperation programs send it, is a Twist in the axes of REP 103: x forward,
 y to the left, z up. A vehicle whose z axis points down at the start, as those of UWSim do, has
-forward, right and down as its axes: y and z of both vectors change sign. Not modelled: that a
-vehicle stops when the program is silent; a simulated one holds the last twist.
+forward, right and down as its axes: y and z of both vectors change sign. Not modelled: a stop of
+the vehicle when the program stops sending; a simulated one holds the last twist.
 """
 
 from __future__ import annotations
@@ -34,18 +34,18 @@ from ..vehicle import Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 TWIST = tuple(f"twist.{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")
-"""Numbers of a twist."""
+"""The fields of a TwistStamped."""
 CMD_VEL = tuple(f"{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")
-"""Numbers of a Twist."""
+"""The fields of a Twist."""
 MAX_GAP = 1.0
-"""After a longer silence a velocity moves nothing [s]."""
+"""The longest interval between two velocities after which the second moves the vehicle [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSTwistToPATSpec(VehicleTopicSpec):
-    """Moves a vehicle by geometry_msgs/TwistStamped in its own axes.
+    """A subscription that moves a vehicle by geometry_msgs/TwistStamped in its own axes.
 
-    It goes on for the time since the message before; nothing is held after more than 1 s.
+    It moves for the interval since the previous message; after more than 1 s it does not move.
     """
 
     subscribes: ClassVar[bool] = True
@@ -53,28 +53,28 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": TwistStamped}
 
     def bind(self, world: TopicWorld) -> TwistCommand:
-        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raises UnknownName if there is no such vehicle."""
         command = TwistCommand(world.vehicle(self.vehicle_name), Gap(world))
-        obey = world.at_next_step(command.obey)
+        apply_command = world.at_next_step(command.apply_command)
         world.bus.subscribe(
             self.topic,
             TwistStamped,
-            lambda m: obey(m.twist),
+            lambda m: apply_command(m.twist),
             remark=lambda m: find_invalid_number(m, TWIST, MAX_COMMAND),
         )
         return command
 
 
 class TwistCommand(Interface):
-    """Moves a vehicle by one step of a twist, or has its autopilot hold it."""
+    """A command that moves a vehicle by one step of a twist, or that its autopilot holds."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
         self.state: GapState = gap.state
 
-    def obey(self, twist: Twist) -> None:
-        """Take a twist in the base's axes; one that is not finite is ignored."""
-        time = self._gap.take()
+    def apply_command(self, twist: Twist) -> None:
+        """Apply a twist in the base's axes; one that is not finite is ignored."""
+        time = self._gap.measure()
         v, w = twist.linear, twist.angular
         numbers = [float(x) for x in (v.x, v.y, v.z, w.x, w.y, w.z)]
         if not all(map(math.isfinite, numbers)):
@@ -89,9 +89,9 @@ class TwistCommand(Interface):
 
 @dataclass(frozen=True, kw_only=True)
 class ROSCmdVelToPATSpec(VehicleTopicSpec):
-    """Moves a vehicle by geometry_msgs/Twist: x forward, y to the left, z up (REP 103).
+    """A subscription that moves a vehicle by geometry_msgs/Twist: x forward, y left, z up.
 
-    It goes on for the time since the message before; nothing is held after more than 1 s.
+    It moves for the interval since the previous message; after more than 1 s it does not move.
     """
 
     subscribes: ClassVar[bool] = True
@@ -99,7 +99,7 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": Twist}
 
     def bind(self, world: TopicWorld) -> CmdVelCommand:
-        """Listen from now on; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raises UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
         z_points_up = vehicle.world_from_base.rotation[2, 2] > 0.0
         command = CmdVelCommand(TwistCommand(vehicle, Gap(world)), 1.0 if z_points_up else -1.0)
@@ -113,7 +113,7 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
 
 
 class CmdVelCommand(Interface):
-    """Moves a vehicle by twists in the axes of REP 103."""
+    """A command that moves a vehicle by twists in the axes of REP 103."""
 
     def __init__(self, twist: TwistCommand, sign: float) -> None:
         self._twist, self._sign = twist, sign
@@ -122,7 +122,7 @@ class CmdVelCommand(Interface):
     def apply_command(self, twist: Twist) -> None:
         """Apply a twist: forward, left, up."""
         v, w, sign = twist.linear, twist.angular, self._sign
-        self._twist.obey(
+        self._twist.apply_command(
             Twist(
                 linear=Vector3(v.x, sign * v.y, sign * v.z),
                 angular=Vector3(w.x, sign * w.y, sign * w.z),
@@ -132,23 +132,23 @@ class CmdVelCommand(Interface):
 
 @dataclass(slots=True)
 class GapState(Record):
-    """When a velocity came last."""
+    """The time of the last velocity."""
 
-    last: int | None = None
-    """The step at which it came."""
+    last_step: int | None = None
+    """The step at which it arrived."""
 
 
 class Gap:
-    """Time since the velocity before."""
+    """The interval between two velocities."""
 
     def __init__(self, world: TopicWorld) -> None:
         self._world = world
         self.state = GapState()
-        """When it came."""
+        """The time of the last velocity."""
 
-    def take(self) -> float:
-        """Return the time since the last call [s]; 0 for the first, or after a long silence."""
-        now, last = self._world.step, self.state.last
-        self.state.last = now
-        gap = 0.0 if last is None else (now - last) * self._world.timestep
+    def measure(self) -> float:
+        """Return the time since the last call [s]; 0 for the first or after `MAX_GAP`."""
+        now, last_step = self._world.step, self.state.last_step
+        self.state.last_step = now
+        gap = 0.0 if last_step is None else (now - last_step) * self._world.timestep
         return gap if gap <= MAX_GAP else 0.0

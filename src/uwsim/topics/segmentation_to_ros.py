@@ -1,4 +1,4 @@
-"""Segmentation of a camera's view on a topic: the body that each pixel sees, and a legend.
+"""The segmentation of a camera's image on a topic: the body that each pixel shows, and a legend.
 
 .. code-block:: xml
 
@@ -9,9 +9,9 @@
       <rate>10</rate>
     </u:segmentationToROS>
 
-The image is ``16UC1``: a number for each pixel, 0 where it sees no body. Water and noise have no
-influence on it. The legend is a JSON object in a std_msgs/String, which names every number of the
-scene, seen or not: ``{"0": "", "1": "girona500/base_link", "7": "blackbox"}``. A vehicle's link is
+The image is ``16UC1``: a number for each pixel, 0 where it shows no body. Water and noise have no
+influence on it. The legend is a JSON object in a std_msgs/String with the names of all numbers of
+the scene: ``{"0": "", "1": "girona500/base_link", "7": "blackbox"}``. A vehicle's link is
 ``vehicle/link``; sand over a buried object is ``sand/object``.
 """
 
@@ -31,22 +31,22 @@ from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sampl
 
 @dataclass(frozen=True, kw_only=True)
 class SegmentationToROSSpec(InterfaceSpec):
-    """Publishes the body that each pixel of a camera sees as sensor_msgs/Image, and a legend."""
+    """A publisher of the body that each pixel shows as sensor_msgs/Image, and a legend."""
 
     sources: ClassVar[tuple[str, ...]] = CAMERAS
     messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "legend_topic": String}
 
     camera_name: str
-    """Name of the camera."""
+    """The name of the camera."""
     image_topic: str
-    """Topic of the images: 16UC1, the number of the body in each pixel, 0 for none."""
+    """The topic of the images: 16UC1, the number of the body in each pixel, 0 for none."""
     legend_topic: str
-    """Topic of the legend: a JSON object with the name of the body of each number."""
+    """The topic of the legend: a JSON object with the name of the body of each number."""
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> SegmentationPublisher:
-        """Publish from now on; raises UnknownName if there is no such camera."""
+        """Start to publish; raises UnknownName if there is no such camera."""
         publisher = SegmentationPublisher(self, world)
         world.every(sample_rate(self.rate, world), publisher.publish)
         return publisher
@@ -54,7 +54,7 @@ class SegmentationToROSSpec(InterfaceSpec):
 
 @runtime_checkable
 class Pinhole(Protocol):
-    """A camera with a pose and a pinhole."""
+    """A camera with a pose and intrinsics."""
 
     @property
     def frame_id(self) -> str:
@@ -62,15 +62,15 @@ class Pinhole(Protocol):
 
     @property
     def intrinsics(self) -> Intrinsics:
-        """Its pinhole."""
+        """The intrinsics of the camera."""
 
     @property
     def world_from_camera(self) -> Pose:
-        """Where it is now; OpenGL axes."""
+        """The present pose of the camera; OpenGL axes."""
 
 
 class SegmentationPublisher(Interface):
-    """Publishes the segmentation of a camera; without a reader nothing is drawn."""
+    """A publisher of the segmentation of a camera; nothing is drawn without a subscriber."""
 
     def __init__(self, spec: SegmentationToROSSpec, world: TopicWorld) -> None:
         camera = world.sensors.sensor(spec.camera_name, CAMERAS)

@@ -4,9 +4,9 @@
 
     <u:sensorToROS> <name>imu</name> <topic>/g500/imu</topic> <rate>10</rate> </u:sensorToROS>
 
-What is published is what the sensor or device measures. ``u:sensorToROS`` names one of any kind;
-the other elements, which are older, each take those of some. Where none of the elements that an
-interface may name is simulated (has a ``bind``), the interface is not either.
+The messages are the samples of the sensor or device. ``u:sensorToROS`` names one of any kind; the
+other elements, which are older, name those of some kinds. An interface is simulated if one of the
+elements that it may name is simulated (has a ``bind``).
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from .interface import (
     InterfaceSpec,
     SampledTopic,
     TopicWorld,
-    is_needed,
+    is_sample_needed,
     rate_element,
     sample_rate,
 )
@@ -38,57 +38,57 @@ class SensorTopicSpec(InterfaceSpec):
     """An interface of a sensor or device with one topic."""
 
     name: str
-    """Name of the sensor or device."""
+    """The name of the sensor or device."""
     topic: str
-    """Name of the topic."""
+    """The name of the topic."""
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
 
     @classmethod
     def is_simulated(cls) -> bool:
-        """Whether one of its sources is."""
-        return bool(cls.carries())
+        """Return whether one of the sources is simulated."""
+        return bool(cls.message_types())
 
     @classmethod
-    def carries(cls) -> Mapping[str, type]:
+    def message_types(cls) -> Mapping[str, type]:
         """Return the message type of its sources."""
-        parts = _parts()
-        types = [measured_by(parts[source]) for source in cls.sources]
+        classes = _spec_classes()
+        types = [measured_by(classes[source]) for source in cls.sources]
         return next(({"topic": type_} for type_ in types if type_ is not None), {})
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Publish the sensor from now on; raises UnknownName if it is not there."""
+        """Start to publish; raises UnknownName if there is no such sensor."""
         sensor = world.sensors.sensor(self.name, self.sources)
-        part = self._part(sensor, world)
-        publish = world.sensors.publisher(self.name, self.topic, part.message_type)
+        spec_class = self._spec_class(sensor, world)
+        publish = world.sensors.publisher(self.name, self.topic, spec_class.message_type)
         if isinstance(sensor, CompiledSensor):
-            sampled = SampledTopic(self.topic, sensor.sampler, sensor.message, publish)
+            sampled_topic = SampledTopic(self.topic, sensor.sampler, sensor.message, publish)
             is_faulty = world.sensors.has_faults(self.name)
-            sampled.begin(self.rate, world, is_faulty=is_faulty, is_pure=part.is_pure)
-            return sampled
-        needed = partial(is_needed, world.bus, self.topic) if part.is_pure else None
+            sampled_topic.begin(self.rate, world, is_faulty=is_faulty, is_pure=spec_class.is_pure)
+            return sampled_topic
+        is_needed = partial(is_sample_needed, world.bus, self.topic) if spec_class.is_pure else None
         publisher = SensorPublisher(sensor, publish, lambda: world.time)
-        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=needed)
+        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_needed)
         return publisher
 
-    def _part(self, sensor: Sensor, world: TopicWorld) -> type[Any]:
+    def _spec_class(self, sensor: Sensor, world: TopicWorld) -> type[Any]:
         """Return the class of the sensor's spec; sensors of two kinds may share a name."""
-        parts = _parts()
+        classes = _spec_classes()
         for source in self.sources:
             with suppress(UnknownName):
                 if world.sensors.sensor(self.name, (source,)) is sensor:
-                    return parts[source]
+                    return classes[source]
         raise UnknownName("sensor", self.name, ())
 
 
-def _parts() -> dict[str, type[Any]]:
+def _spec_classes() -> dict[str, type[Any]]:
     """Return the specs of all sensors and devices by their elements."""
     return {prefixed_name(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
 
 
 @dataclass(frozen=True, kw_only=True)
 class SensorToROSSpec(SensorTopicSpec):
-    """Publishes any sensor or device that measures, with its own message type.
+    """A publisher of any sensor or device that measures, with its own message type.
 
     A colour camera has two topics, of images and of CameraInfo: `VirtualCameraToROSImage` is its
     element.
@@ -96,18 +96,18 @@ class SensorToROSSpec(SensorTopicSpec):
 
     sources: ClassVar[tuple[str, ...]] = tuple(
         element
-        for element, spec in _parts().items()
+        for element, spec in _spec_classes().items()
         if measured_by(spec) is not None and element != "virtualCamera"
     )
 
     @classmethod
-    def carries(cls) -> Mapping[str, type]:
-        """Return the field of the topic; what it carries is the type of the sensor it names."""
+    def message_types(cls) -> Mapping[str, type]:
+        """Return the field of the topic; its message type is that of the named sensor."""
         return {"topic": object}
 
 
 class SensorPublisher(Interface):
-    """Publishes what a sensor measures."""
+    """A publisher of the samples of a sensor."""
 
     def __init__(
         self,
@@ -126,76 +126,76 @@ class SensorPublisher(Interface):
 
 @dataclass(frozen=True, kw_only=True)
 class RangeSensorToROSRangeSpec(SensorTopicSpec):
-    """Publishes a range sensor or picker as sensor_msgs/Range."""
+    """A publisher of a range sensor or object picker as sensor_msgs/Range."""
 
     sources: ClassVar[tuple[str, ...]] = ("rangeSensor", "objectPicker")
 
 
 @dataclass(frozen=True, kw_only=True)
 class ImuToROSImuSpec(SensorTopicSpec):
-    """Publishes an imu as sensor_msgs/Imu."""
+    """A publisher of an IMU as sensor_msgs/Imu."""
 
     sources: ClassVar[tuple[str, ...]] = ("imu",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class PressureSensorToROSSpec(SensorTopicSpec):
-    """Publishes a pressure sensor as underwater_sensor_msgs/Pressure."""
+    """A publisher of a pressure sensor as underwater_sensor_msgs/Pressure."""
 
     sources: ClassVar[tuple[str, ...]] = ("pressureSensor",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class GPSSensorToROSSpec(SensorTopicSpec):
-    """Publishes a GPS as sensor_msgs/NavSatFix."""
+    """A publisher of a GPS as sensor_msgs/NavSatFix."""
 
     sources: ClassVar[tuple[str, ...]] = ("gpsSensor",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class DVLSensorToROSSpec(SensorTopicSpec):
-    """Publishes a DVL as underwater_sensor_msgs/DVL."""
+    """A publisher of a DVL as underwater_sensor_msgs/DVL."""
 
     sources: ClassVar[tuple[str, ...]] = ("dvlSensor",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class MultibeamSensorToLaserScanSpec(SensorTopicSpec):
-    """Publishes a multibeam as sensor_msgs/LaserScan."""
+    """A publisher of a multibeam as sensor_msgs/LaserScan."""
 
     sources: ClassVar[tuple[str, ...]] = ("multibeamSensor",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class ProfilingSonarROSSpec(SensorTopicSpec):
-    """Publishes a profiling sonar as sensor_msgs/LaserScan."""
+    """A publisher of a profiling sonar as sensor_msgs/LaserScan."""
 
     sources: ClassVar[tuple[str, ...]] = ("ProfilingSonar",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class EchoROSSpec(SensorTopicSpec):
-    """Publishes the text of an echo device as std_msgs/String."""
+    """A publisher of the text of an echo device as std_msgs/String."""
 
     sources: ClassVar[tuple[str, ...]] = ("echo",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class ForceSensorROSSpec(SensorTopicSpec):
-    """Publishes a force sensor as geometry_msgs/WrenchStamped."""
+    """A publisher of a force sensor as geometry_msgs/WrenchStamped."""
 
     sources: ClassVar[tuple[str, ...]] = ("ForceSensor",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class BatteryToROSSpec(SensorTopicSpec):
-    """Publishes a battery as sensor_msgs/BatteryState."""
+    """A publisher of a battery as sensor_msgs/BatteryState."""
 
     sources: ClassVar[tuple[str, ...]] = ("u:battery",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class MotorCurrentsToROSSpec(SensorTopicSpec):
-    """Publishes the currents of motors [A] as sensor_msgs/JointState: its efforts."""
+    """A publisher of the currents of motors [A] as the efforts of sensor_msgs/JointState."""
 
     sources: ClassVar[tuple[str, ...]] = ("u:motorCurrents",)

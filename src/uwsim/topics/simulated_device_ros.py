@@ -15,15 +15,15 @@ class SimulatedDeviceROSSpec(InterfaceSpec):
     """An optional wrapper around the interface of a device."""
 
     echo_ros: EchoROSSpec | None = element("echoROS", default=None)
-    """Interface of an echo device."""
+    """The interface of an echo device."""
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Bind the interface in it; raises UnknownName if there is no such device."""
+        """Bind the wrapped interface; raises UnknownName if there is no such device."""
         return Interface() if self.echo_ros is None else self.echo_ros.bind(world)
 
 
-def unwrapped(interfaces: Iterable[InterfaceSpec]) -> Iterator[InterfaceSpec]:
-    """Give all interfaces, and what is in a wrapper in its place."""
+def unwrap_interfaces(interfaces: Iterable[InterfaceSpec]) -> Iterator[InterfaceSpec]:
+    """Yield all interfaces, with the content of a wrapper in its place."""
     for interface in interfaces:
         if not isinstance(interface, SimulatedDeviceROSSpec):
             yield interface

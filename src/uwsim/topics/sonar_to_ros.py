@@ -13,22 +13,22 @@ from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sampl
 
 @dataclass(frozen=True, kw_only=True)
 class SonarToROSSpec(InterfaceSpec):
-    """Publishes a sonar as marine_acoustic_msgs/ProjectedSonarImage and sensor_msgs/Image."""
+    """A publisher of a sonar as marine_acoustic_msgs/ProjectedSonarImage and sensor_msgs/Image."""
 
     sources: ClassVar[tuple[str, ...]] = ("u:imagingSonar", "u:scanningSonar", "u:sideScanSonar")
     messages: ClassVar[Mapping[str, type]] = {"topic": ProjectedSonarImage, "image_topic": Image}
 
     name: str
-    """Name of the sonar."""
+    """The name of the sonar."""
     topic: str
-    """Topic of the echoes."""
+    """The topic of the echoes."""
     image_topic: str
-    """Topic of the images: a fan seen from above, or the waterfall of a side-scan."""
+    """The topic of the images: a fan seen from above, or the waterfall of a side-scan."""
     rate: float = rate_element()
-    """How often it pings [Hz]."""
+    """The rate of pings [Hz]."""
 
     def bind(self, world: TopicWorld) -> SonarPublisher:
-        """Ping from now on; raises UnknownName if the sonar is not there."""
+        """Start to ping; raises UnknownName if there is no such sonar."""
         sonar = cast("Sonar", world.sensors.sensor(self.name, self.sources))
         publisher = SonarPublisher(self, sonar, world)
         world.every(sample_rate(self.rate, world), publisher.publish)
@@ -36,14 +36,14 @@ class SonarToROSSpec(InterfaceSpec):
 
 
 class Sonar(Sensor, Protocol):
-    """A sonar at work."""
+    """A bound sonar."""
 
     def image(self, time: float) -> Image:
-        """Its last echoes as an image, stamped ``time`` [s]."""
+        """Return the last echoes as an image, stamped ``time`` [s]."""
 
 
 class SonarPublisher(Interface):
-    """Publishes what a sonar hears, and an image of it where somebody looks."""
+    """A publisher of the echoes of a sonar, and of an image of them if it has a subscriber."""
 
     def __init__(self, spec: SonarToROSSpec, sonar: Sonar, world: TopicWorld) -> None:
         self._sonar, self._world, self._image_topic = sonar, world, spec.image_topic
@@ -51,7 +51,7 @@ class SonarPublisher(Interface):
         self._publish_image = world.sensors.publisher(spec.name, spec.image_topic, Image)
 
     def publish(self) -> None:
-        """Ping now, whether or not somebody listens: speckle, scan and waterfall go on."""
+        """Ping, with or without a subscriber: speckle, scan and waterfall advance."""
         time = self._world.time
         self._publish(self._sonar.sample(time))
         if self._world.bus.has_readers(self._image_topic):

@@ -1,8 +1,7 @@
-"""Interfaces whose messages a viewer shows: images, and clouds of points.
+"""Interfaces whose messages a viewer shows: images and point clouds.
 
-What is to be shown is kept where a viewer, or a program, reads it: `HudImage.pixels` and
-`CloudsState.clouds` of ``simulation.world.interfaces``. A message that cannot be shown leaves it as
-it is; `problem` says why.
+A viewer or a program reads the content from `HudImage.pixels` and `CloudsState.clouds` of
+``simulation.world.interfaces``. An invalid message does not change it; `problem` states the error.
 """
 
 from __future__ import annotations
@@ -22,35 +21,35 @@ from ..schema import element
 from .interface import Interface, InterfaceSpec, TopicWorld
 
 MAX_POINTS = 10_000_000
-"""Most points of an interface that are kept; the oldest clouds go first."""
+"""The greatest number of points of an interface; the oldest clouds are removed first."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSImageToHUDSpec(InterfaceSpec):
-    """Shows images of a topic in the viewer."""
+    """A subscription to images that the viewer shows."""
 
     subscribes: ClassVar[bool] = True
     messages: ClassVar[Mapping[str, type]] = {"image_topic": Image}
 
     width: int = element(minimum=1)
-    """Columns of the images [px]."""
+    """The number of columns of the images [px]."""
     height: int = element(minimum=1)
-    """Rows of the images [px]."""
+    """The number of rows of the images [px]."""
     posx: int = 0
-    """From the left edge of the window [px]."""
+    """The distance from the left edge of the window [px]."""
     posy: int = 0
-    """From the bottom edge of the window [px]."""
+    """The distance from the bottom edge of the window [px]."""
     scale: float = 1.0
-    """Size on the screen [1]."""
+    """The size on the screen, relative to the image [1]."""
     black_white: bool = False
-    """Whether the images have one channel."""
+    """A flag: the images have one channel."""
     image_topic: str
-    """Topic of the images."""
+    """The topic of the images."""
     info_topic: str = ""
-    """Topic of the camera's description; the original does not read it."""
+    """The topic of the camera's description; the original does not read it."""
 
     def bind(self, world: TopicWorld) -> HudImage:
-        """Listen from now on."""
+        """Start to subscribe."""
         hud = HudImage(self)
         world.bus.subscribe(self.image_topic, Image, hud.receive)
         return hud
@@ -58,20 +57,20 @@ class ROSImageToHUDSpec(InterfaceSpec):
 
 @dataclass(slots=True)
 class HudState(Record):
-    """What has come for a display."""
+    """The state of a displayed image topic."""
 
     message: Image | None = None
-    """The newest image that can be shown."""
+    """The newest valid image."""
     problem: str | None = None
-    """Why the newest message cannot be shown; None: it can."""
+    """The error of the newest message; None if it is valid."""
 
 
 class HudImage(Interface):
-    """The newest image of a topic, as it is to be shown."""
+    """The newest image of a topic, for display."""
 
     def __init__(self, spec: ROSImageToHUDSpec) -> None:
         self.spec = spec
-        """Where and how large it is shown."""
+        """The position and size on the screen."""
         self.state: HudState = HudState()
 
     @property
@@ -81,12 +80,12 @@ class HudImage(Interface):
         return None if message is None else pixels_of(message)
 
     def receive(self, message: Image) -> None:
-        """Keep an image of the size and kind that the interface expects."""
-        self.state.problem = self._wrong(message)
+        """Store an image of the size and encoding that the interface expects."""
+        self.state.problem = self._find_problem(message)
         if self.state.problem is None:
             self.state.message = message
 
-    def _wrong(self, message: Image) -> str | None:
+    def _find_problem(self, message: Image) -> str | None:
         spec = self.spec
         encoding = "mono8" if spec.black_white else "rgb8"
         if message.encoding != encoding:
@@ -103,74 +102,74 @@ class ShownCloud:
     """A cloud of points, placed where its frame was when it arrived."""
 
     points: npt.NDArray[np.float32]
-    """In L, (n, 3) [m]."""
+    """The points in L, (n, 3) [m]."""
     colours: npt.NDArray[np.uint8]
-    """Red, green, blue of each, (n, 3)."""
+    """The red, green, blue of each point, (n, 3)."""
 
 
 @dataclass(slots=True)
 class CloudsState(Record):
-    """The clouds that have come on a topic."""
+    """The state of a displayed topic of point clouds."""
 
     clouds: list[ShownCloud] = field(default_factory=list)
-    """What is shown, oldest first."""
+    """The displayed clouds, oldest first."""
     problem: str | None = None
-    """Why the newest message cannot be shown; None: it can."""
+    """The error of the newest message; None if it is valid."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSPointCloudLoaderSpec(InterfaceSpec):
-    """Shows sensor_msgs/PointCloud2 in the scene."""
+    """A subscription to sensor_msgs/PointCloud2 that the scene shows."""
 
     subscribes: ClassVar[bool] = True
     messages: ClassVar[Mapping[str, type]] = {"topic": PointCloud2}
 
     topic: str
-    """Name of the topic."""
+    """The name of the topic."""
     del_last_pcd: bool = element("delLastPCD", attribute=True, default=True)
-    """Whether a cloud replaces the one before."""
+    """A flag: a cloud replaces the previous cloud."""
 
     def bind(self, world: TopicWorld) -> PointClouds:
-        """Listen from now on."""
-        clouds = PointClouds(world, replaces=self.del_last_pcd)
+        """Start to subscribe."""
+        clouds = PointClouds(world, replaces_previous=self.del_last_pcd)
         world.bus.subscribe(self.topic, PointCloud2, clouds.receive)
         return clouds
 
 
 class PointClouds(Interface):
-    """The clouds that came on a topic, with four fields in their own colours, else by height."""
+    """The clouds of a topic, with four fields in their own colours, else coloured by height."""
 
-    def __init__(self, world: TopicWorld, *, replaces: bool) -> None:
-        self._world, self._replaces = world, replaces
+    def __init__(self, world: TopicWorld, *, replaces_previous: bool) -> None:
+        self._world, self._replaces_previous = world, replaces_previous
         self.state: CloudsState = CloudsState()
 
     def receive(self, message: PointCloud2) -> None:
-        """Place a cloud where its frame is now; it stays there."""
+        """Place a cloud at the present pose of its frame, where it stays."""
         try:
-            cloud = self._placed(message)
+            cloud = self._place_cloud(message)
         except (BadSetting, UnknownName) as error:
             self.state.problem = str(error)
             return
         self.state.problem = None
-        clouds = [cloud] if self._replaces else [*self.state.clouds, cloud]
-        while sum(len(each.points) for each in clouds) > MAX_POINTS and len(clouds) > 1:
+        clouds = [cloud] if self._replaces_previous else [*self.state.clouds, cloud]
+        while sum(len(past_cloud.points) for past_cloud in clouds) > MAX_POINTS and len(clouds) > 1:
             clouds = clouds[1:]
         self.state.clouds = clouds
 
-    def _placed(self, message: PointCloud2) -> ShownCloud:
-        own = points(message)
+    def _place_cloud(self, message: PointCloud2) -> ShownCloud:
+        local_points = points(message)
         frame = self._world.body(message.header.frame_id.strip().strip("/"))
-        is_finite = np.isfinite(own).all(axis=1)
-        own = own[is_finite]
+        is_finite = np.isfinite(local_points).all(axis=1)
+        local_points = local_points[is_finite]
         is_coloured = len(message.fields) == 4
-        colours = point_colours(message)[is_finite] if is_coloured else jet(own[:, 2])
+        colours = point_colours(message)[is_finite] if is_coloured else jet(local_points[:, 2])
         localized_from_world = self._world.world_from_localized.inverse()
         localized_from_frame = localized_from_world @ frame.world_from_body
-        return ShownCloud(localized_from_frame.transform(own).astype(np.float32), colours)
+        return ShownCloud(localized_from_frame.transform(local_points).astype(np.float32), colours)
 
 
 def jet(heights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-    r"""Colour heights from blue (lowest) over green to red, (n, 3).
+    r"""Return colours of heights from blue (lowest) over green to red, (n, 3).
 
     With :math:`s = 2 (z - z_{min}) / (z_{max} - z_{min}) - 1` red, green and blue are
     :math:`b(s - 0.5)`, :math:`b(s)` and :math:`b(s + 0.5)`; b is a trapezium, 1 from -0.25 to 0.25
@@ -178,9 +177,9 @@ def jet(heights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
     """
     if len(heights) == 0:
         return np.empty((0, 3), dtype=np.uint8)
-    lowest, highest = float(heights.min()), float(heights.max())
-    span = highest - lowest
-    s = 2.0 * (heights - lowest) / span - 1.0 if span > 0.0 else np.zeros(len(heights))
-    shifted = np.stack([s - 0.5, s, s + 0.5], axis=1)
-    shares = np.clip(1.5 - 2.0 * np.abs(shifted), 0.0, 1.0)
-    return np.rint(255.0 * shares).astype(np.uint8)
+    min_height, max_height = float(heights.min()), float(heights.max())
+    span = max_height - min_height
+    s = 2.0 * (heights - min_height) / span - 1.0 if span > 0.0 else np.zeros(len(heights))
+    arguments = np.stack([s - 0.5, s, s + 0.5], axis=1)
+    intensities = np.clip(1.5 - 2.0 * np.abs(arguments), 0.0, 1.0)
+    return np.rint(255.0 * intensities).astype(np.uint8)

@@ -1,4 +1,4 @@
-"""virtualCameraToROSImage: publishes a camera at a rate; images are rendered only if read."""
+"""virtualCameraToROSImage: a camera on topics; images are rendered only for subscribers."""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sampl
 
 @dataclass(frozen=True, kw_only=True)
 class VirtualCameraToROSImageSpec(InterfaceSpec):
-    """Publishes a camera as sensor_msgs/Image and CameraInfo."""
+    """A publisher of a camera as sensor_msgs/Image and CameraInfo."""
 
     sources: ClassVar[tuple[str, ...]] = ("virtualCamera", "virtualRangeImage")
     messages: ClassVar[Mapping[str, type]] = {"image_topic": Image, "info_topic": CameraInfo}
 
     camera_name: str
-    """Name of the camera."""
+    """The name of the camera."""
     image_topic: str
-    """Topic of the images."""
+    """The topic of the images."""
     info_topic: str
-    """Topic of the camera's description."""
+    """The topic of the camera's description."""
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
     depth: bool = False
-    """Whether depth is published instead of colour (range cameras only)."""
+    """A flag: depth is published instead of colour (range cameras only)."""
 
     def bind(self, world: TopicWorld) -> ImagePublisher | DepthImagePublisher:
-        """Find the camera; raises UnknownName if it is not there, or no colour camera."""
+        """Resolve the camera; raises UnknownName if there is no such colour camera."""
         if self.depth:
             topics = self.image_topic, self.info_topic
             return publish_depth(world, self.camera_name, topics, self.rate)
@@ -46,58 +46,59 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
 
 @dataclass(slots=True)
 class PublisherState(Record):
-    """What a publisher of images has published."""
+    """The state of a publisher of images."""
 
     timer: TimerState
     """The steps at which a sample is due."""
     n_frames: int = 0
-    """The images published."""
-    last: npt.NDArray[np.uint8] | None = None
+    """The number of published images."""
+    last_pixels: npt.NDArray[np.uint8] | None = None
     """The pixels of the last image published; read-only."""
 
 
 class ImagePublisher(Interface):
-    """Publishes the images of a camera.
+    """A publisher of the images of a camera.
 
     A sample without a subscriber is not rendered, but advances the camera's random stream: the
-    images do not depend on who is listening. In a blind world the images are black, for
-    algorithms that do not look at them.
+    images do not depend on the subscribers. In a blind world the images are black, for algorithms
+    that do not use them.
     """
 
     def __init__(
         self, spec: VirtualCameraToROSImageSpec, camera: VirtualCamera, world: TopicWorld
     ) -> None:
         self.camera = camera
-        """The camera whose images these are."""
+        """The camera of these images."""
         camera.state.n_images = camera.n_images or 0
         self.image_topic = spec.image_topic
-        """Where they are published."""
+        """The topic of the images."""
         self._world, self._info_topic = world, spec.info_topic
         shape = (camera.intrinsics.height, camera.intrinsics.width)
         black = np.zeros(shape if camera.is_grey else (*shape, 3), dtype=np.uint8)
-        self._blank = black if world.is_blind else None
+        self._black_image = black if world.is_blind else None
         self._publish_image = world.sensors.publisher(spec.camera_name, spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
-        self.elsewhere: Callable[[ImagePublisher, float], bool] | None = None
-        """Has the sample of a time [s] drawn elsewhere, and calls `deliver`; False: it does not."""
+        self.request_image: Callable[[ImagePublisher, float], bool] | None = None
+        """A function that requests the image of a time [s] from another process; that calls
+        `deliver`. It returns False if it does not."""
         self.timer = SampleTimer(0, sample_rate(spec.rate, world), world.timestep, self.publish)
-        """Publishes at the steps at which a sample is due."""
+        """The timer that publishes at the steps at which a sample is due."""
         self.state: PublisherState = PublisherState(self.timer.state)
 
     @property
     def n_frames(self) -> int:
-        """The images published."""
+        """The number of published images."""
         return self.state.n_frames
 
     @property
-    def last(self) -> npt.NDArray[np.uint8] | None:
+    def last_pixels(self) -> npt.NDArray[np.uint8] | None:
         """The pixels of the last image published; read-only."""
-        return self.state.last
+        return self.state.last_pixels
 
     @property
     def sha256(self) -> str:
-        """Hash of all pixels published so far, in order."""
+        """The hash of all pixels published so far, in order."""
         return self._digest.hexdigest()
 
     def publish(self) -> None:
@@ -109,17 +110,17 @@ class ImagePublisher(Interface):
         if not bus.has_readers(self.image_topic):
             self.camera.skip()
             return
-        if self._blank is not None:
-            self.deliver(image(self._blank, time=time, frame_id=self.camera.frame_id))
-        elif self.elsewhere is not None and self.elsewhere(self, time):
+        if self._black_image is not None:
+            self.deliver(image(self._black_image, time=time, frame_id=self.camera.frame_id))
+        elif self.request_image is not None and self.request_image(self, time):
             self.camera.skip()
         else:
             self.deliver(self.camera.sample(time))
 
     def deliver(self, message: Image) -> None:
         """Publish an image of the camera."""
-        if self._blank is None:
+        if self._black_image is None:
             self._digest.update(message.data.data)
         self.state.n_frames += 1
         self._publish_image(message)
-        self.state.last = pixels_of(message)
+        self.state.last_pixels = pixels_of(message)

@@ -4,15 +4,15 @@
 parent                  child                    transform
 ======================  =======================  ===================================================
 ``rootName``            vehicle                  the base in L
-vehicle                 vehicle/root link        identity; the original says base_link, always
+vehicle                 vehicle/root link        identity; the original always has base_link
 vehicle/link            vehicle/link             every joint of the robot, fixed ones too
-vehicle/link            sensor                   where the sensor is on its link, in ROS's axes
+vehicle/link            sensor                   the sensor's pose in its link, in ROS's axes
 ``rootName``            object                   the mesh frame in L, with ``enableObjects`` 1
 ``rootName``            marker ``<id>+<ns>``     its pose in L, with ``enableObjects`` 1
 ======================  =======================  ===================================================
 
-ROS's axes: cameras look along +z of their frame, with x to the right of the image and y down; the
-zero of a scan is along +x and its angles turn about z.
+ROS's axes: the optical axis of a camera is +z of its frame, with x to the right of the image and y
+down; the zero of a scan is along +x and its angles turn about z.
 """
 
 from __future__ import annotations
@@ -30,20 +30,20 @@ from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sampl
 
 @dataclass(frozen=True, kw_only=True)
 class WorldToROSTFSpec(InterfaceSpec):
-    """Publishes the frames of vehicles, sensors and objects as tf2_msgs/TFMessage on /tf."""
+    """A publisher of the frames of vehicles, sensors and objects as tf2_msgs/TFMessage on /tf."""
 
     messages: ClassVar[Mapping[str, type]] = {"topic": TFMessage}
     topic: ClassVar[str] = TF
 
     root_name: str
-    """Name of the frame of the file."""
+    """The name of L's frame."""
     enable_objects: bool = False
-    """Whether objects are published too."""
+    """A flag: objects are published too."""
     rate: float = rate_element()
-    """How often [Hz]."""
+    """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> FramePublisher:
-        """Publish from now on."""
+        """Start to publish."""
         frames = world.frames(with_objects=self.enable_objects)
         publisher = FramePublisher(self, frames, world)
         is_read = partial(world.bus.has_readers, TF)
@@ -52,21 +52,21 @@ class WorldToROSTFSpec(InterfaceSpec):
 
 
 class FramePublisher(Interface):
-    """Publishes the transforms of frames."""
+    """A publisher of the transforms of frames."""
 
     def __init__(self, spec: WorldToROSTFSpec, frames: Sequence[Frame], world: TopicWorld) -> None:
         self._spec, self._frames, self._world = spec, frames, world
         self._publish = world.bus.publisher(TF, TFMessage)
 
     def publish(self) -> None:
-        """Publish all frames as they are now."""
+        """Publish all frames at their present pose."""
         time, root = self._world.time, self._spec.root_name
         markers = self._world.marker_frames() if self._spec.enable_objects else ()
         self._publish(
             TFMessage(
                 transforms=[
-                    transform(each.parent or root, each.child, each.parent_from_child(), time)
-                    for each in (*self._frames, *markers)
+                    transform(frame.parent or root, frame.child, frame.parent_from_child(), time)
+                    for frame in (*self._frames, *markers)
                 ]
             )
         )

@@ -17,9 +17,9 @@ from ...scene.angles import MORE_THAN_A_TURN
 from ...scene.object import ObjectSpec
 from ...scene.spec import SceneSpec
 from ...schema import format_tag, line_of
-from ...topics import element_of
+from ...topics import element_name
 from ...topics.sensor_topic import SensorToROSSpec
-from ...topics.simulated_device_ros import unwrapped
+from ...topics.simulated_device_ros import unwrap_interfaces
 from ...topics.virtual_camera_to_ros_image import VirtualCameraToROSImageSpec
 from ..subjects import CheckedScene
 from .shared_names import source_of
@@ -93,10 +93,10 @@ def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
 def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report interfaces whose vehicle, camera or sensor does not exist."""
     known_names = _names(scene.spec)
-    for interface in unwrapped(scene.spec.ros_interfaces):
+    for interface in unwrap_interfaces(scene.spec.ros_interfaces):
         if isinstance(interface, SensorToROSSpec):
             continue  # not ignored as in the original: `NamedSensors.error` reports it
-        element = element_of(interface)
+        element = element_name(interface)
         source = source_of(interface)
         if source is None:
             continue

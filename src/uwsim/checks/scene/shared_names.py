@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from ...errors import Diagnostic
 from ...schema import format_tag
 from ...sensors.virtual_camera import VirtualCameraSpec
-from ...topics import InterfaceSpec, element_of
+from ...topics import InterfaceSpec, element_name
 from ...topics.interface import VehiclePublisherSpec
-from ...topics.simulated_device_ros import unwrapped
+from ...topics.simulated_device_ros import unwrap_interfaces
 from ..subjects import CheckedScene
 
 TOPIC_NAME = re.compile(r"[A-Za-z]\w*(/\w+)*", re.ASCII)
@@ -59,9 +59,9 @@ def shared_part_names(scene: CheckedScene) -> Iterator[Diagnostic]:
 def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of topics with two publishers, and of invalid topic names."""
     writers: dict[str, tuple[str, str]] = {}
-    for interface in unwrapped(scene.spec.ros_interfaces):
-        element, source = element_of(interface), source_of(interface) or ""
-        for field in interface.carries():
+    for interface in unwrap_interfaces(scene.spec.ros_interfaces):
+        element, source = element_name(interface), source_of(interface) or ""
+        for field in interface.message_types():
             topic = str(getattr(interface, field))
             key = topic.strip("/")
             if not TOPIC_NAME.fullmatch(key):

@@ -10,8 +10,8 @@ from ...scene.spec import SceneSpec
 from ...scene.unsupported import limit_of
 from ...schema.names import prefixed_name
 from ...simulation import Simulation
-from ...topics import InterfaceSpec, element_of
-from ...topics.simulated_device_ros import unwrapped
+from ...topics import InterfaceSpec, element_name
+from ...topics.simulated_device_ros import unwrap_interfaces
 
 Fields = dict[str, Any]
 TOPIC_FIELDS = ("topic", "image_topic", "info_topic")
@@ -22,10 +22,10 @@ def topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
     """Every topic of an interface or device: what it carries, which way, how often."""
     types: Mapping[str, str] = simulation.bus.topics
     found = []
-    for interface in unwrapped(scene.ros_interfaces):
-        name = element_of(interface)
+    for interface in unwrap_interfaces(scene.ros_interfaces):
+        name = element_name(interface)
         is_heard = interface.subscribes
-        for field in interface.carries() or TOPIC_FIELDS:
+        for field in interface.message_types() or TOPIC_FIELDS:
             topic = getattr(interface, field, "")
             if not topic:
                 continue

@@ -87,8 +87,8 @@ class Moments:
         assert rendered.colour is not None
         pixels = np.ascontiguousarray(rendered.colour.view(np.uint8)[..., :3])
         for images in self._simulation.world.images.values():
-            if images.last is not None:
-                return with_inset(pixels, images.last)
+            if images.last_pixels is not None:
+                return with_inset(pixels, images.last_pixels)
         return pixels
 
 

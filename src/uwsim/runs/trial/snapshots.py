@@ -40,11 +40,11 @@ def capture(
     taken: dict[str, Snapshot] = {}
     for images in simulation.world.images.values():
         name = images.camera.name
-        if images.last is not None and name not in taken:
+        if images.last_pixels is not None and name not in taken:
             truth, estimate = _corners(name, measures)
             taken[name] = Snapshot(
                 camera=name,
-                pixels=images.last,
+                pixels=images.last_pixels,
                 truth=truth,
                 estimate=estimate if is_tracking else None,
             )

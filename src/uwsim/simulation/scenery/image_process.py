@@ -63,7 +63,7 @@ class ImageProcess:
         self.n_left_out = 0
         """Samples left out so far."""
         for publisher in simulation.world.images.values():
-            publisher.elsewhere = self._take
+            publisher.request_image = self._take
         simulation.watch(self.step)
 
     @property
@@ -94,7 +94,7 @@ class ImageProcess:
     def close(self) -> None:
         """End the process; images are drawn in this one."""
         for publisher in self._simulation.world.images.values():
-            publisher.elsewhere = None
+            publisher.request_image = None
         self._is_ready = False
         if self._pipe is not None:
             self._pipe.close()

@@ -228,8 +228,8 @@ class LiveView:
         size = width, max(1, round(width * lens.height / lens.width))
         is_smaller = width < lens.width
         for images in self._simulation.world.images.values():
-            if images.camera.name == camera and images.last is not None:
-                seen = images.last
+            if images.camera.name == camera and images.last_pixels is not None:
+                seen = images.last_pixels
                 if is_smaller:
                     seen = cv2.resize(seen, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
                 return seen
