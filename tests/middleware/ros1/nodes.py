@@ -9,7 +9,7 @@ from typing import Any
 from tests.support.waiting import LIMIT, free_port, until
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
-from uwsim.middleware.ros1 import Master, Ros1Bridge, Waits
+from uwsim.middleware.ros1 import Master, PeerTimeouts, Ros1Bridge
 
 TIMESTEP = 0.002
 NONE: Mapping[str, Any] = MappingProxyType({})
@@ -40,7 +40,7 @@ class Graph:
             node=name,
             log=self.log,
             parameters=parameters,
-            waits=Waits(**{"poll": 0.05, **waits}),
+            timeouts=PeerTimeouts(**{"poll": 0.05, **waits}),
         )
         self.nodes.append(bridge)
         return bridge

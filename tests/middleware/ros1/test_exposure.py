@@ -19,10 +19,10 @@ from uwsim.middleware.ros1 import master as master_module
 from uwsim.middleware.ros1 import parameters, xmlrpc
 from uwsim.middleware.ros1.deadline import DeadlineReader
 from uwsim.middleware.ros1.master import Master
-from uwsim.middleware.ros1.origins import own_names, wrong_in_headers
-from uwsim.middleware.ros1.parameters import Parameters, extent
+from uwsim.middleware.ros1.origins import find_browser_sign, local_names
+from uwsim.middleware.ros1.parameters import Parameters, measure_value
 from uwsim.middleware.ros1.tcpros import encode_header
-from uwsim.middleware.ros1.xmlrpc import Refused, call
+from uwsim.middleware.ros1.xmlrpc import RefusedCall, call
 
 NODE = "http://127.0.0.1:1/"
 SHUTDOWN = (
@@ -74,7 +74,7 @@ def test_a_page_in_a_browser_sets_no_parameter_and_ends_no_node(headers: dict[st
         assert status_of(port_of(graph.master.uri), body, headers) == 403
         assert status_of(port_of(sim.uri), SHUTDOWN.format("shutdown", "bye"), headers) == 403
         assert call(graph.master.uri, "hasParam", "/x", "/use_sim_time") is False
-        assert not any("asks this node to leave" in line for line in graph.printed)
+        assert not any("requests that this node leaves" in line for line in graph.printed)
         assert any("a request is refused" in line for line in graph.printed)
 
 
@@ -88,11 +88,11 @@ def test_a_page_in_a_browser_sets_no_parameter_and_ends_no_node(headers: dict[st
 )
 def test_nodes_on_this_and_other_computers_are_served(host: str) -> None:
     headers = {"host": host, "content-type": "text/xml"}
-    assert wrong_in_headers(headers, own_names("auv.example.org")) is None
+    assert find_browser_sign(headers, local_names("auv.example.org")) is None
 
 
 def test_the_refusal_names_what_was_found_and_what_is_expected() -> None:
-    said = wrong_in_headers({"host": "evil.example.org:11311"}, own_names("10.0.0.4"))
+    said = find_browser_sign({"host": "evil.example.org:11311"}, local_names("10.0.0.4"))
     assert said is not None
     for part in ("evil.example.org:11311", "10.0.0.4", "localhost"):
         assert part in said
@@ -158,13 +158,13 @@ def test_parameters_have_a_limit_on_their_total_size(
     monkeypatch.setattr(parameters, "MAX_BYTES", 200_000)
     for n in range(4):
         call(master.uri, "setParam", "/x", f"/p{n}", value)
-    with pytest.raises(Refused, match="200000 bytes"):
+    with pytest.raises(RefusedCall, match="200000 bytes"):
         call(master.uri, "setParam", "/x", "/q", [value, value])
     for _ in range(5):  # in the place of another it has room
         call(master.uri, "setParam", "/x", "/p0", value)
     call(master.uri, "deleteParam", "/x", "/p0")
     call(master.uri, "setParam", "/x", "/q", value)
-    assert extent(call(master.uri, "getParam", "/x", "/"))[2] < 200_000
+    assert measure_value(call(master.uri, "getParam", "/x", "/"))[2] < 200_000
 
 
 def test_parameters_have_a_limit_on_their_number_and_depth(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -190,9 +190,9 @@ def test_a_master_keeps_a_limited_number_of_entries_and_forgets_nodes_that_have_
         call(master.uri, "unregisterPublisher", f"/n{n}", f"/t{n}", NODE)
         call(master.uri, "registerService", f"/s{n}", f"/s{n}", "rosrpc://127.0.0.1:1", NODE)
         call(master.uri, "unregisterService", f"/s{n}", f"/s{n}", "rosrpc://127.0.0.1:1")
-    with pytest.raises(Refused):
+    with pytest.raises(RefusedCall):
         call(master.uri, "lookupNode", "/x", "/n3")
     for n in range(20):
         call(master.uri, "registerSubscriber", "/a", f"/t{n}", "std_msgs/String", NODE)
-    with pytest.raises(Refused, match="are kept"):
+    with pytest.raises(RefusedCall, match="are kept"):
         call(master.uri, "registerSubscriber", "/a", "/more", "std_msgs/String", NODE)

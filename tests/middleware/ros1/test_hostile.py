@@ -22,7 +22,7 @@ from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import subscription
 from uwsim.middleware.ros1.bridge import Ros1Bridge
 from uwsim.middleware.ros1.publication import QUEUE_BYTES, QUEUE_LENGTH
-from uwsim.middleware.ros1.tcpros import encode_header, framed, read_header
+from uwsim.middleware.ros1.tcpros import add_length, encode_header, read_header
 from uwsim.middleware.ros1.xmlrpc import Answer, XmlRpcServer, call
 from uwsim.middleware.types import wire_type
 
@@ -170,7 +170,7 @@ def test_a_flood_of_messages_is_bounded(graph: Graph, monkeypatch: pytest.Monkey
     graph.ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
-    frames = b"".join(framed(to_ros1(Float64(data=float(i)))) for i in range(100_000))
+    frames = b"".join(add_length(to_ros1(Float64(data=float(i)))) for i in range(100_000))
     connection.sendall(frames)
     last = 99_999.0
     until(lambda: _newest(sim, "cmd") == last)
@@ -196,7 +196,7 @@ def test_a_flood_of_messages_waits_in_the_sockets(
     graph.ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
-    connection.sendall(framed(to_ros1(Float64(data=1.0))) * N_FLOOD)
+    connection.sendall(add_length(to_ros1(Float64(data=1.0))) * N_FLOOD)
     until(lambda: any("faster than it is read" in line for line in graph.printed))
     assert 0 < sim.arrivals.n_arrived["cmd"] < N_FLOOD
     connection.close()
@@ -215,7 +215,7 @@ def test_a_node_that_the_run_waits_for_does_not_wait(
     graph.ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
-    connection.sendall(framed(to_ros1(Float64(data=1.0))) * N_FLOOD)
+    connection.sendall(add_length(to_ros1(Float64(data=1.0))) * N_FLOOD)
     until(lambda: sim.arrivals.n_arrived["cmd"] == N_FLOOD)
     connection.close()
     publisher.close()
@@ -235,7 +235,7 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
     publisher = FakePublisher(graph, "/joints", JointState)
     connection = publisher.accept()
     connection.sendall(
-        framed(b"\xff" * 100) + framed(b"") + framed(to_ros1(JointState(name=["a"])))
+        add_length(b"\xff" * 100) + add_length(b"") + add_length(to_ros1(JointState(name=["a"])))
     )
     until(lambda: found, graph.step)
     assert found[0].name == ["a"]
@@ -255,7 +255,7 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
 def test_a_publisher_that_breaks_off_is_tried_again(
     graph: Graph, monkeypatch: pytest.MonkeyPatch, sent: bytes, said: str
 ) -> None:
-    monkeypatch.setattr("uwsim.middleware.ros1.subscription.RETRY", 0.05)  # [s]
+    monkeypatch.setattr("uwsim.middleware.ros1.subscription.RETRY_INTERVAL", 0.05)  # [s]
     sim = graph.node()
     found: list[Float64] = []
     sim.bus.subscribe("cmd", Float64, found.append)
@@ -266,7 +266,7 @@ def test_a_publisher_that_breaks_off_is_tried_again(
     connection.close()
     until(lambda: any(said in line for line in graph.printed), graph.step)
     again = publisher.accept()
-    again.sendall(framed(to_ros1(Float64(data=3.0))))
+    again.sendall(add_length(to_ros1(Float64(data=3.0))))
     until(lambda: found, graph.step)
     again.close()
     publisher.close()
@@ -290,7 +290,7 @@ def test_a_client_of_a_service_that_sends_garbage_gets_an_error(graph: Graph) ->
     with connect(port_of(sim)) as peer:
         peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"}))
         read_header(peer)
-        peer.sendall(framed(b"\xff\xff\xff\xff"))
+        peer.sendall(add_length(b"\xff\xff\xff\xff"))
         assert peer.recv(1) == b"\x00"
 
 
@@ -309,7 +309,7 @@ def test_a_client_of_a_service_killed_in_the_middle_of_its_request_is_forgotten(
     sim.bus.services.serve("init", GTpublish, answer)
     graph.ready()
     fields = encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"})
-    request = framed(to_ros1(GTpublish(groundTruth=np.ones(8, np.float32))))
+    request = add_length(to_ros1(GTpublish(groundTruth=np.ones(8, np.float32))))
     for sent in (fields[:9], fields, fields + request[:5]):
         peer = connect(port_of(sim))
         peer.sendall(sent)
@@ -331,8 +331,8 @@ def ask_persistently(sim: Ros1Bridge) -> socket.socket:
     port = peer.getsockname()[1]
 
     def is_awaited() -> bool:
-        with sim._idle._lock:
-            return any(port == each.getpeername()[1] for each in sim._idle._connections)
+        with sim._idle_clients._lock:
+            return any(port == each.getpeername()[1] for each in sim._idle_clients._connections)
 
     until(is_awaited)
     return peer
@@ -351,10 +351,10 @@ def test_of_too_many_clients_that_ask_nothing_the_longest_idle_is_left(
         fourth = stack.enter_context(ask_persistently(sim))
         assert second.recv(1) == b""
         for peer in (third, fourth, third):
-            peer.sendall(framed(b""))
+            peer.sendall(add_length(b""))
             until(lambda peer=peer: select([peer], [], [], 0.0)[0], graph.step)
             assert peer.recv(5, socket.MSG_WAITALL) == b"\x01" + bytes(4)
-    until(lambda: any("it asked nothing" in line for line in graph.printed))
+    until(lambda: any("it sent no request" in line for line in graph.printed))
 
 
 def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,7 +16,7 @@ from tests.support.waiting import LIMIT, until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1.master import Master
 from uwsim.middleware.ros1.tcpros import PeerError
-from uwsim.middleware.ros1.xmlrpc import MAX_REQUEST, Answer, Refused, XmlRpcServer, call
+from uwsim.middleware.ros1.xmlrpc import MAX_REQUEST, Answer, RefusedCall, XmlRpcServer, call
 
 NODE = "http://127.0.0.1:1/"
 
@@ -66,7 +66,7 @@ def test_services_are_found(master: Master) -> None:
     call(master.uri, "registerService", "/sim", "/reset", "rosrpc://127.0.0.1:5", NODE)
     assert call(master.uri, "lookupService", "/x", "/reset") == "rosrpc://127.0.0.1:5"
     call(master.uri, "unregisterService", "/sim", "/reset", "rosrpc://127.0.0.1:5")
-    with pytest.raises(Refused, match="no provider"):
+    with pytest.raises(RefusedCall, match="no provider"):
         call(master.uri, "lookupService", "/x", "/reset")
 
 
@@ -122,11 +122,11 @@ def test_parameters_are_a_tree(master: Master) -> None:
     ]
     call(uri, "deleteParam", "/x", "/g500/dynamics")
     assert call(uri, "hasParam", "/x", "/g500/dynamics") is False
-    with pytest.raises(Refused, match="is not set"):
+    with pytest.raises(RefusedCall, match="is not set"):
         call(uri, "getParam", "/x", "/g500/dynamics")
-    with pytest.raises(Refused, match="not set"):
+    with pytest.raises(RefusedCall, match="not set"):
         call(uri, "deleteParam", "/x", "/nothing")
-    with pytest.raises(Refused, match="Cannot find"):
+    with pytest.raises(RefusedCall, match="Cannot find"):
         call(uri, "searchParam", "/x", "nothing")
 
 
@@ -276,7 +276,7 @@ def test_the_last_update_that_a_subscriber_gets_is_the_newest(
     is_newest_sent = threading.Event()
 
     def slow(
-        uri: str, method: str, caller: str, topic: str, publishers: list[str], *, longest: int
+        uri: str, method: str, caller: str, topic: str, publishers: list[str], *, max_length: int
     ) -> Answer:
         if len(publishers) == 1:
             is_newest_sent.wait(0.5)

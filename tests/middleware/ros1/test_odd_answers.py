@@ -14,7 +14,7 @@ from tests.middleware.ros1.nodes import Graph
 from tests.support.waiting import LIMIT, until
 from uwsim.messages import Float64
 from uwsim.middleware.log import Log
-from uwsim.middleware.ros1.registrar import Registrar, Wanted
+from uwsim.middleware.ros1.registrar import Registrar, Registrations
 from uwsim.middleware.ros1.tcpros import PeerError
 from uwsim.middleware.ros1.xmlrpc import XmlRpcServer, call
 
@@ -63,7 +63,7 @@ def test_an_odd_answer_is_an_error_of_the_peer(case: str) -> None:
 def test_a_publisher_with_an_odd_answer_is_asked_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("uwsim.middleware.ros1.subscription.RETRY", 0.02)  # [s]
+    monkeypatch.setattr("uwsim.middleware.ros1.subscription.RETRY_INTERVAL", 0.02)  # [s]
     graph = Graph()
     sim = graph.node()
     sim.bus.subscribe("cmd", Float64, print)
@@ -93,7 +93,7 @@ def test_registering_goes_on_after_a_master_that_answers_with_a_number_for_a_lis
         parameters={},
         poll=0.02,
     )
-    registrar.want(Wanted(subscribers={"/cmd": "std_msgs/Float64"}))
+    registrar.set_registrations(Registrations(subscribers={"/cmd": "std_msgs/Float64"}))
     until(lambda: heard)
     assert heard == [("/cmd", [])]
     registrar.close()

@@ -13,7 +13,7 @@ from uwsim.messages.simulation_control import (
     SetEntityStateResponse,
 )
 from uwsim.middleware.encodings import to_ros1
-from uwsim.middleware.ros1.services import Wanted, _answer, call
+from uwsim.middleware.ros1.services import ExternalService, _answer, call
 from uwsim.middleware.ros1.tcpros import PeerError
 from uwsim.middleware.types import service, wire_service
 
@@ -36,6 +36,8 @@ def test_stamps_of_a_request_are_taken_for_times_of_the_clock_of_ros() -> None:
 
 @pytest.mark.parametrize("place", ["127.0.0.1:99999", "[::", "127.0.0.1:abc", "", "here", ":80"])
 def test_an_address_of_nonsense_is_an_error_of_the_peer(place: str) -> None:
-    wanted = Wanted("/s", wire_service(service("simulation_interfaces/srv/SetEntityState")))
-    with pytest.raises(PeerError, match="which is no address"):
+    wanted = ExternalService(
+        "/s", wire_service(service("simulation_interfaces/srv/SetEntityState"))
+    )
+    with pytest.raises(PeerError, match="which is not an address"):
         call(f"rosrpc://{place}", wanted, "/uwsim", SetEntityState())

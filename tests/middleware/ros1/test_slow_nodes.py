@@ -100,7 +100,7 @@ def test_the_calls_of_a_node_are_made_in_their_order_one_at_a_time() -> None:
         made.append("1")
 
     calls.add("a", "1", first)
-    until(lambda: not calls._waiting["a"])  # it has begun
+    until(lambda: not calls._calls["a"])  # it has begun
     calls.add("a", "2", lambda: made.append("old"))
     calls.add("a", "3", lambda: made.append("3"))
     calls.add("a", "2", lambda: made.append("2"))

@@ -12,9 +12,9 @@ import pytest
 from uwsim.middleware.ros1.tcpros import (
     MAX_MESSAGE,
     PeerError,
+    add_length,
     decode_header,
     encode_header,
-    framed,
     has_left,
     open_connection,
     read_frame,
@@ -52,9 +52,9 @@ def test_a_header_of_rospy_is_read() -> None:
         (b"\x09\x00\x00\x00abc", "after 3 of 9 bytes"),
         (b"\xff\xff\xff\xff", "announces 4294967295 bytes"),
         (b"GET / HTTP/1.1\r\n\r\n", "announces 542393671 bytes"),
-        (framed(b"\x01\x00"), "cut off"),
-        (framed(b"\x03\x00\x00\x00abc"), "not made of fields"),
-        (framed(b"\xff\x00\x00\x00a=b"), "not made of fields"),
+        (add_length(b"\x01\x00"), "cut off"),
+        (add_length(b"\x03\x00\x00\x00abc"), "not made of fields"),
+        (add_length(b"\xff\x00\x00\x00a=b"), "not made of fields"),
         (encode_header({"error": "no such topic"}), "it refuses: no such topic"),
     ],
 )
@@ -70,7 +70,7 @@ def test_garbage_is_one_clean_error(
 
 def test_a_frame_is_read_and_the_end_is_none(pair: tuple[socket.socket, socket.socket]) -> None:
     here, there = pair
-    there.sendall(framed(b"abc") + framed(b""))
+    there.sendall(add_length(b"abc") + add_length(b""))
     there.shutdown(socket.SHUT_WR)
     assert [read_frame(here), read_frame(here), read_frame(here)] == [b"abc", b"", None]
     assert has_left(here)

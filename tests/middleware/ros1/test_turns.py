@@ -76,7 +76,7 @@ def test_a_short_request_does_not_wait_behind_long_ones() -> None:
     with shared.turn(0):
         for n_waiting, thread in enumerate(threads, 1):
             thread.start()
-            until(lambda n=n_waiting: len(shared._waiting) == n)
+            until(lambda n=n_waiting: len(shared._waiting_turns) == n)
         assert not order
     for thread in threads:
         thread.join(LIMIT)

@@ -7,21 +7,21 @@ from urllib.parse import urlsplit
 
 
 class Address(NamedTuple):
-    """Where something of ROS 1 listens."""
+    """The address of a master, node or service of ROS 1."""
 
     scheme: str
-    """``http`` of XML-RPC, ``rosrpc`` of a service."""
+    """The scheme: ``http`` of XML-RPC, ``rosrpc`` of a service."""
     host: str
-    """Name or number of the computer."""
+    """The name or number of the computer."""
     port: int
     """The port; 0 is none that can be called."""
 
 
 def read_address(uri: str) -> Address | None:
-    """Read an address; None if it lacks the host or the port, or is nonsense."""
+    """Read an address; return None if it lacks the host or the port, or is invalid."""
     try:
-        place = urlsplit(uri)
-        host, port = place.hostname, place.port
+        parts = urlsplit(uri)
+        host, port = parts.hostname, parts.port
     except ValueError:  # a port out of range, an address of IPv6 without its end
         return None
-    return Address(place.scheme, host, port) if host and port is not None else None
+    return Address(parts.scheme, host, port) if host and port is not None else None

@@ -1,4 +1,4 @@
-"""Checks of what masters and nodes are called with; a wrong call is answered, as by rosmaster."""
+"""Checks of the arguments of masters and nodes; an invalid call is answered, as by rosmaster."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from typing import Any
 
 from .xmlrpc import Answer
 
-NAME = re.compile(r"[~/A-Za-z][\w/]*")
-"""A legal name in a graph of ROS 1; it has no two slashes in a row."""
-TYPE = re.compile(r"\*|[A-Za-z]\w*/[A-Za-z]\w*")
-"""A message type, or any."""
-MAX_TEXT = 1000
-"""Longest name, type or address [characters]; ROS has no limit."""
-ERROR, FAILURE = -1, 0
-"""Codes of answers: the caller is wrong; the call failed."""
+NAME_PATTERN = re.compile(r"[~/A-Za-z][\w/]*")
+"""The pattern of a legal name in a graph of ROS 1; it has no two slashes in a row."""
+TYPE_PATTERN = re.compile(r"\*|[A-Za-z]\w*/[A-Za-z]\w*")
+"""The pattern of a message type, or any."""
+MAX_LENGTH = 1000
+"""The maximum length of a name, type or address [characters]; ROS has no limit."""
+ERROR_CODE, FAILURE_CODE = -1, 0
+"""The codes of answers: an error of the caller; a failed call."""
 Check = Callable[[str, object], "str | None"]
-"""Says what is wrong with the value of a parameter, by its name; None: nothing."""
+"""The check of a parameter's value, by its name; returns the error, or None."""
 
 
 @dataclass(frozen=True)
@@ -26,114 +26,116 @@ class Parameter:
     """A parameter of a method, besides the name of the caller."""
 
     name: str
-    """As ROS calls it."""
+    """The name of the parameter in ROS."""
     check: Check
-    """What its values are."""
+    """The check of its values."""
     is_optional: bool = False
-    """Whether it may be left out; the last one."""
+    """A flag: the parameter, which is the last one, may be left out."""
 
 
 @dataclass(frozen=True)
 class Method:
-    """What a method takes, and what the value of its answer is where a call is wrong."""
+    """The parameters of a method, and the value in its answer to an invalid call."""
 
-    nothing: Any
-    """That value."""
+    default_value: Any
+    """The value in the answer to an invalid call."""
     parameters: tuple[Parameter, ...] = ()
-    """Of the method."""
+    """The parameters of the method."""
 
-    def wrong(self, arguments: tuple[Any, ...]) -> str | None:
-        """Say what is wrong with the arguments of a call, the caller first; None: nothing."""
+    def find_error(self, arguments: tuple[Any, ...]) -> str | None:
+        """Return the error in the arguments of a call, the caller first; None: they are valid."""
         if not arguments:
             return "missing required caller_id parameter"
-        caller, *given = arguments
+        caller, *values = arguments
         if not isinstance(caller, str):
             return "caller_id must be a string"
-        if (wrong := _too_long("caller_id", caller)) is not None:
-            return wrong
-        n_needed = sum(not each.is_optional for each in self.parameters)
-        if not n_needed <= len(given) <= len(self.parameters):
-            names = ", ".join(("caller_id", *(each.name for each in self.parameters)))
+        if (error := _length_error("caller_id", caller)) is not None:
+            return error
+        n_needed = sum(not allowed_parameter.is_optional for allowed_parameter in self.parameters)
+        if not n_needed <= len(values) <= len(self.parameters):
+            names = ", ".join(
+                ("caller_id", *(allowed_parameter.name for allowed_parameter in self.parameters))
+            )
             return f"wrong number of arguments ({len(arguments)}); expected {names}"
-        for parameter, value in zip(self.parameters, given, strict=False):
-            if (wrong := parameter.check(parameter.name, value)) is not None:
-                return wrong
+        for parameter, value in zip(self.parameters, values, strict=False):
+            if (error := parameter.check(parameter.name, value)) is not None:
+                return error
         return None
 
 
-def checked(method: Method, call: Callable[..., Answer]) -> Callable[..., Answer]:
-    """Return a method that answers wrong calls, and those that fail, with a code and a text."""
+def check_arguments(method: Method, call: Callable[..., Answer]) -> Callable[..., Answer]:
+    """Return a method that answers invalid and failed calls with a code and a text."""
 
     def answer(*arguments: Any) -> Answer:
-        if (wrong := method.wrong(arguments)) is not None:
-            return [ERROR, wrong, method.nothing]
+        if (error := method.find_error(arguments)) is not None:
+            return [ERROR_CODE, error, method.default_value]
         try:
             return call(*arguments)
-        except Exception:  # the peer is told that it failed, not how this program is made
-            return [FAILURE, "internal failure", method.nothing]
+        except Exception:  # the peer learns that it failed, but no details of this program
+            return [FAILURE_CODE, "internal failure", method.default_value]
 
     return answer
 
 
-def _too_long(what: str, text: str) -> str | None:
-    return f"{what} has more than {MAX_TEXT} characters" if len(text) > MAX_TEXT else None
+def _length_error(name: str, text: str) -> str | None:
+    return f"{name} has more than {MAX_LENGTH} characters" if len(text) > MAX_LENGTH else None
 
 
-def _is_key(parameter: str, value: object) -> str | None:
+def _check_key(parameter: str, value: object) -> str | None:
     if not isinstance(value, str) or not value:
         return f"parameter [{parameter}] must be a non-empty string"
-    return _too_long(f"parameter [{parameter}]", value)
+    return _length_error(f"parameter [{parameter}]", value)
 
 
-def _is_name(parameter: str, value: object) -> str | None:
-    if (wrong := _is_key(parameter, value)) is not None:
-        return wrong
+def _check_name(parameter: str, value: object) -> str | None:
+    if (error := _check_key(parameter, value)) is not None:
+        return error
     assert isinstance(value, str)
-    if not NAME.fullmatch(value) or "//" in value:
+    if not NAME_PATTERN.fullmatch(value) or "//" in value:
         return f"parameter [{parameter}] contains illegal chars"
     return None
 
 
-def _is_name_of_something(parameter: str, value: object) -> str | None:
+def _check_resource_name(parameter: str, value: object) -> str | None:
     if value == "/":
         return f"parameter [{parameter}] cannot be the global namespace"
-    return _is_name(parameter, value)
+    return _check_name(parameter, value)
 
 
-def _is_name_or_empty(parameter: str, value: object) -> str | None:
-    return None if value == "" else _is_name(parameter, value)
+def _check_optional_name(parameter: str, value: object) -> str | None:
+    return None if value == "" else _check_name(parameter, value)
 
 
-def _is_type(parameter: str, value: object) -> str | None:
-    if (wrong := _is_key(parameter, value)) is not None:
-        return wrong
+def _check_type(parameter: str, value: object) -> str | None:
+    if (error := _check_key(parameter, value)) is not None:
+        return error
     assert isinstance(value, str)
-    is_legal = TYPE.fullmatch(value)
+    is_legal = TYPE_PATTERN.fullmatch(value)
     return None if is_legal else f"parameter [{parameter}] is not a valid package resource name"
 
 
-def _is_uri(parameter: str, value: object) -> str | None:
+def _check_uri(parameter: str, value: object) -> str | None:
     if not isinstance(value, str) or not value.startswith(("http://", "rosrpc://")):
         return f"parameter [{parameter}] is not an RPC URI"
-    return _too_long(f"parameter [{parameter}]", value)
+    return _length_error(f"parameter [{parameter}]", value)
 
 
-def _is_text(parameter: str, value: object) -> str | None:
+def _check_text(parameter: str, value: object) -> str | None:
     return None if isinstance(value, str) else f"parameter [{parameter}] must be a string"
 
 
-def _is_list(parameter: str, value: object) -> str | None:
+def _check_list(parameter: str, value: object) -> str | None:
     return None if isinstance(value, list) else f"parameter [{parameter}] must be a list"
 
 
-def _is_given(parameter: str, value: object) -> str | None:
+def _check_value(parameter: str, value: object) -> str | None:
     return f"parameter [{parameter}] must be specified" if value is None else None
 
 
-TOPIC, SERVICE = (Parameter(name, _is_name_of_something) for name in ("topic", "service"))
-TYPE_OF_TOPIC = Parameter("topic_type", _is_type)
-CALLER_URI, SERVICE_URI = (Parameter(name, _is_uri) for name in ("caller_api", "service_api"))
-KEY = Parameter("key", _is_key)
+TOPIC, SERVICE = (Parameter(name, _check_resource_name) for name in ("topic", "service"))
+TYPE_OF_TOPIC = Parameter("topic_type", _check_type)
+CALLER_URI, SERVICE_URI = (Parameter(name, _check_uri) for name in ("caller_api", "service_api"))
+KEY = Parameter("key", _check_key)
 MASTER_METHODS = {
     "registerPublisher": Method([], (TOPIC, TYPE_OF_TOPIC, CALLER_URI)),
     "unregisterPublisher": Method(0, (TOPIC, CALLER_URI)),
@@ -142,16 +144,16 @@ MASTER_METHODS = {
     "registerService": Method(0, (SERVICE, SERVICE_URI, CALLER_URI)),
     "unregisterService": Method(0, (SERVICE, SERVICE_URI)),
     "lookupService": Method("", (SERVICE,)),
-    "lookupNode": Method("", (Parameter("node", _is_name),)),
-    "getPublishedTopics": Method([], (Parameter("subgraph", _is_name_or_empty),)),
+    "lookupNode": Method("", (Parameter("node", _check_name),)),
+    "getPublishedTopics": Method([], (Parameter("subgraph", _check_optional_name),)),
     "getTopicTypes": Method([]),
     "getSystemState": Method([[], [], []]),
     "getUri": Method(""),
     "getPid": Method(-1),
 }
-"""Methods of a master."""
+"""The methods of a master."""
 PARAMETER_METHODS = {
-    "setParam": Method(0, (KEY, Parameter("value", _is_given))),
+    "setParam": Method(0, (KEY, Parameter("value", _check_value))),
     "getParam": Method(0, (KEY,)),
     "deleteParam": Method(0, (KEY,)),
     "hasParam": Method(False, (KEY,)),
@@ -160,11 +162,11 @@ PARAMETER_METHODS = {
     "subscribeParam": Method(0, (CALLER_URI, KEY)),
     "unsubscribeParam": Method(0, (CALLER_URI, KEY)),
 }
-"""Those of its parameters."""
+"""The methods of its parameters."""
 NODE_METHODS = {
-    "publisherUpdate": Method(0, (TOPIC, Parameter("publishers", _is_list))),
-    "requestTopic": Method([], (TOPIC, Parameter("protocols", _is_list))),
-    "paramUpdate": Method(0, (KEY, Parameter("value", _is_given))),
+    "publisherUpdate": Method(0, (TOPIC, Parameter("publishers", _check_list))),
+    "requestTopic": Method([], (TOPIC, Parameter("protocols", _check_list))),
+    "paramUpdate": Method(0, (KEY, Parameter("value", _check_value))),
     "getBusStats": Method([[], [], []]),
     "getBusInfo": Method([]),
     "getMasterUri": Method(""),
@@ -172,6 +174,6 @@ NODE_METHODS = {
     "getSubscriptions": Method([]),
     "getPublications": Method([]),
     "getArrived": Method({}),
-    "shutdown": Method(0, (Parameter("msg", _is_text, is_optional=True),)),
+    "shutdown": Method(0, (Parameter("msg", _check_text, is_optional=True),)),
 }
-"""Methods that every node of ROS 1 serves, and one more."""
+"""The methods that every node of ROS 1 serves, and ``getArrived``."""

@@ -1,9 +1,9 @@
 """A bus in a ROS 1 graph, as one node.
 
-What is published on the bus is advertised; what is read there is subscribed to; services of the
-bus are offered, and services that only the graph has are called there. ``/clock`` goes out
-100 times a second, and what the bridge reports goes to ``/rosout``. The contract of threads is in
-`uwsim.middleware.bridge`.
+The node advertises the topics that are published on the bus, and subscribes to those that are read.
+It offers the services of the bus, and calls services that only the graph has. It publishes
+``/clock`` 100 times a second, and its log on ``/rosout``. `uwsim.middleware.bridge` documents the
+threads.
 """
 
 from __future__ import annotations
@@ -27,44 +27,44 @@ from ..log import Log
 from ..stamps import clock_time
 from ..types import WireService, message_class, service_of, wire_service, wire_type
 from . import services as tcp_services
-from .arguments import NODE_METHODS, checked
+from .arguments import NODE_METHODS, check_arguments
 from .listener import HEADER_TIMEOUT, Listener, Serve
 from .publication import Publication
-from .registrar import POLL, Registrar, Wanted
-from .rosout import rosout
+from .registrar import POLL, Registrar, Registrations
+from .rosout import publish_log
 from .subscription import ReadingLimit, Subscription
 from .tcpros import PeerError, node_of
 from .xmlrpc import Answer, XmlRpcServer
 
-NODE = "/uwsim"
+NODE_NAME = "/uwsim"
 USE_SIM_TIME = MappingProxyType({"/use_sim_time": True})
-"""Parameter by which nodes read the time from ``/clock``."""
+"""The parameter by which nodes read the time from ``/clock``."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Waits:
-    """How long a node waits for its peers."""
+class PeerTimeouts:
+    """The timeouts of a node for its peers."""
 
     send: float = 30.0
-    """How long a subscriber may take to read a message before it is left [s]."""
+    """The time limit for a subscriber to read a message; the connection is closed then [s]."""
     header: float = HEADER_TIMEOUT
-    """How long a client may take to send its header [s]."""
+    """The time limit for a client to send its header [s]."""
     poll: float = POLL
-    """How often the master is looked for [s]."""
+    """The interval of checks of the master [s]."""
 
 
 class Ros1Bridge(Bridge):
-    """Connects a bus to the graph of a ROS 1 master.
+    """The connection of a bus to the graph of a ROS 1 master.
 
     Args:
-        bus: of the simulation.
+        bus: the bus of the simulation.
         clock: returns the simulation time [s].
-        master: URI of the master.
-        host: address to listen on, which peers receive.
-        node: name of the node in the graph.
-        log: where it reports.
-        parameters: set on the master while the node is there.
-        waits: how long it waits for peers.
+        master: the URI of the master.
+        host: the address to listen on, which peers receive.
+        node: the name of the node in the graph.
+        log: the log for events.
+        parameters: the parameters on the master while the node exists.
+        timeouts: the timeouts for peers.
     """
 
     traits = TransportTraits(needs_discovery=True, detects_leaving=True, clock_period=ROS_PERIOD)
@@ -76,35 +76,43 @@ class Ros1Bridge(Bridge):
         *,
         master: str,
         host: str = "127.0.0.1",
-        node: str = NODE,
+        node: str = NODE_NAME,
         log: Log | None = None,
         parameters: Mapping[str, Any] = USE_SIM_TIME,
-        waits: Waits | None = None,
+        timeouts: PeerTimeouts | None = None,
     ) -> None:
         super().__init__(bus, clock, log or Log("ros1"))
         self._master, self._host, self._node = master, host, node
-        self._waits = waits = waits or Waits()
+        self._timeouts = timeouts = timeouts or PeerTimeouts()
         self._publications: dict[str, Publication] = {}
         self._subscriptions: dict[str, Subscription] = {}
-        self._reading = ReadingLimit(self._is_waited_for)
-        self._offered: dict[str, WireService] = {}
-        self._idle = tcp_services.IdleClients()
-        self._clock = self._publication("/clock", "rosgraph_msgs/Clock")
-        self._rosout = rosout(node, self.log, clock, waits.send)
+        self._reading_limit = ReadingLimit(self._is_waited_for)
+        self._offered_types: dict[str, WireService] = {}
+        self._idle_clients = tcp_services.IdleClients()
+        self._clock = self._advertise("/clock", "rosgraph_msgs/Clock")
+        self._rosout = publish_log(node, self.log, clock, timeouts.send)
         self._publications["/rosout"] = self._rosout
         try:
-            self._listener = Listener(host, self.log, self._choose, header_timeout=waits.header)
+            self._listener = Listener(
+                host, self.log, self._find_handler, header_timeout=timeouts.header
+            )
         except OSError as error:
             raise BadSetting(f"ROS 1 cannot listen on {host}: {error.strerror or error}") from None
         methods = {
-            name: checked(method, getattr(self, f"_{name}"))
+            name: check_arguments(method, getattr(self, f"_{name}"))
             for name, method in NODE_METHODS.items()
         }
         self._server = XmlRpcServer(host, 0, methods, self.log, "node")
         self.uri = f"http://{host}:{self._server.port}/"
-        """Address of the node's own XML-RPC server."""
+        """The address of the node's own XML-RPC server."""
         self._registrar = Registrar(
-            master, node, self.uri, self.log, self._update, parameters=parameters, poll=waits.poll
+            master,
+            node,
+            self.uri,
+            self.log,
+            self._update,
+            parameters=parameters,
+            poll=timeouts.poll,
         )
         self._stop_elsewhere = bus.services.serve_elsewhere(
             self._is_offered_outside, self.external_services.call_and_wait
@@ -112,11 +120,11 @@ class Ros1Bridge(Bridge):
         self._register()
 
     def wait(self, timeout: float) -> bool:
-        """Wait until the master knows all topics and services; whether it does [s]."""
+        """Wait until the master has all topics and services; return whether it has in time [s]."""
         return self._registrar.wait(timeout)
 
     def n_connected(self, topic: str) -> int:
-        """How many subscribers and publishers outside a topic is connected with now."""
+        """Return the number of external subscribers and publishers that a topic is connected to."""
         publication = self._publications.get(topic)
         subscription = self._subscriptions.get(topic)
         return (publication.n_subscribers if publication else 0) + (
@@ -124,7 +132,7 @@ class Ros1Bridge(Bridge):
         )
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
-        """Advertise what is published on the bus, subscribe to what is read there."""
+        """Advertise the topics that are published on the bus, subscribe to those that are read."""
         publications, subscriptions = dict(self._publications), dict(self._subscriptions)
         to_read = _topics_to_read(topics)
         for name, ends in topics.items():
@@ -139,49 +147,51 @@ class Ros1Bridge(Bridge):
                     kind,
                     self._node,
                     self.log,
-                    self._waits.send,
+                    self._timeouts.send,
                     is_latched=name in LATCHED,
                 )
             if topic in to_read and topic not in subscriptions:
                 subscriptions[topic] = Subscription(
-                    topic, kind, self._node, self.log, self._receiver(topic), self._reading
+                    topic, kind, self._node, self.log, self._receiver(topic), self._reading_limit
                 )
-        gone = [subscriptions.pop(topic) for topic in self._subscriptions if topic not in to_read]
-        # at once, because other nodes ask for them: who sees a publication sees all subscriptions
+        removed_subscriptions = [
+            subscriptions.pop(topic) for topic in self._subscriptions if topic not in to_read
+        ]
+        # replaced as a whole, as other nodes request them: all subscriptions precede publications
         self._subscriptions = subscriptions
         self._publications = publications
-        for subscription in gone:
+        for subscription in removed_subscriptions:
             subscription.close()
         self._register()
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Offer the services of the bus."""
-        self._offered = {f"/{name}": wire_service(each) for name, each in services.items()}
+        self._offered_types = {
+            f"/{name}": wire_service(service_type) for name, service_type in services.items()
+        }
         self._register()
 
     def send(self, topic: str, message: object) -> None:
-        """Hand a message to the subscribers outside."""
+        """Send a message to the external subscribers."""
         publication = self._publications.get(f"/{topic}")
         if publication is not None:
             publication.send(message)
 
     def send_to(self, sender: str, topic: str, message: object) -> None:
-        """Hand a message to the subscribers of one node."""
+        """Send a message to the subscribers of one node."""
         publication = self._publications.get(f"/{topic}")
         if publication is not None:
-            publication.send(message, only=sender)
+            publication.send(message, target_node=sender)
 
     def _publish_clock(self) -> None:
-        """Publish the time, if anybody reads it."""
         if self._clock_is_read():
             self._clock.send(self._clock.kind.message(clock=clock_time(self.clock_topic.time())))
 
     def _clock_is_read(self) -> bool:
-        """Whether anybody has subscribed to ``/clock``."""
         return self._clock.n_subscribers > 0
 
     def has_publisher(self, topic: str) -> bool:
-        """Whether it is connected with a publisher of ``topic``."""
+        """Return whether the node is connected to a publisher of ``topic``."""
         subscription = self._subscriptions.get(f"/{topic}")
         return subscription is not None and subscription.n_publishers > 0
 
@@ -197,40 +207,39 @@ class Ros1Bridge(Bridge):
             subscription.close()
         super().close()
 
-    def _publication(self, topic: str, type_name: str) -> Publication:
-        """Advertise a topic that is not of the bus."""
+    def _advertise(self, topic: str, type_name: str) -> Publication:
+        """Advertise a topic that is not on the bus."""
         kind = wire_type(message_class(type_name))
         assert kind is not None
-        found = Publication(topic, kind, self._node, self.log, self._waits.send)
-        self._publications[topic] = found
-        return found
+        publication = Publication(topic, kind, self._node, self.log, self._timeouts.send)
+        self._publications[topic] = publication
+        return publication
 
     def _receiver(self, topic: str) -> Callable[[object, str], None]:
         return lambda message, sender: self.put(topic, message, sender)
 
     def _is_waited_for(self, sender: str) -> bool:
-        """Whether the run waits for what a node publishes; any thread."""
         return self.admission is not None and self.admission.is_waited_for(sender)
 
     def _register(self) -> None:
-        at = f"rosrpc://{self._host}:{self._listener.port}"
-        self._registrar.want(
-            Wanted(
+        uri = f"rosrpc://{self._host}:{self._listener.port}"
+        self._registrar.set_registrations(
+            Registrations(
                 publishers={k: v.kind.ros1_name for k, v in self._publications.items()},
                 subscribers={k: v.kind.ros1_name for k, v in self._subscriptions.items()},
-                services=dict.fromkeys(self._offered, at),
+                services=dict.fromkeys(self._offered_types, uri),
             )
         )
 
     def _update(self, topic: str, uris: list[str]) -> None:
         subscription = self._subscriptions.get(topic)
         if subscription is not None:
-            subscription.update(each for each in uris if each != self.uri)
+            subscription.update(uri for uri in uris if uri != self.uri)
 
-    def _choose(self, header: dict[str, str]) -> Serve | str:
-        """What serves a connection with this header, or why nothing does."""
+    def _find_handler(self, header: dict[str, str]) -> Serve | str:
+        """Return the function that serves this connection header, or the text of a refusal."""
         if "service" in header:
-            return self._choose_service(header)
+            return self._find_service_handler(header)
         publication = self._publications.get(header.get("topic", ""))
         if publication is None:
             return f"topic {header.get('topic', '')[:100]!r} is not published here"
@@ -242,16 +251,16 @@ class Ros1Bridge(Bridge):
             publication.serve, count=partial(self.external_subscribers.change, publication.topic)
         )
 
-    def _choose_service(self, header: dict[str, str]) -> Serve | str:
+    def _find_service_handler(self, header: dict[str, str]) -> Serve | str:
         name = header["service"]
-        offered = self._offered.get(name)
-        if offered is None:
+        service_type = self._offered_types.get(name)
+        if service_type is None:
             return f"service {name[:100]!r} is not offered here"
-        if (refusal := tcp_services.check(offered, header)) is not None:
+        if (refusal := tcp_services.check(service_type, header)) is not None:
             return refusal
         request = partial(self.request, name, sender=node_of(header))
         return lambda connection, header: tcp_services.serve(
-            connection, header, offered, self._node, request, self._idle
+            connection, header, service_type, self._node, request, self._idle_clients
         )
 
     def _is_offered_outside(self, name: str) -> bool:
@@ -264,7 +273,7 @@ class Ros1Bridge(Bridge):
         """Call a service that another node offers, in a thread of its own.
 
         Raises:
-            UwsimError: the request has no definition, or nobody offers the service any more.
+            UwsimError: the request has no definition, or no node offers the service any more.
         """
         kind = service_of(cast(Hashable, request.__class__))
         if kind is None:
@@ -274,30 +283,33 @@ class Ros1Bridge(Bridge):
 
         def run() -> None:
             try:
-                wanted = tcp_services.Wanted(f"/{name}", wire_service(kind), self._may_answer)
-                found = tcp_services.call(uri, wanted, self._node, request)
+                target = tcp_services.ExternalService(
+                    f"/{name}", wire_service(kind), self._may_answer
+                )
+                response = tcp_services.call(uri, target, self._node, request)
             except UwsimError as error:
                 future.set_exception(error)
-            except Exception as error:  # who waits for the answer must learn of it
+            except Exception as error:  # the thread that waits for the answer needs it
                 future.set_exception(UwsimError(f"service /{name}: {error}"))
             else:
-                future.set_result(found)
+                future.set_result(response)
 
         threading.Thread(target=run, name="ros1-call", daemon=True).start()
         return future
 
     def _may_answer(self, name: str, sender: str) -> bool:
-        """Whether a node may answer a call of a service; any thread."""
         return self.admission is None or self.admission.may_answer(name.lstrip("/"), sender)
 
     def _publisherUpdate(self, caller: str, topic: str, uris: list[str]) -> Answer:  # noqa: N802
-        self._registrar.update(topic, [each for each in uris if isinstance(each, str)])
+        self._registrar.update(topic, [uri for uri in uris if isinstance(uri, str)])
         return [1, "", 0]
 
     def _requestTopic(self, caller: str, topic: str, protocols: list[Any]) -> Answer:  # noqa: N802
         if topic not in self._publications:
             return [-1, f"{topic} is not published here", []]
-        if not any(each[:1] == ["TCPROS"] for each in protocols if isinstance(each, list)):
+        if not any(
+            protocol[:1] == ["TCPROS"] for protocol in protocols if isinstance(protocol, list)
+        ):
             return [0, "only TCPROS is spoken here", []]
         return [1, "ready", ["TCPROS", self._host, self._listener.port]]
 
@@ -305,11 +317,11 @@ class Ros1Bridge(Bridge):
         return [1, "", [[], [], []]]
 
     def _getBusInfo(self, caller: str) -> Answer:  # noqa: N802
-        out = [
-            [i, "?", "o", "TCPROS", topic, bool(each.n_subscribers)]
-            for i, (topic, each) in enumerate(list(self._publications.items()))
+        connections = [
+            [i, "?", "o", "TCPROS", topic, bool(publication.n_subscribers)]
+            for i, (topic, publication) in enumerate(list(self._publications.items()))
         ]
-        return [1, "", out]
+        return [1, "", connections]
 
     def _getMasterUri(self, caller: str) -> Answer:  # noqa: N802
         return [1, "", self._master]
@@ -318,30 +330,34 @@ class Ros1Bridge(Bridge):
         return [1, "", os.getpid()]
 
     def _getSubscriptions(self, caller: str) -> Answer:  # noqa: N802
-        found = list(self._subscriptions.items())
-        return [1, "", [[topic, each.kind.ros1_name] for topic, each in found]]
+        subscriptions = list(self._subscriptions.items())
+        return [
+            1,
+            "",
+            [[topic, subscription.kind.ros1_name] for topic, subscription in subscriptions],
+        ]
 
     def _getPublications(self, caller: str) -> Answer:  # noqa: N802
-        found = list(self._publications.items())
-        return [1, "", [[topic, each.kind.ros1_name] for topic, each in found]]
+        publications = list(self._publications.items())
+        return [1, "", [[topic, publication.kind.ros1_name] for topic, publication in publications]]
 
     def _getArrived(self, caller: str) -> Answer:  # noqa: N802
-        """How many messages have come by topic: of uwsim, for programs in lock-step."""
+        """Return the number of arrived messages by topic, for programs in lock-step."""
         return [1, "", dict(self.arrivals.n_arrived)]
 
     def _paramUpdate(self, caller: str, key: str, value: Any) -> Answer:  # noqa: N802
         return [1, "", 0]
 
-    def _shutdown(self, caller: str, why: str = "") -> Answer:
-        self.log.report(f"{caller[:100]} asks this node to leave the graph: {why[:200]}")
+    def _shutdown(self, caller: str, reason: str = "") -> Answer:
+        self.log.report(f"{caller[:100]} requests that this node leaves the graph: {reason[:200]}")
         self._registrar.give_up()
         return [1, "", 0]
 
 
 def _topics_to_read(topics: Mapping[str, TopicEnds]) -> set[str]:
-    """Topics, with a leading slash, that the bus reads from outside.
+    """Return the topics, with a leading slash, that the bus reads from outside.
 
-    In lock-step also those that it may read: the measure of a later level shall miss nothing.
+    In lock-step also those that it may read, so that a measure of a later level misses no message.
     """
     may_read = TICK in topics
     return {

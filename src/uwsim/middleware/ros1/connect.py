@@ -1,4 +1,4 @@
-"""Where the master is, and a master of our own where none runs."""
+"""The connection to a ROS 1 master, or to one that is started if none runs."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...bus import Bus
 from ...errors import BadSetting
 from ..log import Log
 from .address import read_address
-from .bridge import NODE, Ros1Bridge
+from .bridge import NODE_NAME, Ros1Bridge
 from .master import Master
 from .tcpros import PeerError
 from .xmlrpc import call
@@ -21,14 +21,14 @@ LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
 @dataclass(frozen=True, kw_only=True)
 class Ros1Options:
-    """How a simulation joins ROS 1."""
+    """The options by which a simulation joins ROS 1."""
 
     master: str | None = None
-    """URI of the master; None: that of ``ROS_MASTER_URI``, else port 11311 of this computer."""
+    """The URI of the master; None: that of ``ROS_MASTER_URI``, else port 11311 of this computer."""
     host: str = "127.0.0.1"
-    """Address at which the node listens, and which it tells other nodes."""
-    node: str = NODE
-    """Name of the node."""
+    """The address at which the node listens, and which other nodes receive."""
+    node: str = NODE_NAME
+    """The name of the node."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Ros1Connection:
     bridge: Ros1Bridge
     """The node."""
     master: Master | None
-    """The master, if none was there."""
+    """The master that was started; None: one was running."""
 
     def close(self) -> None:
         """Leave the graph, and end the master that was started."""
@@ -50,18 +50,18 @@ class Ros1Connection:
 def connect(
     bus: Bus, clock: Callable[[], float], options: Ros1Options, log: Log | None = None
 ) -> Ros1Connection:
-    """Join the graph of a master; starts one where none answers, if that is this computer.
+    """Join the graph of a master; start one if none answers on this computer.
 
     This computer is 127.0.0.1, and the address at which the node listens.
 
     Args:
-        bus: of the simulation.
+        bus: the bus of the simulation.
         clock: returns the simulation time [s].
-        options: where the master is and where to listen.
-        log: where it reports.
+        options: the addresses of master and node.
+        log: the log for events.
 
     Raises:
-        BadSetting: the master's URI is wrong, or it is on another computer and does not answer.
+        BadSetting: the master's URI is invalid, or it is on another computer and does not answer.
     """
     log = log or Log("ros1")
     uri = options.master or os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER
@@ -75,7 +75,7 @@ def connect(
     except PeerError as error:
         if name not in (*LOOPBACK, options.host):
             raise BadSetting(f"The ROS master does not answer: {error}.") from None
-        master = _start(log, "127.0.0.1" if name in LOOPBACK else name, port, error)
+        master = _start_master(log, "127.0.0.1" if name in LOOPBACK else name, port, error)
         uri = master.uri
     if name not in LOOPBACK and options.host in LOOPBACK:
         log.report(
@@ -91,12 +91,12 @@ def connect(
     return Ros1Connection(bridge, master)
 
 
-def _start(log: Log, host: str, port: int, why: PeerError) -> Master:
+def _start_master(log: Log, host: str, port: int, failure: PeerError) -> Master:
     try:
         master = Master(log, host=host, port=port)
     except OSError as error:
         raise BadSetting(
-            f"{why}, and no master can be started at port {port}: {error.strerror or error}."
+            f"{failure}, and no master can be started at port {port}: {error.strerror or error}."
         ) from None
     log.report(f"no master answers; one was started at {master.uri}")
     return master

@@ -1,4 +1,4 @@
-"""Reading from a connection until a deadline, however slowly something comes."""
+"""Reading from a connection until a deadline."""
 
 from __future__ import annotations
 
@@ -9,44 +9,44 @@ from typing import Any
 
 
 class DeadlineReader(io.RawIOBase):
-    """A stream of what a connection receives, for a limited time.
+    """A stream of the bytes that a connection receives, for a limited time.
 
     The connection stays open until the stream is closed, as with `socket.socket.makefile`.
 
     Args:
-        connection: read from; its timeout is changed.
-        limit: how long all of it may take [s].
+        connection: the connection to read from; its timeout is changed.
+        limit: the time limit for reading everything [s].
 
     Raises:
         TimeoutError: while reading, after that time.
     """
 
     def __init__(self, connection: socket.socket, limit: float) -> None:
-        self._connection, self._before = connection, connection.gettimeout()
+        self._connection, self._old_timeout = connection, connection.gettimeout()
         self._end = time.monotonic() + limit
-        self._hold = connection.makefile("rb")  # nothing is read through it
+        self._open_file = connection.makefile("rb")  # keeps the connection open; not read
 
     def readable(self) -> bool:
-        """It is."""
+        """Return True."""
         return True
 
     def readinto(self, buffer: Any) -> int:
-        """Read what has come, at least one byte; 0 at the end."""
+        """Read what has arrived, at least one byte; 0 at the end."""
         self._connection.settimeout(time_left(self._end))
         try:
             return self._connection.recv_into(buffer)
         finally:
-            self._connection.settimeout(self._before)
+            self._connection.settimeout(self._old_timeout)
 
     def close(self) -> None:
         """Close the stream."""
         super().close()
-        self._hold.close()
+        self._open_file.close()
 
 
-def time_left(end: float) -> float:
-    """Return how long it is until a moment of the monotonic clock [s]; raises TimeoutError."""
-    left = end - time.monotonic()
-    if left <= 0.0:
-        raise TimeoutError("the deadline is over")
-    return left
+def time_left(deadline: float) -> float:
+    """Return the time until a moment of the monotonic clock [s]; raise TimeoutError after it."""
+    seconds = deadline - time.monotonic()
+    if seconds <= 0.0:
+        raise TimeoutError("the deadline has passed")
+    return seconds

@@ -1,8 +1,8 @@
-"""A small master: who publishes, subscribes and serves what, and the parameters.
+"""A small master: registrations of publishers, subscribers and services, and the parameters.
 
-It is what ``rosmaster`` is to nodes: registrations, look-ups, ``publisherUpdate`` to the
-subscribers of a topic, and a parameter server with ``paramUpdate``. It takes the place of
-``roscore`` where none runs; log messages on ``/rosout`` are not collected.
+It has the functions of ``rosmaster``: registrations, look-ups, ``publisherUpdate`` to the
+subscribers of a topic, and a parameter server with ``paramUpdate``. It replaces ``roscore`` if none
+runs; log messages on ``/rosout`` are not collected.
 """
 
 from __future__ import annotations
@@ -15,29 +15,29 @@ from functools import partial
 from typing import Any
 
 from ..log import Log
-from .arguments import MASTER_METHODS, PARAMETER_METHODS, checked
+from .arguments import MASTER_METHODS, PARAMETER_METHODS, check_arguments
 from .node_calls import NodeCalls
 from .parameters import Parameters, resolve
 from .tcpros import PeerError
 from .xmlrpc import MAX_NODE_ANSWER, Answer, XmlRpcServer, call
 
 MAX_ENTRIES = 10_000
-"""Publishers, subscribers, services and nodes that are registered, of each kind."""
-FULL = f"at most {MAX_ENTRIES} entries of a kind are kept"
+"""The maximum number of registered publishers, of subscribers, of services and of nodes."""
+FULL_ERROR = f"at most {MAX_ENTRIES} entries of a kind are kept"
 Registrations = dict[str, dict[str, str]]
-"""Topic or service -> node -> its URI."""
+"""The URIs of nodes, by topic or service and node."""
 
 
 class Master:
     """A master of ROS 1.
 
     Args:
-        log: where it reports.
-        host: address to listen on.
-        port: port; 0 takes a free one.
+        log: the log for events.
+        host: the address to listen on.
+        port: the port; 0 selects a free one.
 
     Raises:
-        OSError: the port is taken.
+        OSError: the port is in use.
     """
 
     def __init__(self, log: Log, *, host: str = "127.0.0.1", port: int = 0) -> None:
@@ -50,47 +50,53 @@ class Master:
         self._parameters = Parameters()
         self._node_calls = NodeCalls()
         methods = {
-            name: checked(method, self._limited(name, getattr(self, f"_{_snake(name)}")))
+            name: check_arguments(
+                method, self._limit_registrations(name, getattr(self, f"_{_snake(name)}"))
+            )
             for name, method in MASTER_METHODS.items()
         }
         methods |= {
-            name: checked(method, self._guarded(name)) for name, method in PARAMETER_METHODS.items()
+            name: check_arguments(method, self._wrap_parameter_method(name))
+            for name, method in PARAMETER_METHODS.items()
         }
         self._server = XmlRpcServer(host, port, methods, log, "master")
         self.uri = f"http://{host}:{self._server.port}/"
-        """Its address, as ``ROS_MASTER_URI``."""
+        """The address of the master, as in ``ROS_MASTER_URI``."""
 
     def close(self) -> None:
-        """Stop."""
+        """Stop the server."""
         self._server.close()
         self._node_calls.close()
 
-    def _guarded(self, name: str) -> Any:
+    def _wrap_parameter_method(self, name: str) -> Any:
         method = getattr(self._parameters, _snake(name))
 
         def answer(*arguments: Any) -> Answer:
             with self._lock:
-                result, changed = method(*arguments)
-            for uri, key, value in changed:
-                self._later(uri, "paramUpdate", "/master", key, value)
+                result, updates = method(*arguments)
+            for uri, key, value in updates:
+                self._call_later(uri, "paramUpdate", "/master", key, value)
             return list(result)
 
         return answer
 
-    def _limited(self, name: str, method: Callable[..., Answer]) -> Callable[..., Answer]:
-        """Return a method that refuses to register more than is kept."""
+    def _limit_registrations(
+        self, name: str, method: Callable[..., Answer]
+    ) -> Callable[..., Answer]:
+        """Return a method that refuses registrations beyond the limit."""
         if not name.startswith("register"):
             return method
 
         def answer(*arguments: Any) -> Answer:
-            return [-1, FULL, 0] if self._is_full() else method(*arguments)
+            return [-1, FULL_ERROR, 0] if self._is_full() else method(*arguments)
 
         return answer
 
     def _is_full(self) -> bool:
         with self._lock:
             publishers, subscribers = (
-                sum(map(len, each.values())) for each in (self._publishers, self._subscribers)
+                sum(map(len, registrations.values()))
+                for registrations in (self._publishers, self._subscribers)
             )
             n = max(publishers, subscribers, len(self._services), len(self._nodes))
             return n >= MAX_ENTRIES
@@ -98,24 +104,24 @@ class Master:
     def _register_publisher(self, caller: str, topic: str, kind: str, uri: str) -> Answer:
         with self._lock:
             topic = resolve(topic, caller)
-            self._enter(caller, uri)
+            self._add_node(caller, uri)
             self._publishers.setdefault(topic, {})[caller] = uri
             if kind != "*" or topic not in self._types:
                 self._types[topic] = kind
             subscribers = list(self._subscribers.get(topic, {}).values())
-        self._tell(topic)
+        self._send_update(topic)
         return [1, f"Registered {caller} as publisher of {topic}", subscribers]
 
     def _unregister_publisher(self, caller: str, topic: str, uri: str) -> Answer:
-        n = self._leave(self._publishers, resolve(topic, caller), caller, uri)
+        n = self._unregister(self._publishers, resolve(topic, caller), caller, uri)
         if n:
-            self._tell(resolve(topic, caller))
+            self._send_update(resolve(topic, caller))
         return [1, "Unregistered" if n else "Was not registered", n]
 
     def _register_subscriber(self, caller: str, topic: str, kind: str, uri: str) -> Answer:
         with self._lock:
             topic = resolve(topic, caller)
-            self._enter(caller, uri)
+            self._add_node(caller, uri)
             self._subscribers.setdefault(topic, {})[caller] = uri
             if kind != "*":
                 self._types.setdefault(topic, kind)
@@ -123,28 +129,28 @@ class Master:
         return [1, f"Subscribed to {topic}", publishers]
 
     def _unregister_subscriber(self, caller: str, topic: str, uri: str) -> Answer:
-        n = self._leave(self._subscribers, resolve(topic, caller), caller, uri)
+        n = self._unregister(self._subscribers, resolve(topic, caller), caller, uri)
         return [1, "Unregistered" if n else "Was not registered", n]
 
     def _register_service(self, caller: str, service: str, api: str, uri: str) -> Answer:
         with self._lock:
-            self._enter(caller, uri)
+            self._add_node(caller, uri)
             self._services[resolve(service, caller)] = (caller, api, uri)
         return [1, f"Registered service {service}", 1]
 
     def _unregister_service(self, caller: str, service: str, api: str) -> Answer:
         with self._lock:
             name = resolve(service, caller)
-            is_its = self._services.get(name, ("", "", ""))[1] == api
-            if is_its:
+            is_registered = self._services.get(name, ("", "", ""))[1] == api
+            if is_registered:
                 node = self._services.pop(name)[0]
-                self._forget_if_gone(node)
-        return [1, "Unregistered" if is_its else "Was not registered", int(is_its)]
+                self._remove_if_unused(node)
+        return [1, "Unregistered" if is_registered else "Was not registered", int(is_registered)]
 
     def _lookup_service(self, caller: str, service: str) -> Answer:
         with self._lock:
-            found = self._services.get(resolve(service, caller))
-        return [1, "rosrpc URI", found[1]] if found else [-1, f"no provider of {service}", ""]
+            entry = self._services.get(resolve(service, caller))
+        return [1, "rosrpc URI", entry[1]] if entry else [-1, f"no provider of {service}", ""]
 
     def _lookup_node(self, caller: str, node: str) -> Answer:
         with self._lock:
@@ -154,24 +160,28 @@ class Master:
     def _get_published_topics(self, caller: str, subgraph: str) -> Answer:
         prefix = resolve(subgraph, caller).rstrip("/") + "/" if subgraph else "/"
         with self._lock:
-            found = [
+            topics = [
                 [topic, self._types.get(topic, "*")]
                 for topic in sorted(self._publishers)
                 if topic.startswith(prefix) and self._publishers[topic]
             ]
-        return [1, "current topics", found]
+        return [1, "current topics", topics]
 
     def _get_topic_types(self, caller: str) -> Answer:
         with self._lock:
-            return [1, "current topic types", [list(each) for each in sorted(self._types.items())]]
+            return [
+                1,
+                "current topic types",
+                [list(entry) for entry in sorted(self._types.items())],
+            ]
 
     def _get_system_state(self, caller: str) -> Answer:
         with self._lock:
             publishers, subscribers = (
-                [[name, sorted(nodes)] for name, nodes in sorted(which.items()) if nodes]
-                for which in (self._publishers, self._subscribers)
+                [[name, sorted(nodes)] for name, nodes in sorted(registrations.items()) if nodes]
+                for registrations in (self._publishers, self._subscribers)
             )
-            services = [[name, [who[0]]] for name, who in sorted(self._services.items())]
+            services = [[name, [entry[0]]] for name, entry in sorted(self._services.items())]
         return [1, "current system state", [publishers, subscribers, services]]
 
     def _get_uri(self, caller: str) -> Answer:
@@ -180,42 +190,44 @@ class Master:
     def _get_pid(self, caller: str) -> Answer:
         return [1, "", os.getpid()]
 
-    def _enter(self, caller: str, uri: str) -> None:
-        """Note a node; one of the same name is asked to end, as ROS does."""
-        before = self._nodes.get(caller)
-        if before is not None and before != uri:
-            for each in (self._publishers, self._subscribers):
-                for nodes in each.values():
-                    if nodes.get(caller) == before:
+    def _add_node(self, caller: str, uri: str) -> None:
+        """Store a node; request another node of the same name to shut down, as ROS does."""
+        old_uri = self._nodes.get(caller)
+        if old_uri is not None and old_uri != uri:
+            for registrations in (self._publishers, self._subscribers):
+                for nodes in registrations.values():
+                    if nodes.get(caller) == old_uri:
                         del nodes[caller]
-            self._services = {k: v for k, v in self._services.items() if v[2] != before}
-            self._later(before, "shutdown", "/master", f"new node registered with name {caller}")
+            self._services = {k: v for k, v in self._services.items() if v[2] != old_uri}
+            self._call_later(
+                old_uri, "shutdown", "/master", f"new node registered with name {caller}"
+            )
         self._nodes[caller] = uri
 
-    def _leave(self, which: Registrations, name: str, caller: str, uri: str) -> int:
+    def _unregister(self, registrations: Registrations, name: str, caller: str, uri: str) -> int:
         with self._lock:
-            if which.get(name, {}).get(caller) != uri:
+            if registrations.get(name, {}).get(caller) != uri:
                 return 0
-            del which[name][caller]
-            if not which[name]:
-                del which[name]
+            del registrations[name][caller]
+            if not registrations[name]:
+                del registrations[name]
             if name not in self._publishers and name not in self._subscribers:
                 self._types.pop(name, None)
-            self._forget_if_gone(caller)
+            self._remove_if_unused(caller)
             return 1
 
-    def _forget_if_gone(self, node: str) -> None:
-        """Forget a node that has nothing registered any more."""
+    def _remove_if_unused(self, node: str) -> None:
+        """Remove a node without registrations."""
         has_topics = any(
             node in nodes
-            for each in (self._publishers, self._subscribers)
-            for nodes in each.values()
+            for registrations in (self._publishers, self._subscribers)
+            for nodes in registrations.values()
         )
         if not has_topics and all(entry[0] != node for entry in self._services.values()):
             self._nodes.pop(node, None)
 
-    def _tell(self, topic: str) -> None:
-        """Tell the subscribers of a topic its publishers; the list is read when it is sent."""
+    def _send_update(self, topic: str) -> None:
+        """Send the publishers of a topic to its subscribers; the list is read when it is sent."""
         with self._lock:
             uris = list(self._subscribers.get(topic, {}).values())
         for uri in uris:
@@ -227,14 +239,14 @@ class Master:
             publishers = list(self._publishers.get(topic, {}).values())
         _call_node(uri, "publisherUpdate", "/master", topic, publishers)
 
-    def _later(self, uri: str, method: str, *arguments: Any) -> None:
-        key = f"{method} {arguments[1]}"  # of a parameter its newest value is sent
+    def _call_later(self, uri: str, method: str, *arguments: Any) -> None:
+        key = f"{method} {arguments[1]}"  # only the newest value of a parameter is sent
         self._node_calls.add(uri, key, partial(_call_node, uri, method, *arguments))
 
 
 def _call_node(uri: str, method: str, *arguments: Any) -> None:
     with suppress(PeerError):
-        call(uri, method, *arguments, longest=MAX_NODE_ANSWER)
+        call(uri, method, *arguments, max_length=MAX_NODE_ANSWER)
 
 
 def _snake(name: str) -> str:

@@ -1,9 +1,9 @@
-"""Which requests of HTTP come from pages in browsers.
+"""Recognition of HTTP requests that come from pages in browsers.
 
-Any page may have a browser send a request to any address, also to this computer. The browser adds
-the page's ``Origin``. A page can also have its own name lead to this computer, and its requests
-then have that name as their ``Host``. Nodes of ROS send no ``Origin``, and as ``Host`` an address
-or the name of this computer.
+Any page may make a browser send a request to any address, also to this computer. The browser adds
+the page's ``Origin``. A page can also make its own name resolve to this computer; its requests then
+have that name as their ``Host``. Nodes of ROS send no ``Origin``, and as ``Host`` an address or the
+name of this computer.
 """
 
 from __future__ import annotations
@@ -12,40 +12,40 @@ import ipaddress
 import socket
 from collections.abc import Mapping
 
-LOCAL = (".local", ".lan", ".localdomain", ".internal", ".home.arpa")
-"""Ends of names that are given in a local network only."""
+LOCAL_SUFFIXES = (".local", ".lan", ".localdomain", ".internal", ".home.arpa")
+"""The suffixes of names in local networks."""
 
 
-def own_names(host: str) -> frozenset[str]:
-    """Return names of this computer, given that by which its server listens."""
+def local_names(host: str) -> frozenset[str]:
+    """Return the names of this computer, with that of its server."""
     return frozenset(
         name.lower().rstrip(".") for name in (host, "localhost", socket.gethostname()) if name
     )
 
 
-def wrong_in_headers(headers: Mapping[str, str], own: frozenset[str]) -> str | None:
-    """Return what in the headers of a request is of a page in a browser; None: nothing.
+def find_browser_sign(headers: Mapping[str, str], local_names: frozenset[str]) -> str | None:
+    """Return the sign of a page in a browser in the headers of a request; None: there is none.
 
     Args:
-        headers: of the request.
-        own: names of this computer.
+        headers: the headers of the request.
+        local_names: the names of this computer.
     """
     origin = headers.get("origin")
     if origin is not None:
-        return f"it is of a page, {origin[:100]!r}"
+        return f"it comes from a page, {origin[:100]!r}"
     if headers.get("sec-fetch-site") is not None:
-        return "it is of a browser"
+        return "it comes from a browser"
     host = headers.get("host", "")
-    name = _without_port(host).lower().rstrip(".")
-    is_local = name in own or "." not in name or name.endswith(LOCAL)
+    name = _remove_port(host).lower().rstrip(".")
+    is_local = name in local_names or "." not in name or name.endswith(LOCAL_SUFFIXES)
     if name and not is_local and not _is_address(name):
-        names = ", ".join(sorted(own))
+        names = ", ".join(sorted(local_names))
         return f"its Host is {host[:100]!r}; expected an address, or one of {names} (--ros1-host)"
     return None
 
 
-def _without_port(host: str) -> str:
-    """``robot:11311`` -> ``robot``, ``[::1]:11311`` -> ``::1``."""
+def _remove_port(host: str) -> str:
+    """Return ``robot`` for ``robot:11311``, ``::1`` for ``[::1]:11311``."""
     host = host.strip()
     if host.startswith("["):
         return host[1:].partition("]")[0]

@@ -14,37 +14,37 @@ from ..log import Log
 from ..queues import LatestQueue
 from ..stamps import to_ros_clock
 from ..types import WireType
-from .tcpros import PeerError, encode_header, framed, has_left, node_of, write
+from .tcpros import PeerError, add_length, encode_header, has_left, node_of, write
 
 QUEUE_LENGTH = 100
-"""Messages that wait for a slow subscriber; the oldest are dropped."""
+"""The number of messages that wait for a slow subscriber; the oldest are dropped."""
 QUEUE_BYTES = 32 * 2**20
-IDLE_CHECK = 0.5
-"""How often a connection without messages is looked at for its end [s]."""
+IDLE_CHECK_INTERVAL = 0.5
+"""The interval of checks whether a connection without messages has ended [s]."""
 Encode = Callable[[Any, int], memoryview]
-"""Encodes a message, with its sequence number."""
+"""The function that encodes a message, with its sequence number."""
 
 
 def encode_message(message: object, seq: int) -> memoryview:
-    """Return a message of the bus as ROS 1 has it, stamps on the clock of ROS."""
+    """Encode a message of the bus for ROS 1, with stamps on the clock of ROS."""
     return to_ros1(to_ros_clock(message), seq=seq)
 
 
-class Outgoing:
-    """A message on its way out: encoded once, by the first connection that needs it."""
+class EncodedMessage:
+    """A message to send, encoded once, by the first connection that needs it."""
 
     def __init__(self, message: object, seq: int, encode: Encode) -> None:
         self._message, self._seq, self._encode = message, seq, encode
         self._lock = threading.Lock()
         self._frame: bytes | None = None
         self.size = size_of(message)
-        """About how many bytes it takes."""
+        """The approximate size of the message [bytes]."""
 
     def frame(self) -> bytes:
-        """Return it with its length in front; raises BadMessage."""
+        """Return the encoded message with its length in front; raise BadMessage."""
         with self._lock:
             if self._frame is None:
-                self._frame = framed(self._encode(self._message, self._seq))
+                self._frame = add_length(self._encode(self._message, self._seq))
             return self._frame
 
 
@@ -52,13 +52,13 @@ class Publication:
     """A published topic and its connections.
 
     Args:
-        topic: name with a leading slash.
-        kind: its type.
-        caller: name of this node.
-        log: where it reports.
-        send_timeout: how long a subscriber may take to read a message [s].
+        topic: the name with a leading slash.
+        kind: the type of the topic.
+        caller: the name of this node.
+        log: the log for events.
+        send_timeout: the time limit for a subscriber to read a message [s].
         encode: returns the bytes of a message.
-        is_latched: whether a subscriber begins with the newest message.
+        is_latched: a flag: new subscribers receive the newest message first.
     """
 
     def __init__(
@@ -75,22 +75,22 @@ class Publication:
         self.topic, self.kind = topic, kind
         self._caller, self._log, self._send_timeout = caller, log, send_timeout
         self._encode, self._is_latched = encode, is_latched
-        self._newest: Outgoing | None = None
+        self._latched_message: EncodedMessage | None = None
         self._lock = threading.Lock()
-        self._queues: list[tuple[str, LatestQueue[Outgoing]]] = []  # of each node
+        self._queues: list[tuple[str, LatestQueue[EncodedMessage]]] = []  # of each node
         self._n_sent = 0
         self._is_closed = False
 
-    def send(self, message: object, only: str = "") -> None:
-        """Hand a message to all subscribers, or to those of one node, without waiting."""
+    def send(self, message: object, target_node: str = "") -> None:
+        """Send a message to all subscribers, or to those of one node, without waiting."""
         self._n_sent += 1
-        outgoing = Outgoing(message, self._n_sent, self._encode)
+        encoded_message = EncodedMessage(message, self._n_sent, self._encode)
         with self._lock:
-            queues = [queue for node, queue in self._queues if only in ("", node)]
-            if not only:
-                self._newest = outgoing if self._is_latched else None
+            queues = [queue for node, queue in self._queues if target_node in ("", node)]
+            if not target_node:
+                self._latched_message = encoded_message if self._is_latched else None
         for queue in queues:
-            if queue.put(outgoing, outgoing.size):
+            if queue.put(encoded_message, encoded_message.size):
                 self._log.report(
                     f"{self.topic}: a subscriber reads too slowly; the oldest messages are dropped",
                     kind=f"slow {self.topic}",
@@ -98,11 +98,11 @@ class Publication:
 
     @property
     def n_subscribers(self) -> int:
-        """Connections there are."""
+        """The number of connections."""
         return len(self._queues)
 
     def check(self, header: dict[str, str]) -> str | None:
-        """Why a subscriber with this connection header cannot be served; None if it can."""
+        """Return the reason why a subscriber with this header cannot be served; None if it can."""
         md5, kind = header.get("md5sum", ""), header.get("type", "")
         if md5 not in ("*", self.kind.md5):
             return (
@@ -120,22 +120,22 @@ class Publication:
         """Send messages over a connection until either side leaves; in the connection's thread.
 
         Args:
-            connection: to the subscriber.
-            header: that the subscriber has sent.
+            connection: the connection to the subscriber.
+            header: the header of the subscriber.
             count: called with 1 once messages are kept for the subscriber, and with -1 at its end.
 
         Raises:
-            PeerError: the subscriber broke off, or does not read.
+            PeerError: the connection broke, or the subscriber does not read.
         """
-        queue: LatestQueue[Outgoing] = LatestQueue(QUEUE_LENGTH, QUEUE_BYTES)
-        mine = node_of(header), queue
+        queue: LatestQueue[EncodedMessage] = LatestQueue(QUEUE_LENGTH, QUEUE_BYTES)
+        node_queue = node_of(header), queue
         connection.settimeout(self._send_timeout)
         with self._lock:
             if self._is_closed:
                 return
-            self._queues.append(mine)  # before the header: who has it misses no message
-            if self._newest is not None:
-                queue.put(self._newest, self._newest.size)
+            self._queues.append(node_queue)  # before the header, after which no message is missed
+            if self._latched_message is not None:
+                queue.put(self._latched_message, self._latched_message.size)
         count(1)
         try:
             write(connection, encode_header(self._header()))
@@ -143,7 +143,7 @@ class Publication:
         finally:
             count(-1)
             with self._lock:
-                self._queues.remove(mine)
+                self._queues.remove(node_queue)
             queue.close()
 
     def _header(self) -> dict[str, str]:
@@ -156,15 +156,15 @@ class Publication:
             "type": self.kind.ros1_name,
         }
 
-    def _send_all(self, connection: socket.socket, queue: LatestQueue[Outgoing]) -> None:
+    def _send_all(self, connection: socket.socket, queue: LatestQueue[EncodedMessage]) -> None:
         while not queue.is_closed:
-            outgoing = queue.get(timeout=IDLE_CHECK)
-            if outgoing is None:
+            encoded_message = queue.get(timeout=IDLE_CHECK_INTERVAL)
+            if encoded_message is None:
                 if has_left(connection):
                     return
                 continue
             try:
-                write(connection, outgoing.frame())
+                write(connection, encoded_message.frame())
             except BadMessage as error:
                 self._log.report(f"{self.topic}: {error}", kind=f"unencodable {self.topic}")
             except PeerError:
@@ -173,7 +173,7 @@ class Publication:
                 raise
 
     def close(self) -> None:
-        """Serve no more."""
+        """Close all queues."""
         with self._lock:
             self._is_closed = True
             queues = list(self._queues)

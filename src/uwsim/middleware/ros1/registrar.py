@@ -1,6 +1,6 @@
-"""What a node tells its master: what it publishes, reads and serves; again after a restart.
+"""Registration of a node's publications, subscriptions and services; again after a restart.
 
-All calls of the master are made in one thread, so that a master that hangs holds nobody up.
+One thread makes all calls of the master, so that a master that hangs delays no other thread.
 """
 
 from __future__ import annotations
@@ -13,22 +13,22 @@ from typing import Any
 
 from ..log import Log
 from .tcpros import PeerError
-from .xmlrpc import Refused, call
+from .xmlrpc import RefusedCall, call
 
 POLL = 1.0
-"""How often it looks whether the master is there and knows this node [s]."""
+"""The interval of checks that the master is reachable and has this node [s]."""
 
 
 @dataclass
-class Wanted:
-    """What shall be registered: topic -> type, service -> its ``rosrpc`` URI."""
+class Registrations:
+    """The registrations of a node: topic -> type, service -> its ``rosrpc`` URI."""
 
     publishers: dict[str, str] = field(default_factory=dict)
     subscribers: dict[str, str] = field(default_factory=dict)
     services: dict[str, str] = field(default_factory=dict)
 
     def items(self) -> set[tuple[str, str, str]]:
-        """Kind, name and type or URI of each."""
+        """Return kind, name and type or URI of each registration."""
         return {
             (kind, name, value)
             for kind in ("publishers", "subscribers", "services")
@@ -37,16 +37,16 @@ class Wanted:
 
 
 class Registrar:
-    """Keeps a node registered with its master.
+    """The thread that keeps a node registered with its master.
 
     Args:
-        master: URI of the master.
-        caller: name of the node.
-        uri: of the node's own XML-RPC server.
-        log: where it reports.
+        master: the URI of the master.
+        caller: the name of the node.
+        uri: the URI of the node's own XML-RPC server.
+        log: the log for events.
         publishers: called with a topic and the URIs of its publishers.
-        parameters: set when the master is reached, and put back at the end.
-        poll: how often it looks for the master [s].
+        parameters: the parameters to set on the master, and to restore at the end.
+        poll: the interval of checks of the master [s].
     """
 
     def __init__(
@@ -63,108 +63,116 @@ class Registrar:
         self._master, self._caller, self._uri, self._log = master, caller, uri, log
         self._publishers, self._poll = publishers, poll
         self._parameters = dict(parameters)
-        self._before: dict[str, Any] = {}
+        self._old_parameters: dict[str, Any] = {}
         self._lock = threading.Lock()
         self._update_lock = threading.Lock()
-        self._updated: set[str] = set()  # topics of updates since their registration was begun
-        self._wanted: set[tuple[str, str, str]] = set()
-        self._registered: set[tuple[str, str, str]] = set()
+        self._updated_topics: set[str] = (
+            set()
+        )  # topics with updates since the start of registration
+        self._requested_items: set[tuple[str, str, str]] = set()
+        self._registered_items: set[tuple[str, str, str]] = set()
         self._is_lost = self._has_given_up = False
-        self._news, self._stopped = threading.Event(), threading.Event()
-        self._settled = threading.Condition(self._lock)
+        self._wake_event, self._stop_event = threading.Event(), threading.Event()
+        self._condition = threading.Condition(self._lock)
         self._thread = threading.Thread(target=self._run, name="ros1-registrar", daemon=True)
         self._thread.start()
 
-    def want(self, wanted: Wanted) -> None:
-        """Have this registered, and nothing else."""
+    def set_registrations(self, registrations: Registrations) -> None:
+        """Set the registrations; others are removed."""
         with self._lock:
-            self._wanted = wanted.items()
-        self._news.set()
+            self._requested_items = registrations.items()
+        self._wake_event.set()
 
     def wait(self, timeout: float) -> bool:
-        """Wait until all that is wanted is registered; whether it is [s]."""
-        with self._settled:
-            return self._settled.wait_for(
-                lambda: bool(self._wanted) and self._wanted == self._registered, timeout
+        """Wait until all is registered, at most ``timeout`` [s]; return whether it is."""
+        with self._condition:
+            return self._condition.wait_for(
+                lambda: (
+                    bool(self._requested_items) and self._requested_items == self._registered_items
+                ),
+                timeout,
             )
 
     def update(self, topic: str, uris: list[str]) -> None:
-        """Take in an update of the master: the publishers of a topic. Any thread."""
+        """Pass on an update of the master: the publishers of a topic. Any thread."""
         with self._update_lock:
-            self._updated.add(topic)
+            self._updated_topics.add(topic)
             self._publishers(topic, uris)
 
     def close(self) -> None:
         """Unregister everything."""
-        self._stopped.set()
-        self._news.set()
+        self._stop_event.set()
+        self._wake_event.set()
         self._thread.join(timeout=20.0)
 
     def give_up(self) -> None:
-        """Register nothing more; called when the master gives the node's name to another."""
+        """Register nothing more: the master has given the node's name to another."""
         with self._lock:
             self._has_given_up = True
-            self._registered = set()
-            self._before = {}
+            self._registered_items = set()
+            self._old_parameters = {}
 
     def call(self, method: str, *arguments: Any) -> Any:
-        """Call the master; raises PeerError."""
+        """Call the master; raise PeerError."""
         return call(self._master, method, self._caller, *arguments)
 
     def _run(self) -> None:
-        while not self._stopped.is_set():
+        while not self._stop_event.is_set():
             try:
-                self._look()
+                self._check_master()
                 if not self._has_given_up:
                     self._reconcile()
             except PeerError as error:
                 if not self._is_lost:
                     self._log.report(f"the master: {error}; it is tried again", kind="master lost")
                 self._is_lost = True
-            except Exception as error:  # a defect here must not end the registrations
-                what = f"{type(error).__name__}: {error}"
+            except Exception as error:  # a defect here must not end the registration thread
+                text = f"{type(error).__name__}: {error}"
                 self._log.report(
-                    f"registering failed: {what}; it is tried again", kind="registering"
+                    f"registering failed: {text}; it is tried again", kind="registering"
                 )
-            self._news.wait(self._poll)
-            self._news.clear()
+            self._wake_event.wait(self._poll)
+            self._wake_event.clear()
         with suppress(PeerError):
-            self._leave()
+            self._unregister_all()
 
-    def _look(self) -> None:
-        """Forget what was registered if the master does not know this node any more."""
-        if not self._registered:
+    def _check_master(self) -> None:
+        """Check that the master has this node; if it was restarted, register again."""
+        if not self._registered_items:
             return
         try:
-            found = self.call("lookupNode", self._caller)
-        except Refused:
-            found = None
-        if found is not None and found != self._uri:
+            uri = self.call("lookupNode", self._caller)
+        except RefusedCall:
+            uri = None
+        if uri is not None and uri != self._uri:
             self._log.report(f"another node is called {self._caller}; this one leaves the graph")
             self.give_up()
-        elif found != self._uri:
+        elif uri != self._uri:
             self._log.report("the master was restarted; the node registers again", kind="restarted")
             with self._lock:
-                self._registered = set()
-            self._before = {}
+                self._registered_items = set()
+            self._old_parameters = {}
         elif self._is_lost:
             self._log.report("the master is back", kind="back")
         self._is_lost = False
 
     def _reconcile(self) -> None:
         with self._lock:
-            wanted, registered = set(self._wanted), set(self._registered)
-        for item in sorted(registered - wanted):
+            requested_items, registered_items = (
+                set(self._requested_items),
+                set(self._registered_items),
+            )
+        for item in sorted(registered_items - requested_items):
             self._unregister(item)
-        for item in sorted(wanted - registered):
+        for item in sorted(requested_items - registered_items):
             self._register(item)
-        if wanted and self._parameters and not self._before:
+        if requested_items and self._parameters and not self._old_parameters:
             self._set_parameters()
-        with self._settled:
-            self._settled.notify_all()
+        with self._condition:
+            self._condition.notify_all()
 
     def _register(self, item: tuple[str, str, str]) -> None:
-        """Register one; where the master refuses it, the others are registered all the same."""
+        """Register a topic or service; if the master refuses it, report that and continue."""
         kind, name, value = item
         try:
             if kind == "publishers":
@@ -173,25 +181,25 @@ class Registrar:
                 self._subscribe(name, value)
             else:
                 self.call("registerService", name, value, self._uri)
-        except Refused as error:
+        except RefusedCall as error:
             self._log.report(f"not on the graph: {name}: {error}")
         with self._lock:
-            self._registered.add(item)
+            self._registered_items.add(item)
 
     def _subscribe(self, topic: str, kind: str) -> None:
-        """Register a subscriber; an update that overtakes the answer is newer than it."""
+        """Register a subscriber; an update that arrives before the answer is newer."""
         with self._update_lock:
-            self._updated.discard(topic)
-        found = self.call("registerSubscriber", topic, kind, self._uri)
-        if not isinstance(found, list):
-            raise PeerError(f"registerSubscriber: expected a list, not {type(found).__name__}")
+            self._updated_topics.discard(topic)
+        uris = self.call("registerSubscriber", topic, kind, self._uri)
+        if not isinstance(uris, list):
+            raise PeerError(f"registerSubscriber: expected a list, not {type(uris).__name__}")
         with self._update_lock:
-            if topic not in self._updated:
-                self._publishers(topic, [each for each in found if isinstance(each, str)])
+            if topic not in self._updated_topics:
+                self._publishers(topic, [uri for uri in uris if isinstance(uri, str)])
 
     def _unregister(self, item: tuple[str, str, str]) -> None:
         kind, name, value = item
-        with suppress(Refused):  # as when it was registered
+        with suppress(RefusedCall):  # as when it was registered
             if kind == "publishers":
                 self.call("unregisterPublisher", name, self._uri)
             elif kind == "subscribers":
@@ -199,23 +207,23 @@ class Registrar:
             else:
                 self.call("unregisterService", name, value)
         with self._lock:
-            self._registered.discard(item)
+            self._registered_items.discard(item)
 
     def _set_parameters(self) -> None:
         for name, value in self._parameters.items():
             try:
-                self._before[name] = self.call("getParam", name)
-            except Refused:
-                self._before[name] = None
+                self._old_parameters[name] = self.call("getParam", name)
+            except RefusedCall:
+                self._old_parameters[name] = None
             self.call("setParam", name, value)
 
-    def _leave(self) -> None:
+    def _unregister_all(self) -> None:
         if self._is_lost:
             return
-        for item in sorted(self._registered):
+        for item in sorted(self._registered_items):
             self._unregister(item)
-        for name, before in self._before.items():
-            if before is None:
+        for name, value in self._old_parameters.items():
+            if value is None:
                 self.call("deleteParam", name)
             else:
-                self.call("setParam", name, before)
+                self.call("setParam", name, value)

@@ -1,4 +1,4 @@
-"""What the bridge reports, as messages on ``/rosout``."""
+"""The log of the bridge, as messages on ``/rosout``."""
 
 from __future__ import annotations
 
@@ -10,27 +10,29 @@ from ..stamps import clock_time
 from ..types import WireType, ros1_store
 from .publication import Publication
 
-NAME = "rosgraph_msgs/msg/Log"
-"""Its type, which only ROS 1 has."""
+TYPE_NAME = "rosgraph_msgs/msg/Log"
+"""The message type, which only ROS 1 has."""
 WARNING = 4
-"""Level of its messages."""
+"""The level of the messages."""
 
 
-def rosout(node: str, log: Log, clock: Callable[[], float], send_timeout: float) -> Publication:
-    """Return the publication on ``/rosout`` of a log's lines.
+def publish_log(
+    node: str, log: Log, clock: Callable[[], float], send_timeout: float
+) -> Publication:
+    """Publish the lines of a log on ``/rosout``.
 
     Args:
-        node: name of the node.
-        log: whose lines are published from now on.
+        node: the name of the node.
+        log: the log to publish, from now on.
         clock: returns the simulation time [s].
-        send_timeout: how long a subscriber may take to read a message [s].
+        send_timeout: the time limit for a subscriber to read a message [s].
     """
     store = ros1_store()
-    definition, md5 = store.generate_msgdef(NAME, ros_version=1)
-    header, message = store.types["std_msgs/msg/Header"], store.types[NAME]
+    definition, md5 = store.generate_msgdef(TYPE_NAME, ros_version=1)
+    header, message = store.types["std_msgs/msg/Header"], store.types[TYPE_NAME]
     kind = WireType(
         message=message,
-        ros1_name=NAME.replace("/msg/", "/"),
+        ros1_name=TYPE_NAME.replace("/msg/", "/"),
         md5=md5,
         ros1_definition=definition,
         ros2_name="",
@@ -40,7 +42,7 @@ def rosout(node: str, log: Log, clock: Callable[[], float], send_timeout: float)
 
     def encode(line: Any, seq: int) -> memoryview:
         stamp = clock_time(clock())
-        found = message(
+        log_message = message(
             header=header(seq=seq, stamp=stamp, frame_id=""),
             level=WARNING,
             name=node,
@@ -50,8 +52,8 @@ def rosout(node: str, log: Log, clock: Callable[[], float], send_timeout: float)
             line=0,
             topics=[],
         )
-        encoded: memoryview = store.serialize_ros1(found, NAME)
-        return encoded
+        data: memoryview = store.serialize_ros1(log_message, TYPE_NAME)
+        return data
 
     publication = Publication("/rosout", kind, node, log, send_timeout, encode=encode)
     log.add_listener(publication.send)

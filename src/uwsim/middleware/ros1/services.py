@@ -1,4 +1,4 @@
-"""Services over TCPROS: those of the bus for clients outside, and calls of services outside.
+"""Services over TCPROS: those of the bus for external clients, and calls of external services.
 
 A request is a frame. The answer is a byte, 1 for success, and a frame: the response, or the text of
 the error.
@@ -22,9 +22,9 @@ from ..types import WireService
 from .address import read_address
 from .tcpros import (
     PeerError,
+    add_length,
     close,
     encode_header,
-    framed,
     node_of,
     open_connection,
     read_frame,
@@ -33,27 +33,27 @@ from .tcpros import (
 )
 
 ANSWER_TIMEOUT = 60.0
-"""How long a client waits for the end of a step [s]."""
+"""The time limit for a response of the simulation [s]."""
 CALL_TIMEOUT = 30.0
-"""How long a service outside may take to answer [s]."""
+"""The time limit for a response of an external service [s]."""
 
 MAX_IDLE = 64
-"""Clients that are connected and ask nothing; of more, the longest idle is left."""
+"""The maximum number of connected clients without a request; the longest idle is disconnected."""
 
 
 class IdleClients:
-    """The connections of clients from which a request is awaited, the longest idle first."""
+    """The connections of clients without a request, the longest idle first."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._connections: dict[socket.socket, None] = {}
 
     @contextmanager
-    def awaiting(self, connection: socket.socket) -> Iterator[None]:
+    def count_idle(self, connection: socket.socket) -> Iterator[None]:
         """Count a client as idle in the context.
 
         Raises:
-            PeerError: at the end, if the client was left.
+            PeerError: at the end, if the client was disconnected.
         """
         with self._lock:
             self._connections[connection] = None
@@ -65,50 +65,50 @@ class IdleClients:
             yield
         finally:
             with self._lock:
-                is_left = connection not in self._connections
+                is_disconnected = connection not in self._connections
                 self._connections.pop(connection, None)
-            if is_left:
-                raise PeerError(f"it asked nothing, as {MAX_IDLE} others; it is left")
+            if is_disconnected:
+                raise PeerError(f"it sent no request, as {MAX_IDLE} others; it is disconnected")
 
 
-def check(offered: WireService, header: dict[str, str]) -> str | None:
-    """Why a client with this connection header cannot be served; None if it can."""
+def check(service_type: WireService, header: dict[str, str]) -> str | None:
+    """Return the reason why a client with this header cannot be served; None if it can."""
     md5 = header.get("md5sum", "")
-    if md5 in ("*", offered.md5):
+    if md5 in ("*", service_type.md5):
         return None
-    return f"service is {offered.ros1_name} (md5sum {offered.md5}), not md5sum {md5}"
+    return f"service is {service_type.ros1_name} (md5sum {service_type.md5}), not md5sum {md5}"
 
 
 def serve(
     connection: socket.socket,
     header: dict[str, str],
-    offered: WireService,
+    service_type: WireService,
     caller: str,
     request: Callable[[Any], Future[object]],
-    idle: IdleClients,
+    idle_clients: IdleClients,
 ) -> None:
     """Answer the calls of one client; in the connection's thread.
 
     Args:
-        connection: to the client.
-        header: of the client.
-        offered: type of the service.
-        caller: name of this node.
-        request: asks the simulation.
-        idle: clients that ask nothing, of all services.
+        connection: the connection to the client.
+        header: the header of the client.
+        service_type: the type of the service.
+        caller: the name of this node.
+        request: sends a request to the simulation.
+        idle_clients: the clients of all services without a request.
 
     Raises:
-        PeerError: the client broke off.
+        PeerError: the connection broke.
     """
     write(
         connection,
         encode_header(
             {
                 "callerid": caller,
-                "md5sum": offered.md5,
-                "request_type": offered.request.ros1_name,
-                "response_type": offered.response.ros1_name,
-                "type": offered.ros1_name,
+                "md5sum": service_type.md5,
+                "request_type": service_type.request.ros1_name,
+                "response_type": service_type.response.ros1_name,
+                "type": service_type.ros1_name,
             }
         ),
     )
@@ -117,63 +117,66 @@ def serve(
     is_persistent = header.get("persistent") == "1"
     timeout = connection.gettimeout()
     while True:
-        with idle.awaiting(connection):
+        with idle_clients.count_idle(connection):
             connection.settimeout(None if is_persistent else timeout)
             data = read_frame(connection)
-            connection.settimeout(timeout)  # it has to read its answer in time
+            connection.settimeout(timeout)  # the client must read its answer in time
         if data is None:
             return
-        write(connection, _answer(data, offered, request))
+        write(connection, _answer(data, service_type, request))
         if not is_persistent:
             return
 
 
-def _answer(data: bytes, offered: WireService, request: Callable[[Any], Future[object]]) -> bytes:
+def _answer(
+    data: bytes, service_type: WireService, request: Callable[[Any], Future[object]]
+) -> bytes:
     try:
-        asked: object = to_simulation_time(from_ros1(offered.service.request, data))
-        response = request(asked).result(timeout=ANSWER_TIMEOUT)
-        return b"\x01" + framed(to_ros1(to_ros_clock(response)))
+        bus_request: object = to_simulation_time(from_ros1(service_type.service.request, data))
+        response = request(bus_request).result(timeout=ANSWER_TIMEOUT)
+        return b"\x01" + add_length(to_ros1(to_ros_clock(response)))
     except FutureTimeout:
-        return b"\x00" + framed(b"the simulation does not advance")
+        return b"\x00" + add_length(b"the simulation does not advance")
     except UwsimError as error:
-        return b"\x00" + framed(str(error).encode())
+        return b"\x00" + add_length(str(error).encode())
 
 
 @dataclass(frozen=True)
-class Wanted:
-    """A service outside."""
+class ExternalService:
+    """An external service."""
 
     name: str
-    """With a leading slash."""
+    """The name, with a leading slash."""
     type: WireService
-    """Its type."""
+    """The type of the service."""
     may_answer: Callable[[str, str], bool] = lambda name, node: True
-    """Whether a node, as `node_of` names it, may answer for the service of that name."""
+    """The function that returns whether a node, as named by `node_of`, may answer for the
+    service."""
 
 
-def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
-    """Call a service outside and return its response.
+def call(uri: str, service: ExternalService, caller: str, request: object) -> object:
+    """Call an external service and return its response.
 
     Args:
-        uri: ``rosrpc://host:port``.
-        wanted: name and type of the service, and who may answer.
-        caller: name of this node.
-        request: of the type's class.
+        uri: the URI, ``rosrpc://host:port``.
+        service: the service, with the nodes that may answer.
+        caller: the name of this node.
+        request: the request, of the type's class.
 
     Raises:
-        PeerError: nobody answers, or with an error; or a node that may not.
+        PeerError: there is no answer, an error, or the answer of a node that must not.
     """
-    name, address = wanted.name, read_address(uri)
+    name, address = service.name, read_address(uri)
     if address is None or not address.port:
-        raise PeerError(f"service {name} is at {uri[:100]!r}, which is no address")
+        raise PeerError(f"service {name} is at {uri[:100]!r}, which is not an address")
     connection = open_connection(address.host, address.port, CALL_TIMEOUT)
     try:
-        fields = {"callerid": caller, "md5sum": wanted.type.md5, "service": name}
+        fields = {"callerid": caller, "md5sum": service.type.md5, "service": name}
         write(connection, encode_header(fields))
         header = read_header(connection)  # rospy loses what comes together with the header
-        if "callerid" in header and not wanted.may_answer(name, node_of(header)):
+        if "callerid" in header and not service.may_answer(name, node_of(header)):
             raise PeerError(f"service {name}: {node_of(header)} does not take part in this run")
-        write(connection, framed(to_ros1(to_ros_clock(request))))
+        write(connection, add_length(to_ros1(to_ros_clock(request))))
         success = connection.recv(1)
         data = read_frame(connection)
     except OSError as error:
@@ -181,10 +184,10 @@ def call(uri: str, wanted: Wanted, caller: str, request: object) -> object:
     finally:
         close(connection)
     if success != b"\x01" or data is None:
-        what = "closed the connection" if data is None else data[:300].decode("utf-8", "replace")
-        raise PeerError(f"service {name}: {what}")
+        reason = "closed the connection" if data is None else data[:300].decode("utf-8", "replace")
+        raise PeerError(f"service {name}: {reason}")
     try:
-        response: object = to_simulation_time(from_ros1(wanted.type.service.response, data))
+        response: object = to_simulation_time(from_ros1(service.type.service.response, data))
         return response
     except BadMessage as error:
         raise PeerError(f"service {name}: {error}") from error

@@ -1,4 +1,4 @@
-"""A topic that is read from publishers of ROS 1, with a thread for each of them."""
+"""A topic that is read from publishers of ROS 1, with a thread for each publisher."""
 
 from __future__ import annotations
 
@@ -25,45 +25,45 @@ from .tcpros import (
 )
 from .xmlrpc import MAX_NODE_ANSWER, call
 
-RETRY = 1.0
-"""How long after a lost connection it is tried again [s]."""
+RETRY_INTERVAL = 1.0
+"""The time after which a lost connection is tried again [s]."""
 MAX_PUBLISHERS = 100
-"""Publishers of a topic that are read, each in a thread."""
+"""The maximum number of publishers of a topic that are read, each in a thread."""
 CONNECT_TIMEOUT = 10.0
-"""How long a publisher may take to answer [s]."""
+"""The time limit for a publisher to answer [s]."""
 LINK_SHARE, LINK_BURST = 0.05, 0.1
 """The share of the wall time in which one publisher is read, and the time at once [s]."""
 ALL_SHARE, ALL_BURST = 0.1, 0.2
-"""The same of all publishers together, but those that a run in lock-step waits for."""
-REST = 0.1
-"""How long a publisher beyond its share is not read, besides what it has taken too much [s]: each
-time that its thread wakes, the simulation waits for Python's lock."""
+"""The same for all publishers together, except those that a run in lock-step waits for."""
+PAUSE = 0.1
+"""The pause of a publisher beyond its share, besides its excess time [s]: each time that its thread
+wakes, the simulation waits for Python's lock."""
 
 
 class ReadingLimit:
     """A limit on the time that reading publishers takes from the simulation.
 
     Args:
-        is_waited_for: whether the run waits for what a node, as `node_of` names it, publishes; such
-            a node is not limited.
+        is_waited_for: returns whether the run waits for a node, as named by `node_of`; such a node
+            has no limit.
     """
 
     def __init__(self, is_waited_for: Callable[[str], bool] = lambda node: False) -> None:
         self.is_waited_for = is_waited_for
-        self.all = WorkBudget(ALL_SHARE, ALL_BURST)
+        self.total_budget = WorkBudget(ALL_SHARE, ALL_BURST)
 
 
 class Subscription:
     """A topic that is read, and its publishers.
 
     Args:
-        topic: name with a leading slash.
-        kind: its type.
-        caller: name of this node.
-        log: where it reports.
-        receive: called with each message, stamps in simulation time, and the name of the node that
-            published it; in a publisher's thread.
-        limit: of the time that reading takes.
+        topic: the name with a leading slash.
+        kind: the type of the topic.
+        caller: the name of this node.
+        log: the log for events.
+        receive: called with each message, stamps in simulation time, and the name of its publisher;
+            in a publisher's thread.
+        limit: the limit of the time that reading takes.
     """
 
     def __init__(
@@ -84,29 +84,29 @@ class Subscription:
 
     @property
     def n_publishers(self) -> int:
-        """Publishers it is connected to."""
+        """The number of connected publishers."""
         return sum(link.is_connected for link in list(self._links.values()))
 
     def update(self, uris: Iterable[str]) -> None:
         """Connect to publishers with these URIs, and to no others."""
-        found = sorted(set(uris))
-        wanted = set(found[:MAX_PUBLISHERS])
-        if len(found) > MAX_PUBLISHERS:
+        all_uris = sorted(set(uris))
+        read_uris = set(all_uris[:MAX_PUBLISHERS])
+        if len(all_uris) > MAX_PUBLISHERS:
             self._log.report(
-                f"{self.topic}: {len(found)} publishers; {MAX_PUBLISHERS} of them are read",
+                f"{self.topic}: {len(all_uris)} publishers; {MAX_PUBLISHERS} of them are read",
                 kind=f"publishers {self.topic}",
             )
         with self._lock:
             if self._is_closed:
                 return
-            gone = [self._links.pop(uri) for uri in sorted(set(self._links) - wanted)]
-            for uri in sorted(wanted - set(self._links)):
+            removed_links = [self._links.pop(uri) for uri in sorted(set(self._links) - read_uris)]
+            for uri in sorted(read_uris - set(self._links)):
                 self._links[uri] = _Link(self, uri)
-        for link in gone:
+        for link in removed_links:
             link.close()
 
     def close(self) -> None:
-        """Leave all publishers."""
+        """Disconnect from all publishers."""
         with self._lock:
             self._is_closed = True
             links, self._links = list(self._links.values()), {}
@@ -114,26 +114,26 @@ class Subscription:
             link.close()
 
     def connect(self, uri: str) -> tuple[socket.socket, str]:
-        """Ask a node for the topic and connect to it; raises PeerError.
+        """Request the topic from a node and connect to it; raise PeerError.
 
         Returns:
             The connection, and the name of the node.
         """
-        wanted = (self._caller, self.topic, [["TCPROS"]])
-        answer = call(uri, "requestTopic", *wanted, longest=MAX_NODE_ANSWER)
+        arguments = (self._caller, self.topic, [["TCPROS"]])
+        answer = call(uri, "requestTopic", *arguments, max_length=MAX_NODE_ANSWER)
         match answer:
             case ["TCPROS", str(host), int(port)]:
                 connection = open_connection(host, port, CONNECT_TIMEOUT)
             case _:
                 raise PeerError(f"{uri} offers {self.topic} over another protocol than TCPROS")
         try:
-            return connection, self._greet(connection)
+            return connection, self._exchange_headers(connection)
         except PeerError:
             close(connection)
             raise
 
-    def _greet(self, connection: socket.socket) -> str:
-        """Exchange headers; returns the name of the node, or how it can be told else."""
+    def _exchange_headers(self, connection: socket.socket) -> str:
+        """Exchange headers; return the name of the node."""
         fields = {
             "callerid": self._caller,
             "md5sum": self.kind.md5,
@@ -146,11 +146,11 @@ class Subscription:
         header = read_header(connection)
         if header.get("md5sum") not in ("*", self.kind.md5):
             raise PeerError(f"it publishes {header.get('type')}, not {self.kind.ros1_name}")
-        connection.settimeout(None)  # a publisher may have nothing to say for long
+        connection.settimeout(None)  # a publisher may be silent for long
         return node_of(header)
 
     def take(self, data: bytes, sender: str) -> None:
-        """Decode a message and hand it on; one that is none is reported."""
+        """Decode a message and pass it on; report an invalid one."""
         try:
             message: object = to_simulation_time(from_ros1(self.kind.message, data))
         except BadMessage as error:
@@ -159,12 +159,12 @@ class Subscription:
             self._receive(message, sender)
 
     def report_flood(self, sender: str) -> None:
-        """Report that a publisher has to wait."""
+        """Report that the messages of a publisher wait."""
         line = f"{self.topic}: {sender} publishes faster than it is read; its messages wait"
         self._log.report(line, kind=f"faster than it is read {self.topic}")
 
     def report(self, uri: str, error: PeerError) -> None:
-        """Report what a publisher did."""
+        """Report an error of a publisher."""
         self._log.report(f"{self.topic}: publisher {uri}: {error}", kind=f"lost {self.topic} {uri}")
 
 
@@ -173,45 +173,45 @@ class _Link:
 
     def __init__(self, subscription: Subscription, uri: str) -> None:
         self._subscription, self._uri = subscription, uri
-        self._stopped = threading.Event()
+        self._stop_event = threading.Event()
         self._connection: socket.socket | None = None
         self._work = WorkBudget(LINK_SHARE, LINK_BURST)
         self.is_connected = False
         threading.Thread(target=self._run, name=f"ros1{subscription.topic}", daemon=True).start()
 
     def _run(self) -> None:
-        while not self._stopped.is_set():
+        while not self._stop_event.is_set():
             try:
                 self._connection, sender = self._subscription.connect(self._uri)
                 self.is_connected = True
                 self._read(self._connection, sender)
             except PeerError as error:
-                if not self._stopped.is_set():
+                if not self._stop_event.is_set():
                     self._subscription.report(self._uri, error)
             finally:
                 self.is_connected = False
                 if self._connection is not None:
                     close(self._connection)
-            self._stopped.wait(RETRY)
+            self._stop_event.wait(RETRY_INTERVAL)
 
     def _read(self, connection: socket.socket, sender: str) -> None:
-        """Hand on messages until the connection ends; a flood waits in the sockets, not here."""
+        """Pass on messages until the connection ends; a flood waits in the sockets, not here."""
         limit = self._subscription.limit
-        while not self._stopped.is_set():
-            began = time.thread_time()
+        while not self._stop_event.is_set():
+            start_time = time.thread_time()
             data = read_frame(connection)
             if data is None:
                 return
             self._subscription.take(data, sender)
             if not limit.is_waited_for(sender):
-                took = time.thread_time() - began
-                self._work.spend(took)
-                limit.all.spend(took)
-                if (delay := max(self._work.delay, limit.all.delay)) > 0.0:
+                duration = time.thread_time() - start_time
+                self._work.spend(duration)
+                limit.total_budget.spend(duration)
+                if (delay := max(self._work.delay, limit.total_budget.delay)) > 0.0:
                     self._subscription.report_flood(sender)
-                    self._stopped.wait(delay + REST)
+                    self._stop_event.wait(delay + PAUSE)
 
     def close(self) -> None:
-        self._stopped.set()
+        self._stop_event.set()
         if self._connection is not None:
             close(self._connection)

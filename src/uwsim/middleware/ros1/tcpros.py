@@ -18,15 +18,15 @@ from ...errors import UwsimError
 from .deadline import time_left
 
 MAX_HEADER = 256 * 1024
-"""Longest connection header read; that of a point cloud with its definition has 4 kB [bytes]."""
+"""The maximum length of a connection header; that of a point cloud has 4 kB [bytes]."""
 MAX_MESSAGE = 64 * 2**20
-"""Longest message read [bytes]."""
+"""The maximum length of a message [bytes]."""
 CHUNK = 256 * 1024
 LENGTH = struct.Struct("<I")
 
 
 class PeerError(UwsimError):
-    """What a peer sent, or did not send; the message says so in one line."""
+    """An error of a peer; its text is one line."""
 
 
 def encode_header(fields: Mapping[str, str]) -> bytes:
@@ -37,33 +37,33 @@ def encode_header(fields: Mapping[str, str]) -> bytes:
 
 
 def decode_header(body: bytes) -> dict[str, str]:
-    """Return the fields of a connection header, given without its length; raises PeerError."""
+    """Return the fields of a connection header, given without its length; raise PeerError."""
     fields: dict[str, str] = {}
-    at = 0
-    while at < len(body):
-        if at + LENGTH.size > len(body):
+    offset = 0
+    while offset < len(body):
+        if offset + LENGTH.size > len(body):
             raise PeerError("its connection header is cut off")
-        (length,) = LENGTH.unpack_from(body, at)
-        at += LENGTH.size
-        pair = body[at : at + length]
+        (length,) = LENGTH.unpack_from(body, offset)
+        offset += LENGTH.size
+        pair = body[offset : offset + length]
         if len(pair) < length or b"=" not in pair:
             raise PeerError("its connection header is not made of fields")
         name, _, value = pair.partition(b"=")
         fields[name.decode("utf-8", "replace")] = value.decode("utf-8", "replace")
-        at += length
+        offset += length
     return fields
 
 
 def node_of(header: Mapping[str, str]) -> str:
-    """Return how messages and calls name the node at the other end, from its header."""
+    """Return the name of the node at the other end, from its header."""
     return f"node {header.get('callerid', 'without a name')[:100]}"
 
 
 def read_header(connection: socket.socket, limit_s: float | None = None) -> dict[str, str]:
-    """Read a connection header, within ``limit_s`` if that is given.
+    """Read a connection header, within ``limit_s`` if given.
 
     Raises:
-        PeerError: there was none, or it is no header, or it says ``error``.
+        PeerError: there is no header, it is invalid, or it has a field ``error``.
     """
     end = None if limit_s is None else time.monotonic() + limit_s
     body = read_frame(connection, MAX_HEADER, end)
@@ -78,13 +78,13 @@ def read_header(connection: socket.socket, limit_s: float | None = None) -> dict
 def read_frame(
     connection: socket.socket, limit: int = MAX_MESSAGE, end: float | None = None
 ) -> bytes | None:
-    """Read one frame without its length; None if the peer has closed the connection before it.
+    """Read one frame without its length; return None if the peer has closed the connection.
 
     Args:
-        connection: read from.
-        limit: longest frame [bytes].
-        end: when all of it has to be there, on the monotonic clock [s]; None: the socket's timeout
-            holds for each part.
+        connection: the connection to read from.
+        limit: the maximum length of the frame [bytes].
+        end: the deadline of the whole frame, on the monotonic clock [s]; None: the socket's timeout
+            applies to each part.
 
     Raises:
         PeerError: the frame is cut off, too long, or does not come within the socket's timeout.
@@ -104,25 +104,25 @@ def read_frame(
 
 
 def _read(connection: socket.socket, n: int, end: float | None) -> bytes:
-    """Read ``n`` bytes, or fewer if the connection ends; memory grows with what has come."""
-    found = bytearray()
-    while len(found) < n:
+    """Read ``n`` bytes, or fewer if the connection ends; memory grows with the bytes received."""
+    data = bytearray()
+    while len(data) < n:
         try:
             if end is not None:
                 connection.settimeout(time_left(end))
-            part = connection.recv(min(CHUNK, n - len(found)))
+            part = connection.recv(min(CHUNK, n - len(data)))
         except TimeoutError:
             raise PeerError("it sends nothing") from None
         except OSError as error:
             raise PeerError(f"the connection broke: {error.strerror or error}") from error
         if not part:
             break
-        found += part
-    return bytes(found)
+        data += part
+    return bytes(data)
 
 
 def write(connection: socket.socket, data: bytes | memoryview) -> None:
-    """Send bytes; raises PeerError if the peer does not take them within the socket's timeout."""
+    """Send bytes; raise PeerError if the peer does not read them within the socket's timeout."""
     try:
         connection.sendall(data)
     except TimeoutError:
@@ -131,23 +131,23 @@ def write(connection: socket.socket, data: bytes | memoryview) -> None:
         raise PeerError(f"the connection broke: {error.strerror or error}") from error
 
 
-def framed(data: bytes | memoryview) -> bytes:
+def add_length(data: bytes | memoryview) -> bytes:
     """Return bytes with their length in front."""
     return b"".join((LENGTH.pack(len(data)), data))
 
 
 def has_left(connection: socket.socket) -> bool:
-    """Whether the peer has closed a connection on which it sends nothing."""
+    """Return whether the peer has closed a connection on which it sends nothing."""
     try:
-        readable = select.poll()  # select.select takes no number of a file above 1023
-        readable.register(connection, select.POLLIN)
-        return bool(readable.poll(0)) and connection.recv(1, socket.MSG_PEEK) == b""
+        poll = select.poll()  # select.select takes no number of a file above 1023
+        poll.register(connection, select.POLLIN)
+        return bool(poll.poll(0)) and connection.recv(1, socket.MSG_PEEK) == b""
     except (OSError, ValueError):
         return True
 
 
 def open_connection(host: str, port: int, timeout: float) -> socket.socket:
-    """Connect without delay of small packets; raises PeerError."""
+    """Connect without delay of small packets; raise PeerError."""
     try:
         connection = socket.create_connection((host, port), timeout)
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

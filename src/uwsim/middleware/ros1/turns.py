@@ -12,40 +12,40 @@ from contextlib import contextmanager
 from ..work_budget import WorkBudget
 
 SHARE, BURST = 0.1, 0.5
-"""The share of the wall time in which requests are worked on, and the time at once [s]."""
+"""The share of the wall time for requests, and the time at once [s]."""
 REQUEST_COST = 1e-4
 """The time that a request takes besides what is measured [s]: its thread, its header."""
-PER_BYTE = 1e-4
-"""How much later a longer request has its turn [s per byte], so that those of nodes, which are
-short, do not wait behind a flood of long ones."""
+DELAY_PER_BYTE = 1e-4
+"""The delay of the turn of a request [s per byte], so that short requests of nodes do not wait for
+a flood of long ones."""
 
 
 class Turns:
-    """Lets threads work one at a time, and makes them wait when they have worked too much."""
+    """A queue in which threads work one at a time, and wait if they exceed their share."""
 
     def __init__(self) -> None:
         self._budget = WorkBudget(SHARE, BURST)
-        self._changed = threading.Condition()
-        self._waiting: list[tuple[float, int]] = []  # a heap; the first is next
+        self._condition = threading.Condition()
+        self._waiting_turns: list[tuple[float, int]] = []  # a heap; the first is next
         self._numbers = itertools.count()
         self._is_busy = False
 
     @contextmanager
     def turn(self, n_bytes: int) -> Iterator[None]:
-        """Wait for the turn of a request of this length; the work is done in the context."""
-        turn = (time.monotonic() + PER_BYTE * n_bytes, next(self._numbers))
-        with self._changed:
-            heapq.heappush(self._waiting, turn)
-            while self._is_busy or self._waiting[0] != turn or self._budget.delay > 0.0:
-                is_next = not self._is_busy and self._waiting[0] == turn
-                self._changed.wait(self._budget.delay if is_next else None)
-            heapq.heappop(self._waiting)
+        """Wait for the turn of a request of ``n_bytes``; the work is done in the context."""
+        turn = (time.monotonic() + DELAY_PER_BYTE * n_bytes, next(self._numbers))
+        with self._condition:
+            heapq.heappush(self._waiting_turns, turn)
+            while self._is_busy or self._waiting_turns[0] != turn or self._budget.delay > 0.0:
+                is_next = not self._is_busy and self._waiting_turns[0] == turn
+                self._condition.wait(self._budget.delay if is_next else None)
+            heapq.heappop(self._waiting_turns)
             self._is_busy = True
-        began = time.thread_time()
+        start_time = time.thread_time()
         try:
             yield
         finally:
-            self._budget.spend(REQUEST_COST + time.thread_time() - began)
-            with self._changed:
+            self._budget.spend(REQUEST_COST + time.thread_time() - start_time)
+            with self._condition:
                 self._is_busy = False
-                self._changed.notify_all()
+                self._condition.notify_all()

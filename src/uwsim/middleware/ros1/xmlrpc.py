@@ -19,43 +19,43 @@ from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 from ..log import Log
 from .deadline import DeadlineReader, time_left
-from .origins import own_names, wrong_in_headers
+from .origins import find_browser_sign, local_names
 from .tcpros import PeerError
 from .turns import Turns
 
 MAX_REQUEST = 2**20
-"""Longest request read [bytes]."""
+"""The maximum length of a request [bytes]."""
 MAX_ANSWER, MAX_NODE_ANSWER = 2**23, 2**16
-"""Longest answer of a master, and of a node, that is read [bytes]."""
+"""The maximum length of an answer of a master, and of a node [bytes]."""
 MAX_AT_ONCE = 64
-"""Requests that a server works on at the same time; others are closed."""
+"""The maximum number of simultaneous requests of a server; others are closed."""
 READ_TIMEOUT = 15.0
-"""How long a client may take to send its whole request [s]."""
+"""The time limit for a client to send its whole request [s]."""
 CALL_TIMEOUT = 5.0
-"""How long a call may take in all [s]."""
+"""The time limit for a whole call [s]."""
 Answer = list[Any]
 Methods = Mapping[str, Callable[..., Answer]]
 
 
 class RequestHandler(SimpleXMLRPCRequestHandler):
-    """Reads requests of limited length and in limited time; not those of pages in browsers."""
+    """A handler that reads requests within limits of length and time, except those of browsers."""
 
     rpc_paths = ()  # any path, as ROS's own servers
     timeout = READ_TIMEOUT
     disable_nagle_algorithm = True
 
     def setup(self) -> None:
-        """Read from the connection until a deadline, however slowly it comes."""
+        """Read from the connection until a deadline."""
         super().setup()
         self.rfile.close()
         self.rfile = io.BufferedReader(DeadlineReader(self.connection, READ_TIMEOUT))
 
     def do_POST(self) -> None:  # noqa: N802 - the name is http.server's
-        """Answer a request, unless it is too long, or of a page in a browser."""
+        """Answer a request, unless it is too long or comes from a page in a browser."""
         server = self.server
         assert isinstance(server, XmlRpcServer)
-        if (refused := server.refused(_lower(self.headers.items()))) is not None:
-            self.send_error(403, refused)
+        if (refusal := server.find_refusal(_lower_case_names(self.headers.items()))) is not None:
+            self.send_error(403, refusal)
             self.close_connection = True
             return
         length = self.headers.get("content-length", "")
@@ -64,13 +64,13 @@ class RequestHandler(SimpleXMLRPCRequestHandler):
             self.close_connection = True
             return
         if self.headers.get("content-encoding", "identity").lower() != "identity":
-            self.send_error(415)  # clients of ROS do not compress, and little unpacks to much
+            self.send_error(415)  # clients of ROS do not compress; a small file may expand a lot
             self.close_connection = True
             return
         super().do_POST()
 
     def send_error(self, code: int, message: str | None = None, explain: str | None = None) -> None:
-        """Refuse a request, in its turn: also a flood of those must not stop the simulation."""
+        """Refuse a request in its turn: a flood of refusals must not stop the simulation."""
         assert isinstance(self.server, XmlRpcServer)
         with self.server.turns.turn(0):
             super().send_error(code, message, explain)
@@ -80,17 +80,17 @@ class RequestHandler(SimpleXMLRPCRequestHandler):
 
 
 class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
-    """Serves methods in threads of its own, until `close`.
+    """A server of methods in threads of its own, until `close`.
 
     Args:
-        host: address to listen on.
-        port: port; 0 takes a free one.
-        methods: by name.
-        log: where errors are reported.
-        name: what the lines in the log call it.
+        host: the address to listen on.
+        port: the port; 0 selects a free one.
+        methods: the methods by name.
+        log: the log for errors.
+        name: the name of the server in the log.
 
     Raises:
-        OSError: the port is taken.
+        OSError: the port is in use.
     """
 
     daemon_threads = True
@@ -100,43 +100,43 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
     def __init__(self, host: str, port: int, methods: Methods, log: Log, name: str) -> None:
         super().__init__((host, port), RequestHandler, logRequests=False, allow_none=True)
         self._log, self._name = log, name
-        self._hosts = own_names(host)
-        self._free = threading.BoundedSemaphore(MAX_AT_ONCE)
+        self._hosts = local_names(host)
+        self._free_slots = threading.BoundedSemaphore(MAX_AT_ONCE)
         self.turns = Turns()
-        """When each request is worked on."""
-        for each, method in methods.items():
-            self.register_function(method, each)
-        self.register_multicall_functions()  # by which rospy takes back all that it registered
+        """The turns of the requests."""
+        for method_name, method in methods.items():
+            self.register_function(method, method_name)
+        self.register_multicall_functions()  # rospy unregisters by a multicall
         self._thread = threading.Thread(target=self.serve_forever, args=(0.1,), daemon=True)
         self._thread.start()
 
     def _marshaled_dispatch(self, data: Any, *arguments: Any) -> str:
-        """Parse a request that was read, and call its method, in its turn."""
+        """Parse a request, and call its method, in its turn."""
         with self.turns.turn(len(data)):
             return super()._marshaled_dispatch(data, *arguments)
 
     def _dispatch(self, method: str, params: Any) -> Any:
-        """Call a method; a fault names the method, not how this program is made."""
+        """Call a method; a fault states the method, and no details of this program."""
         if method not in self.funcs:
             raise xmlrpc.client.Fault(1, f"method {method[:100]!r} is not supported")
         return super()._dispatch(method, params)
 
-    def refused(self, headers: Mapping[str, str]) -> str | None:
-        """Say why a request is refused by its headers; None if it is not."""
-        if (why := wrong_in_headers(headers, self._hosts)) is not None:
+    def find_refusal(self, headers: Mapping[str, str]) -> str | None:
+        """Return the reason why a request is refused by its headers; None if it is not."""
+        if (reason := find_browser_sign(headers, self._hosts)) is not None:
             self._log.report(
-                f"{self._name}: a request is refused: {why}", kind=f"{self._name} page"
+                f"{self._name}: a request is refused: {reason}", kind=f"{self._name} page"
             )
-        return None if why is None else "not for pages in browsers"
+        return None if reason is None else "not for pages in browsers"
 
     @property
     def port(self) -> int:
-        """The port it listens on."""
+        """The port on which the server listens."""
         return int(self.server_address[1])
 
     def process_request(self, request: Any, client_address: Any) -> None:
-        """Work on a request in a thread, if there are not too many."""
-        if not self._free.acquire(blocking=False):
+        """Handle a request in a thread, if there are not too many."""
+        if not self._free_slots.acquire(blocking=False):
             self._log.report(
                 f"{self._name}: more than {MAX_AT_ONCE} requests at once; one is refused"
             )
@@ -145,14 +145,14 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         super().process_request(request, client_address)
 
     def process_request_thread(self, request: Any, client_address: Any) -> None:
-        """Work on one request."""
+        """Handle one request."""
         try:
             super().process_request_thread(request, client_address)
         finally:
-            self._free.release()
+            self._free_slots.release()
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Report a request that broke off."""
+        """Report a request whose connection broke."""
         self._log.report(f"{self._name}: a request broke off")
 
     def close(self) -> None:
@@ -162,13 +162,13 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         self._thread.join(timeout=10.0)
 
 
-def _lower(headers: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Headers by their names in small letters."""
+def _lower_case_names(headers: Iterable[tuple[str, str]]) -> dict[str, str]:
+    """Return headers by their names in lower case."""
     return {name.lower(): value for name, value in headers}
 
 
 class _Response(http.client.HTTPResponse):
-    """A response that has to come within the timeout of its connection, however slowly it does."""
+    """A response that must arrive within the timeout of its connection."""
 
     def __init__(self, sock: socket.socket, *arguments: Any, **options: Any) -> None:
         super().__init__(sock, *arguments, **options)
@@ -198,18 +198,18 @@ class _Connection(http.client.HTTPConnection):
 
 
 class _Transport(xmlrpc.client.Transport):
-    """Calls with a time limit and responses of limited length, which are not compressed.
+    """A transport with limits of time and length, without compression.
 
     Args:
-        timeout: how long all calls with it may take together [s].
-        longest: longest response read [bytes].
+        timeout: the time limit for all calls together [s].
+        max_length: the maximum length of a response [bytes].
     """
 
     accept_gzip_encoding = False
 
-    def __init__(self, timeout: float, longest: int) -> None:
+    def __init__(self, timeout: float, max_length: int) -> None:
         super().__init__()
-        self._end, self._longest = time.monotonic() + timeout, longest
+        self._end, self._max_length = time.monotonic() + timeout, max_length
 
     def make_connection(self, host: Any) -> http.client.HTTPConnection:
         """Make a connection with a time limit, which `close` closes."""
@@ -220,9 +220,9 @@ class _Transport(xmlrpc.client.Transport):
     def parse_response(self, response: http.client.HTTPResponse) -> Any:
         """Parse a response of limited length."""
         parser, unmarshaller = self.getparser()
-        data = response.read(self._longest + 1)
+        data = response.read(self._max_length + 1)
         response.close()
-        if len(data) > self._longest:
+        if len(data) > self._max_length:
             raise ValueError("the response is too long")
         parser.feed(data)
         parser.close()
@@ -234,23 +234,25 @@ def call(
     method: str,
     *arguments: Any,
     timeout: float = CALL_TIMEOUT,
-    longest: int = MAX_ANSWER,
+    max_length: int = MAX_ANSWER,
 ) -> Any:
     """Call a method of a master or a node, and return the value of its answer.
 
     Args:
-        uri: address of the master or the node.
-        method: name of the method.
-        arguments: of the method.
-        timeout: how long the whole call may take, but for looking up the host's address [s].
-        longest: longest answer read [bytes].
+        uri: the address of the master or the node.
+        method: the name of the method.
+        arguments: the arguments of the method.
+        timeout: the time limit for the whole call, except looking up the host's address [s].
+        max_length: the maximum length of an answer [bytes].
 
     Raises:
         Refused: the answer's code is not 1.
-        PeerError: nothing answered, or no answer of ROS.
+        PeerError: there is no answer, or it is not one of ROS.
     """
     try:
-        with xmlrpc.client.ServerProxy(uri, _Transport(timeout, longest), allow_none=True) as proxy:
+        with xmlrpc.client.ServerProxy(
+            uri, _Transport(timeout, max_length), allow_none=True
+        ) as proxy:
             answer = getattr(proxy, method)(*arguments)
     except OSError as error:
         raise PeerError(f"{uri} does not answer: {error.strerror or error}") from error
@@ -260,10 +262,10 @@ def call(
         case [1, _, value]:
             return value
         case [int(), str(text), _]:
-            raise Refused(f"{uri} refuses {method}: {text[:300]}")
+            raise RefusedCall(f"{uri} refuses {method}: {text[:300]}")
         case _:
             raise PeerError(f"{uri} gives no answer of ROS")
 
 
-class Refused(PeerError):
-    """The peer answered, with an error."""
+class RefusedCall(PeerError):
+    """An answer of the peer with an error."""
