@@ -65,7 +65,7 @@ def test_slow_subscribers_do_not_hold_up_others(monkeypatch: pytest.MonkeyPatch)
     honest = XmlRpcServer("127.0.0.1", 0, {"publisherUpdate": update}, log, "node")
     begun: list[str] = []
 
-    def never(uri: str, method: str, *arguments: object, longest: int) -> object:
+    def never(uri: str, method: str, *arguments: object, max_length: int) -> object:
         """Call the honest node; of others the call lasts until the end of the tests."""
         begun.append(uri)
         if uri.endswith(f":{honest.port}/"):
