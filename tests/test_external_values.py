@@ -12,10 +12,10 @@ from uwsim.base.geometry import rotation_about
 from uwsim.errors import BadMessage, BadSetting
 from uwsim.messages import ColorRGBA, Float32MultiArray, Point, Pose, Quaternion, Vector3
 from uwsim.middleware.json_encoding import from_json
-from uwsim.viewer.live.audience import _width_of
 from uwsim.viewer.live.clock import Clock
 from uwsim.viewer.live.mapping import PilotMapping
-from uwsim.viewer.live.view import _asked_for
+from uwsim.viewer.live.view import _parse_view
+from uwsim.viewer.live.viewer_requests import _width_of
 
 HUGE = 10**400
 
@@ -75,8 +75,8 @@ def test_numbers_of_a_viewer_beyond_all_bounds_do_nothing() -> None:
     }
     assert _width_of({"type": "images", "width": HUGE}) == _width_of({"type": "images"})
     clock = Clock(1.0)
-    assert not clock.control({"action": "speed", "speed": HUGE})
+    assert not clock.apply_control({"action": "speed", "speed": HUGE})
     assert clock.speed == 1.0
     view = {"pose": [HUGE, 0, 0, 1, 0, 0, 0], "width": 320, "height": 240}
     with pytest.raises(BadSetting, match="finite"):
-        _asked_for({"type": "view", **view})
+        _parse_view({"type": "view", **view})

@@ -11,7 +11,7 @@ import pytest
 import uwsim
 from uwsim.viewer.document import document
 from uwsim.viewer.head import scene_head
-from uwsim.viewer.pack import Blob, packed
+from uwsim.viewer.pack import Blob, make_pack
 
 pytestmark = pytest.mark.slow
 PHASES = ["look", "take", "lift"]
@@ -38,7 +38,9 @@ def page(tab: Any, tmp_path: Path) -> Any:
     level = {"label": "one", "status": "ok", "why": None, "start": 0.0, "end": 4.0, "values": {}}
     trial = {"title": "page", "motion": None, "levels": [level], "curves": curves, "poses": {}}
     path = tmp_path / "page.html"
-    path.write_text(document("page", packed({**head, "trials": [trial]}, blob)), encoding="utf-8")
+    path.write_text(
+        document("page", make_pack({**head, "trials": [trial]}, blob)), encoding="utf-8"
+    )
     tab.goto(path.as_uri())
     tab.wait_for_function("window.uwsim !== undefined")
     return tab

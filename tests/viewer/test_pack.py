@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.support.packs import from_text, numbers, unpacked
-from uwsim.viewer.pack import Blob, as_text, packed
+from uwsim.viewer.pack import Blob, as_text, make_pack
 
 
 def test_what_was_packed_comes_back() -> None:
@@ -16,7 +16,7 @@ def test_what_was_packed_comes_back() -> None:
         np.array([2**32 - 1], "<u4"),
     ]
     refs = [blob.add(array) for array in arrays]
-    head, data = unpacked(packed({"refs": refs, "name": "é"}, blob))
+    head, data = unpacked(make_pack({"refs": refs, "name": "é"}, blob))
     assert head["name"] == "é"
     for array, ref in zip(arrays, head["refs"], strict=True):
         assert ref[0] % 4 == 0
@@ -27,7 +27,7 @@ def test_the_same_content_gives_the_same_bytes() -> None:
     def once() -> bytes:
         blob = Blob()
         blob.add_bytes(b"abc")
-        return packed({"a": [1, 2.5]}, blob)
+        return make_pack({"a": [1, 2.5]}, blob)
 
     assert once() == once()
 
@@ -36,13 +36,13 @@ def test_the_numbers_begin_at_a_multiple_of_eight() -> None:
     import gzip
 
     for text in ("", "x", "xx", "xxx"):
-        content = gzip.decompress(packed({"a": text}, Blob()))
+        content = gzip.decompress(make_pack({"a": text}, Blob()))
         assert len(content) % 8 == 0
 
 
 def test_a_number_that_is_none_is_refused() -> None:
     with pytest.raises(ValueError, match="JSON"):
-        packed({"a": float("nan")}, Blob())
+        make_pack({"a": float("nan")}, Blob())
 
 
 @pytest.mark.parametrize("n", range(6))

@@ -17,7 +17,7 @@ from uwsim.results import journal
 from uwsim.results.motion import load_track
 from uwsim.viewer.document import document
 from uwsim.viewer.head import scene_head
-from uwsim.viewer.pack import Blob, packed
+from uwsim.viewer.pack import Blob, make_pack
 from uwsim.viewer.replay import Replay
 
 pytestmark = pytest.mark.slow
@@ -80,7 +80,7 @@ def test_bodies_are_where_the_track_has_them(replayed: Any, stored: Path) -> Non
 def test_a_level_is_chosen_by_a_click_and_by_keys(replayed: Any, stored: Path) -> None:
     levels = load_track(stored / "units" / "00000.motion").levels
     replayed.get_by_role("button", name="fog 0.8").click()
-    assert replayed.evaluate("uwsim.time()") == pytest.approx(levels[2].began)
+    assert replayed.evaluate("uwsim.time()") == pytest.approx(levels[2].start_time)
     replayed.keyboard.press("[")
     assert replayed.evaluate("uwsim.level()") == 1
     replayed.keyboard.press("Home")
@@ -93,7 +93,7 @@ def test_a_link_to_a_level_opens_it(tab: Any, stored: Path, tmp_path: Path) -> N
     levels = load_track(stored / "units" / "00000.motion").levels
     tab.goto(Replay(stored).save(tmp_path / "replay.html").as_uri() + "#level=2")
     tab.wait_for_function(EVERY)
-    assert tab.evaluate("uwsim.time()") == pytest.approx(levels[2].began)
+    assert tab.evaluate("uwsim.time()") == pytest.approx(levels[2].start_time)
 
 
 def test_it_plays(replayed: Any) -> None:
@@ -134,7 +134,7 @@ def test_a_grey_camera_is_grey_in_the_page(tab: Any, tmp_path: Path) -> None:
         (camera, *_) = head["cameras"]
         camera["grey"] = True
         path = tmp_path / "page.html"
-        path.write_text(document("grey", packed(head, blob)), encoding="utf-8")
+        path.write_text(document("grey", make_pack(head, blob)), encoding="utf-8")
         tab.goto(path.as_uri())
         tab.wait_for_function(EVERY)
         view = simulation.world.sensors.camera(camera["name"])
@@ -155,7 +155,7 @@ def test_cameras_see_what_the_renderer_draws(tab: Any, scene: str, tmp_path: Pat
     with uwsim.load(scene) as simulation:
         head = scene_head(simulation, scene, blob)
         path = tmp_path / "page.html"
-        path.write_text(document(scene, packed(head, blob)), encoding="utf-8")
+        path.write_text(document(scene, make_pack(head, blob)), encoding="utf-8")
         tab.goto(path.as_uri())
         tab.wait_for_function(EVERY)
         for camera in head["cameras"]:

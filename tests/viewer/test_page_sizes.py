@@ -11,7 +11,7 @@ import pytest
 import uwsim
 from uwsim.viewer.document import document
 from uwsim.viewer.head import scene_head
-from uwsim.viewer.pack import Blob, packed
+from uwsim.viewer.pack import Blob, make_pack
 
 pytestmark = pytest.mark.slow
 EVIL = """a "quoted" <b onclick='x()'>name</b> </script><script>evil = 1</script> \u202e日本 🐟"""
@@ -43,7 +43,7 @@ def page_of(path: Path, title: str, label: str) -> str:
     curve = {"name": label, "unit": label, "times": blob.add(np.arange(9, dtype="<u4"))}
     curve["values"] = blob.add(np.arange(9, dtype="<f4"))
     trial = {"title": title, "motion": None, "levels": levels, "curves": [curve]}
-    path.write_text(document(title, packed({**head, "trials": [trial]}, blob)), encoding="utf-8")
+    path.write_text(document(title, make_pack({**head, "trials": [trial]}, blob)), encoding="utf-8")
     return path.as_uri()
 
 

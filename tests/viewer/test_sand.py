@@ -17,10 +17,10 @@ from tests.viewer.live.desk import Desk
 from uwsim.results.motion import read_track
 from uwsim.simulation import Simulation
 from uwsim.viewer.document import document
-from uwsim.viewer.film.puppets import Puppets
+from uwsim.viewer.film.trial_scene import TrialScene
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.live.session import LiveSession
-from uwsim.viewer.pack import Blob, packed
+from uwsim.viewer.pack import Blob, make_pack
 from uwsim.viewer.recorded import RecordedTrial
 
 
@@ -29,7 +29,7 @@ def page_of(simulation: Simulation, motion: bytes, title: str = "dredge") -> str
     blob = Blob()
     head = scene_head(simulation, title, blob)
     trial = {"title": title, "motion": blob.add_bytes(motion), "levels": [], "curves": []}
-    return document(title, packed({**head, "trials": [trial]}, blob))
+    return document(title, make_pack({**head, "trials": [trial]}, blob))
 
 
 def test_a_film_shows_the_sand_of_its_moment(tmp_path: Path) -> None:
@@ -46,14 +46,14 @@ def test_a_film_shows_the_sand_of_its_moment(tmp_path: Path) -> None:
         track=read_track(motion),
         levels=(),
     )
-    puppets = Puppets(trial)
-    other = Puppets(replace(trial, title="of the same scene"), puppets.simulation)
-    (heap,) = puppets.simulation.world.scenery.heaps
+    shown = TrialScene(trial)
+    other = TrialScene(replace(trial, title="of the same scene"), shown.simulation)
+    (heap,) = shown.simulation.world.scenery.heaps
     for frame in (0, 4, 12, len(frames) - 1, 2):
-        other.put(0.3)
-        puppets.put((frame + 0.5) / 30.0)
+        other.show_time(0.3)
+        shown.show_time((frame + 0.5) / 30.0)
         assert (heap.heights == frames[frame]).all(), frame
-    puppets.close()
+    shown.close()
 
 
 @pytest.mark.slow

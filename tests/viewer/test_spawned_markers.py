@@ -29,7 +29,7 @@ from uwsim.results.motion import (
 from uwsim.runs.trial import motion_events
 from uwsim.runs.trial.motion_events import MarkerLog
 from uwsim.viewer.film.film import Film, FilmSpec
-from uwsim.viewer.film.markers import ahead
+from uwsim.viewer.film.markers import clip_line
 from uwsim.viewer.recorded import RecordedTrial
 from uwsim.viewer.replay import Replay
 
@@ -142,11 +142,11 @@ def test_damaged_markers_of_a_track_are_an_error(changes: Any) -> None:
 
 def test_lines_end_before_the_viewer() -> None:
     behind, before = np.array([0.0, 0.0, 1.0]), np.array([0.0, 0.0, -1.0])
-    assert ahead(np.array([behind, behind])) == []
-    ((begin, end),) = ahead(np.array([behind, before]))
+    assert clip_line(np.array([behind, behind])) == []
+    ((begin, end),) = clip_line(np.array([behind, before]))
     assert begin[2] == pytest.approx(-0.02)
     assert end.tolist() == before.tolist()
-    ((begin, end),) = ahead(np.array([before, behind]))
+    ((begin, end),) = clip_line(np.array([before, behind]))
     assert end[2] == pytest.approx(-0.02)
 
 

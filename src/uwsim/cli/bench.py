@@ -220,7 +220,7 @@ def record(runs: Sequence[Run], recordings: Sequence[TrialRecording], *, is_resu
         return
     for run, recording in zip(runs, recordings, strict=True):
         run.recorder = recording
-        for path in recording.missing(run) if is_resumed else ():
+        for path in recording.missing_files(run) if is_resumed else ():
             warn(f"{path} is not written: its trial is finished, and is not run again")
 
 

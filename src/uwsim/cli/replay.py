@@ -241,7 +241,7 @@ def replay(
     if out.suffix.lower() == RECORDING:
         typer.echo(write_mcap(recorded(result, part.trial, scene, folders)[0], out, overwrite))
         return
-    check_film_path(out, overwrite=overwrite, others=(SUFFIXES[0], RECORDING))
+    check_film_path(out, overwrite=overwrite, other_suffixes=(SUFFIXES[0], RECORDING))
     spec = look.spec(part, out)
     trials = recorded(result, part.trial, scene, folders)
     typer.echo(write_film(trials, spec, out))
@@ -326,11 +326,11 @@ def recorded(
 
 def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     """Write a film, showing progress; returns what was written."""
-    from ..viewer.film.film import Reel, n_frames_of, record
-    from ..viewer.film.processes import DrawingProcesses, processes_for
+    from ..viewer.film.film import Reel, n_frames_of, save_film
+    from ..viewer.film.processes import DrawingProcesses, count_processes
 
     n_frames = sum(n_frames_of(trial, spec) for trial in trials)
-    n = processes_for(n_frames)
+    n = count_processes(n_frames)
     n_drawn = 0
 
     def drawn() -> None:
@@ -344,7 +344,7 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
             closing(DrawingProcesses(trials, spec, n) if n > 1 else Reel(trials, spec)) as film,
             progress("film", n_frames, of="images") as on_frame,
         ):
-            record(film, out, drawn)
+            save_film(film, out, drawn)
         return (
             f"{trials[0].title}: {n_frames} images, {n_frames / spec.rate:.1f} s, "
             f"{spec.size[0]}x{spec.size[1]}; written: {out}"

@@ -1,4 +1,4 @@
-"""The HTML of the page: template, style, script and data in one file that loads nothing else."""
+"""The HTML of the page: template, style, script and data in one file that loads no other."""
 
 from __future__ import annotations
 
@@ -10,24 +10,24 @@ from pathlib import Path
 from .pack import as_text
 
 FOLDER = Path(__file__).parent / "page"
-"""What the page is made of; ``scripts/page`` makes ``page.js`` from ``source``."""
-NOWHERE, SOCKET = "'none'", "'self' ws: wss:"
-"""Where a replay may connect to, and where a live view may."""
+"""The folder with the parts of the page; ``scripts/page`` builds ``page.js`` from ``source``."""
+NO_CONNECTION, SOCKET = "'none'", "'self' ws: wss:"
+"""The content security policies of connections: of a replay, and of a live view."""
 
 
 def document(title: str, pack: bytes | None) -> str:
     """Return the page.
 
     Args:
-        title: of the page.
-        pack: what a replay shows (`head`); None: it comes over the WebSocket that it opens.
+        title: the title of the page.
+        pack: the data of a replay (`head`); None: the page receives it over a WebSocket.
     """
     data = ""
     if pack is not None:
         data = f'<script type="application/octet-stream" id="pack">{as_text(pack)}</script>'
     parts = {
         "title": html.escape(title),
-        "connect": SOCKET if pack is None else NOWHERE,
+        "connect": SOCKET if pack is None else NO_CONNECTION,
         "style": _read("uplot.css") + _read("page.css"),
         "data": data,
         "script": re.sub(r"</(?=script)", r"<\\/", _read("page.js"), flags=re.IGNORECASE),

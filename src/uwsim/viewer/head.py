@@ -1,13 +1,12 @@
-"""What the page knows of a scene before anything moves: the *head*, and how motion reaches it.
+"""The *head*, which describes a scene at step 0 to the page, and the format of its motion.
 
-One format, two sources. A *replay* is one HTML file with a pack in it as text; a *live* view gets
-the same packs over a WebSocket. All numbers are little-endian, lengths in metres, angles in
-radians, quaternions w x y z, matrices row by row, positions in W (z up). Cameras, lamps and
-projectors have OpenGL axes: x right, y up, they look along -z.
+Replays and live views have the same format. A *replay* is one HTML file with a pack in it as text;
+a *live* view receives the same packs over a WebSocket. All numbers are little-endian, lengths in
+metres, angles in radians, quaternions w x y z, matrices row by row, positions in W (z up). Cameras,
+lamps and projectors have OpenGL axes: x right, y up, the view along -z.
 
-**Text** of a pack: four bytes, the first the highest, are a number of five digits to the base 85,
-the highest first; n < 4 bytes at the end are n + 1 digits. The digits are
-``0-9A-Za-z!#$%/()*+-;,=.?@^_`{|}~``.
+**Text** of a pack: four bytes, big-endian, are a number of five digits to the base 85, the highest
+first; n < 4 bytes at the end are n + 1 digits. The digits are ``0-9A-Za-z!#$%/()*+-;,=.?@^_`{|}~``.
 
 **A pack** is gzip (mtime 0) of a uint32 n, n bytes of JSON padded with blanks to a multiple of
 8 bytes (with the 4 before it), and the bytes that the JSON refers to: ``[offset, count, kind]``,
@@ -18,16 +17,16 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
 
     uwsim_head  1
     title       "currents, PI, seed 7"
-    live        whether rows come over a WebSocket
+    live        true if rows come over a WebSocket
     meshes      [{positions: ref, normals: ref, uvs: ref or null, tints: ref, triangles: ref,
                   pieces}]    normals are i2 / 32767, tints (colours 0..1) u2 / 65535;
                   pieces: [first index, count, centre 3, radius, low 3, high 3, normal 3, density],
                   `uwsim.rendering.merged.Piece`
     textures    [{type: "image/webp", bytes: ref, width, height, repeats}]
     bodies      [{name, vehicle: name or null, pose: [x y z w x y z],
-                  visuals: [{part: which model of the scene, mesh, matrix: 16 (body from mesh),
-                  texture or null, opacity, two_sided,
-                  hidden (a ghost, which cameras do not see)}]}]
+                  visuals: [{part: number of the model in the scene, mesh, matrix: 16 (body from
+                  mesh), texture or null, opacity, two_sided,
+                  hidden (a ghost, which cameras do not draw)}]}]
     cameras     [{name, body, pose: 7 (body from camera), width, height, fx, fy, cx, cy, skew,
                   near, far, grey}]
     lamps       [{name, body, pose, half_angle, softness, colour, intensity, shadow, on}]
@@ -40,24 +39,24 @@ offset in bytes from the end of the JSON and a multiple of 4, count of numbers, 
     sand        [{body, mesh, columns: [along x, along y], corner: 3, cell, reach, bite}]   heaps:
                   vertex i * (along y) + j of the mesh is the top of column i, j; `reach` and `bite`
                   as of a tool (below)
-    view        {pose, fovy, at: 3}   from where one looks at first, and at what: the placement of
+    view        {pose, fovy, at: 3}   the first view and its centre: that of
                   ``uwsim render --view orbit``
     file_view   null or the same: the ``<camera>`` of the scene file
     water       {fog, fog_colour, colour, attenuation, surface_height, clip, light_rate,
                  follows_light, sun, shadows}    clip: the fog of the original, by clip-space z;
-                 follows_light: whether water and fog are scaled by the light rate
+                 follows_light: true if the light rate scales water and fog
     suns        {name: {direction, colour}}; ambient, specular: constants of the law
     localized   pose of the frame L in W
     estimates   [{camera, truth: signals, estimate: signals}] quadrangles in images [px]
     trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses}]
-                  poses: {body: pose} of bodies that this seed puts elsewhere at step 0
+                  poses: {body: pose} of bodies that this seed places elsewhere at step 0
 
     levels      [{label, status, why, start, end, values: {fog: ...}}]  [s of simulation time]
     curves      [{name, unit, times: ref u4 [0.1 ms], values: ref f4,
-                  names: [of the values 1, 2, ...; or none], is_share: whether 0..1 is its range}]
+                  names: [of the values 1, 2, ...; or none], is_share: true if its range is 0..1}]
                   NaN: nothing was measured
 
-``pose`` of a body is where it is at step 0; a body that is not in a track stays there.
+``pose`` of a body is its pose at step 0; a body that is not in a track stays there.
 
 **Motion of a trial** (``units/NNNNN.motion``, `uwsim.results.motion`): gzip (mtime 0) of a line of
 JSON that ends with a line feed, then bytes::
@@ -70,26 +69,26 @@ Row i is at ``start + i / rate`` [s]. Columns: for each body x y z w x y z, then
 signal, as int32 multiples of ``length``, ``quaternion`` and ``step``; each column as differences
 from the row before (the first from 0), columns one after the other: m columns of n int32. Their
 bytes are shuffled: all lowest bytes first, all highest last, 4 m n bytes. Quaternions keep their
-sign from row to row. int32 minimum is "nothing" (NaN) in a signal, taken as a difference, too
-(sums wrap round).
+sign from row to row. int32 minimum is "no value" (NaN) in a signal, and is a term of the
+differences, too (sums wrap round).
 
-Where sand was taken the version is 2, ``"sand": {"n": 412, "grain": 1e-6}`` is in the line, and a
+If sand was removed, the version is 2, ``"sand": {"n": 412, "grain": 1e-6}`` is in the line, and a
 second table of n rows follows, packed in the same way: frame, number of the heap, x y z from its
 corner in grains. From that frame on each column whose top is nearer than ``reach`` to the place is
-``bite`` lower, down to the corner; a place of int32 minima puts all sand of the heap back.
+``bite`` lower, down to the corner; a place of int32 minima restores all sand of the heap.
 
-Where programs spawned markers the version is 2, too, and ``"markers"`` is in the line, as
-`uwsim.results.motion.marker_log` says.
+If programs spawned markers, the version is 2, too, and ``"markers"`` is in the line, in the format
+of `uwsim.results.motion.marker_log`.
 
-Names of bodies: ``vehicle/link``, of links that fixed joints hold together the one nearest to the
-root (`uwsim.simulation.tracked_bodies`); the object's name for objects; none is there twice, as the
-second of a name has ``#2`` behind it. Names of signals, all optional::
+Names of bodies: ``vehicle/link``, of links that fixed joints connect the one nearest to the root
+(`uwsim.simulation.tracked_bodies`); the object's name for objects; all are unique, as the second
+of a name has the suffix ``#2``. Names of signals, all optional::
 
-    fog, light_rate            as they are [1/m], [1]
+    fog, light_rate            the present values [1/m], [1]
     lamp/NAME                  its brightness, 0 off to 1: the intensity of the head
     thrust/VEHICLE/NAME        command of a thruster, -1..1 of its largest [1], or [N] with unit
     water/VEHICLE/x|y|z        velocity of the water at the vehicle, in W [m/s]
-    contacts/k/x|y|z           points of contact, in W; NaN: fewer
+    contacts/k/x|y|z           points of contact, in W; NaN: there are fewer
     truth/CAMERA/k/u|v         corners in a camera's image, from the centre of the first pixel [px]
     estimate/CAMERA/k/u|v      the same of the algorithm
     range/NAME                 reading of a range sensor [m]
@@ -98,7 +97,7 @@ second of a name has ``#2`` behind it. Names of signals, all optional::
 uint32 step, float64 time [s]::
 
     kind 0   the head as a pack; its field ``motion`` is the JSON line of a motion file
-    kind 1   a row: float32 of every column (7 a body, then the signals, NaN: nothing)
+    kind 1   a row: float32 of every column (7 a body, then the signals, NaN: no value)
     kind 2   a JPEG image of the camera number ``index``
     kind 3   a JPEG of the free view, for pages without WebGL
     kind 4   float32 heights of the columns of the heap number ``index`` above its corner
@@ -108,31 +107,31 @@ and text messages, JSON::
     {"type": "state", "paused": false, "speed": 1.0, "pilot": false, "resets": false,
      "mapping": {"w": "+surge", ...}, "reserved": ["w", ...], "sticks": ["yaw", "heave", "", ""],
      "names": {"joint1": "Slew", ...}, "vehicle": 0, "why": ""}
-                        the vehicle that is piloted, keys and axes of the sticks (left x, y,
-                        right x, y) that move something, names of the joints and thrusters, and
+                        the piloted vehicle, keys and axes of the sticks (left x, y, right x, y)
+                        that have an effect, names of the joints and thrusters, and the reason
                         why no vehicle can be steered
     {"type": "levels", "levels": [...]}                        as above, all so far
     {"type": "samples", "samples": [[name, unit, time, value or null], ...]}    for the curves
     {"type": "readings", "time": 1.2, "readings": [[name, unit, value or null], ...]}
                         of the piloted vehicle: joint/NAME, contact force, force/NAME,
                         battery/NAME, real-time factor
-    {"type": "topics", "topics": [[name, type], ...]}          all that there are
+    {"type": "topics", "topics": [[name, type], ...]}          all topics
     {"type": "topic", "name": "imu", "time": 1.2, "fields": [[path, number, text or null], ...],
      "is_cut": false}   numbers and texts of the newest message of a topic
     {"type": "markers", "markers": [{"name", "at": 3, "colour": "#rrggbb", "lines": [[3, ...]]}]}
-                                       all that programs have spawned, as lines in W
+                                       all spawned markers, as lines in W
     {"type": "end", "why": "..."}
 
 Page to server, JSON text of at most 4 kB::
 
     {"type": "control", "action": "pause" | "play" | "step" | "speed" | "reset", "speed": 2.0}
     {"type": "images", "cameras": ["bowtech1"], "rate": 10, "width": 200}
-                                 which JPEGs it wants, and how wide it shows them (without: whole)
-    {"type": "topics", "names": ["imu"]}                     of which it wants messages, 16 at most
+                                 the requested JPEGs and their width on the page (default: full)
+    {"type": "topics", "names": ["imu"]}                     the requested topics, 16 at most
     {"type": "view", "camera": "bowtech1" or null, "pose": [7], "width": 640, "height": 480,
-     "fovy": 0.87}                                             without WebGL: draw kind 3 so
+     "fovy": 0.87}                                     without WebGL: the view of kind 3
     {"type": "input", "keys": ["w"], "axes": [0.0, ...], "buttons": [0.0, ...],
-     "sticks": [x, y, x, y]}       whenever it changes, and 10 times a second while not at rest
+     "sticks": [x, y, x, y]}       at each change, and 10 times a second while not at rest
 
 Keys are `KeyboardEvent.key` of letters in lower case; axes and buttons those of the first gamepad;
 sticks those on the screen, -1..1, up and right positive. The page is served at ``/?token=T``; it
@@ -168,19 +167,19 @@ from .pack import Blob
 
 Json = dict[str, Any]
 VERSION = 1
-"""Of the format."""
+"""The version of the format."""
 SIZE = (960, 720)
-"""Of the first view [px]; only its shape counts."""
+"""The size of the first view [px]; only the ratio matters."""
 
 
 def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool = False) -> Json:
-    """Describe an opened scene as the page needs it.
+    """Describe an opened scene for the page.
 
     Args:
-        simulation: at step 0.
-        title: of the page.
-        blob: where the numbers go.
-        is_live: whether rows come over a WebSocket.
+        simulation: the simulation, at step 0.
+        title: the title of the page.
+        blob: the storage of the numbers.
+        is_live: True if rows come over a WebSocket.
     """
     world = simulation.world
     models = Models(blob)
@@ -188,13 +187,14 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
     for part in world.scenery.parts:
         bodies.add(part, models)
     names = unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
-    sand = [_sand(*each, bodies, models) for each in zip(names, world.scenery.heaps, strict=True)]
+    heaps = zip(names, world.scenery.heaps, strict=True)
+    sand = [_sand(name, heap, bodies, models) for name, heap in heaps]
     water, light = world.scenery.state.water, world.scenery.state.light
     return {
         "uwsim_head": VERSION,
         "title": title,
         "live": is_live,
-        "localized": _row(world.model.scene.world_from_localized),
+        "localized": _row_of(world.model.scene.world_from_localized),
         "cameras": list(_cameras(world, bodies)),
         "lamps": list(_lamps(world, bodies)),
         "projector": _projector(world, bodies, models),
@@ -229,15 +229,15 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
 
 
 def body_poses(simulation: Simulation) -> dict[str, list[float]]:
-    """Return where all bodies of the head are now: name -> x y z w x y z."""
+    """Return the present poses of all bodies of the head: name -> x y z w x y z."""
     bodies = _Bodies(simulation.world)
     for part in simulation.world.scenery.parts:
-        bodies.of(part)
+        bodies.part_body(part)
     return {row["name"]: row["pose"] for row in bodies.rows}
 
 
 class _Bodies:
-    """The bodies that the page draws, or that something is mounted on.
+    """The bodies that the page draws, or that carry a sensor, lamp or camera.
 
     Args:
         world: the scene.
@@ -246,9 +246,9 @@ class _Bodies:
     def __init__(self, world: LiveScene) -> None:
         self._world = world
         self._leaders = {i: leaders(robot) for i, robot in world.model.robots.items()}
-        self._of_link, self._of_object = body_names(world)
+        self._link_names, self._object_names = body_names(world)
         self.labels = vehicle_labels(world)
-        """A name of its own for each vehicle."""
+        """The unique names of the vehicles."""
         self.rows: list[Json] = []
         """The bodies so far, as in the head."""
         self._poses: dict[str, Pose] = {}
@@ -258,9 +258,9 @@ class _Bodies:
         """Return the body of a link, which is among the bodies from now on."""
         leader = self._leaders[index][link]
         pose = self._world.engine.poses.link(index, leader)
-        return self._body(self._of_link[index, leader], pose, self.labels[index])
+        return self._body(self._link_names[index, leader], pose, self.labels[index])
 
-    def link_called(self, vehicle: str, link: str) -> str:
+    def named_link(self, vehicle: str, link: str) -> str:
         """Return the name of a link of the first vehicle of that name."""
         return self.link(self._world.vehicles.names.index(vehicle), link)
 
@@ -268,17 +268,17 @@ class _Bodies:
         """Return where a body is, by the name that `link` returned."""
         return self._poses[name]
 
-    def of(self, part: Part) -> str:
+    def part_body(self, part: Part) -> str:
         """Return the body of a part of the scene, which is among the bodies from now on."""
         if part.vehicle is not None:
             return self.link(part.vehicle, part.link)
         assert part.object is not None
         pose = self._world.engine.poses.object(part.object)
-        return self._body(self._of_object[part.object], pose, None)
+        return self._body(self._object_names[part.object], pose, None)
 
     def add(self, part: Part, models: Models) -> None:
         """Add a part of the scene."""
-        name = self.of(part)
+        name = self.part_body(part)
         body_from_mesh = product(
             self._poses[name].inverse().matrix, self._world.scenery.world_from_mesh(part)
         )
@@ -286,32 +286,34 @@ class _Bodies:
         row = next(row for row in self.rows if row["name"] == name)
         self._n_parts += 1
         row["visuals"] += [
-            {"part": self._n_parts, **look, "matrix": matrix, "hidden": part.is_hidden}
-            for look in models.looks(part.model)
+            {"part": self._n_parts, **visual, "matrix": matrix, "hidden": part.is_hidden}
+            for visual in models.visuals(part.model)
         ]
 
-    def add_fixed(self, name: str, looks: list[Json]) -> None:
-        """Add something whose vertices are in W."""
+    def add_fixed(self, name: str, visuals: list[Json]) -> None:
+        """Add a body whose vertices are in W."""
         self._body(name, Pose.identity(), None)
         matrix = np.eye(4).ravel().tolist()
         self._n_parts += 1
-        about = {"part": self._n_parts, "matrix": matrix, "hidden": False}
-        self.rows[-1]["visuals"] = [{**about, **look} for look in looks]
+        fields = {"part": self._n_parts, "matrix": matrix, "hidden": False}
+        self.rows[-1]["visuals"] = [{**fields, **visual} for visual in visuals]
 
     def _body(self, name: str, pose: Pose, vehicle: str | None) -> str:
         if name not in self._poses:
             self._poses[name] = pose
-            self.rows.append({"name": name, "vehicle": vehicle, "pose": _row(pose), "visuals": []})
+            self.rows.append(
+                {"name": name, "vehicle": vehicle, "pose": _row_of(pose), "visuals": []}
+            )
         return name
 
 
 def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
-    """Add a heap to the bodies and meshes; returns how it is dug."""
-    looks = models.looks(heap.model())
-    bodies.add_fixed(name, looks)
+    """Add a heap to the bodies and meshes; return its shape and that of its tool."""
+    visuals = models.visuals(heap.model())
+    bodies.add_fixed(name, visuals)
     return {
         "body": name,
-        "mesh": looks[0]["mesh"],
+        "mesh": visuals[0]["mesh"],
         "columns": list(heap.heights.shape),
         "corner": heap.corner.tolist(),
         "cell": heap.cell,
@@ -321,7 +323,7 @@ def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
 
 
 def _cameras(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    links = {  # of several of one name the last is found
+    links = {  # of several with one name the last is found
         spec.name: f"{vehicle}/{spec.relative_to}"
         for vehicle, spec in _mounted_parts(world)
         if isinstance(spec, VirtualCameraSpec)
@@ -329,7 +331,7 @@ def _cameras(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
     for name in world.sensors.cameras:
         camera = world.sensors.camera(name)
         yield {
-            **_mounted(bodies, links[name], camera.world_from_camera),
+            **_mount_fields(bodies, links[name], camera.world_from_camera),
             "name": name,
             "grey": camera.is_grey,
             **asdict(camera.intrinsics),
@@ -340,7 +342,7 @@ def _lamps(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
     for lamp in world.scenery.mounted_lamps:
         spec = lamp.spec
         yield {
-            **_mounted(bodies, lamp.link, lamp.world_from_lamp),
+            **_mount_fields(bodies, lamp.link, lamp.world_from_lamp),
             "name": spec.name,
             "half_angle": math.radians(spec.fov / 2.0),
             "softness": spec.softness,
@@ -356,7 +358,7 @@ def _projector(world: LiveScene, bodies: _Bodies, models: Models) -> Json | None
         return None
     projector, pattern = world.scenery.mounted_projector
     return {
-        **_mounted(bodies, projector.link, projector.world_from_projector),
+        **_mount_fields(bodies, projector.link, projector.world_from_projector),
         "fovy": math.radians(projector.spec.fov),
         "laser": projector.spec.laser,
         "pattern": models.pattern(pattern),
@@ -365,32 +367,32 @@ def _projector(world: LiveScene, bodies: _Bodies, models: Models) -> Json | None
 
 def _sensors(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
     for name, spec in _mounted_parts(world):
-        place = world.vehicles.find(name).mount(spec)
-        about = {**_mounted(bodies, place.name, place.world_from_body), "name": spec.name}
+        mount = world.vehicles.find(name).mount(spec)
+        fields = {**_mount_fields(bodies, mount.name, mount.world_from_body), "name": spec.name}
         if isinstance(spec, RangeSensorSpec):
-            yield {**about, "kind": "range", "reach": spec.range, "from": 0.0, "to": 0.0}
+            yield {**fields, "kind": "range", "reach": spec.range, "from": 0.0, "to": 0.0}
         elif isinstance(spec, FanSpec):
             ends = math.radians(spec.init_angle), math.radians(spec.final_angle)
-            yield {**about, "kind": "fan", "reach": spec.range, "from": ends[0], "to": ends[1]}
+            yield {**fields, "kind": "fan", "reach": spec.range, "from": ends[0], "to": ends[1]}
         elif isinstance(spec, ImagingSonarSpec):
             half = math.radians(spec.horizontal_aperture) / 2.0
-            yield {**about, "kind": "sonar", "reach": spec.range, "from": -half, "to": half}
+            yield {**fields, "kind": "sonar", "reach": spec.range, "from": -half, "to": half}
 
 
 def _frames(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    yield {"name": "L", "body": None, "pose": _row(world.model.scene.world_from_localized)}
+    yield {"name": "L", "body": None, "pose": _row_of(world.model.scene.world_from_localized)}
     for index, vehicle in enumerate(world.model.scene.vehicles):
         for link in world.model.robots[index].links:
             name = f"{vehicle.name}/{link.name}"
             world_from_link = world.engine.poses.link(index, link.name)
-            yield {**_mounted(bodies, name, world_from_link), "name": name}
+            yield {**_mount_fields(bodies, name, world_from_link), "name": name}
         for part in (part for name, part in _mounted_parts(world) if name == vehicle.name):
-            place = world.vehicles.find(vehicle.name).mount(part)
-            yield {**_mounted(bodies, place.name, place.world_from_body), "name": part.name}
+            mount = world.vehicles.find(vehicle.name).mount(part)
+            yield {**_mount_fields(bodies, mount.name, mount.world_from_body), "name": part.name}
 
 
 def _mounted_parts(world: LiveScene) -> Iterator[tuple[str, MountedSensor]]:
-    """Name of the vehicle, and spec of each sensor on a link that is there."""
+    """Yield the vehicle's name and the spec of each sensor on a link that exists."""
     for index, vehicle in enumerate(world.model.scene.vehicles):
         for _, part in vehicle.all_parts():
             links = world.model.robots[index]
@@ -399,45 +401,45 @@ def _mounted_parts(world: LiveScene) -> Iterator[tuple[str, MountedSensor]]:
 
 
 def _vehicles(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    for index, vehicle in enumerate(world.model.scene.vehicles):
-        live = world.vehicles.find(vehicle.name)
+    for index, spec in enumerate(world.model.scene.vehicles):
+        vehicle = world.vehicles.find(spec.name)
         yield {
             "name": bodies.labels[index],
             "body": bodies.link(index, world.model.robots[index].root),
-            "thrusters": list(live.thrusters),
-            "joints": list(live.joint_names),
+            "thrusters": list(vehicle.thrusters),
+            "joints": list(vehicle.joint_names),
         }
 
 
 def _orbit(simulation: Simulation) -> Json:
-    """The view around vehicles and what is near them, which `uwsim render` has, too."""
+    """Return the view around vehicles and nearby objects, the same as that of `uwsim render`."""
     eye, middle = orbit_view(simulation, SIZE).world_from_camera, focus_of(simulation).middle
     return _view(eye, FIELD, dot(eye.position - middle, eye.rotation[:, 2]))
 
 
 def _file_view(simulation: Simulation) -> Json | None:
-    """The viewer's camera of the file; None where it has none."""
+    """Return the viewer's camera of the file; None without one."""
     camera = simulation.world.model.scene.camera
     if camera is None or camera.position == camera.look_at:
         return None
     eye = viewer_view(simulation, camera, SIZE).world_from_camera
-    away = length(np.subtract(camera.position, camera.look_at))
-    return _view(eye, math.radians(camera.fov), away)
+    distance = length(np.subtract(camera.position, camera.look_at))
+    return _view(eye, math.radians(camera.fov), distance)
 
 
-def _view(world_from_camera: Pose, fovy: float, away: float) -> Json:
-    """A view whose centre is ``away`` [m] ahead of the eye."""
-    at = world_from_camera.position - away * world_from_camera.rotation[:, 2]
-    return {"pose": _row(world_from_camera), "fovy": fovy, "at": at.tolist()}
+def _view(world_from_camera: Pose, fovy: float, distance: float) -> Json:
+    """Return a view whose centre is ``distance`` [m] ahead of the eye."""
+    centre = world_from_camera.position - distance * world_from_camera.rotation[:, 2]
+    return {"pose": _row_of(world_from_camera), "fovy": fovy, "at": centre.tolist()}
 
 
-def _mounted(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:
-    """Name of the body, and where on it a part is."""
+def _mount_fields(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:
+    """Return the name of the body, and the pose of a part on it."""
     vehicle, _, link = name.partition("/")
-    body = bodies.link_called(vehicle, link)
-    return {"body": body, "pose": _row(bodies.pose(body).inverse() @ world_from_part)}
+    body = bodies.named_link(vehicle, link)
+    return {"body": body, "pose": _row_of(bodies.pose(body).inverse() @ world_from_part)}
 
 
-def _row(pose: Pose) -> list[float]:
-    """Position and quaternion wxyz."""
+def _row_of(pose: Pose) -> list[float]:
+    """Return position and quaternion wxyz."""
     return [float(f"{value:.9g}") for value in (*pose.position, *pose.quaternion)]

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 Ref = tuple[int, int, str]
-"""Offset [byte], count of numbers, kind."""
+"""The reference to an array: offset [byte], count of numbers, kind."""
 Json = Mapping[str, Any]
 
 KINDS = {
@@ -39,7 +39,7 @@ class Blob:
         self._length = 0
 
     def add(self, array: npt.NDArray[Any]) -> Ref:
-        """Append an array, flat; returns what the JSON says of it."""
+        """Append an array, flat, and return its reference."""
         ref = self._length, array.size, KINDS[array.dtype]
         data = np.ascontiguousarray(array).tobytes()
         data += bytes(-len(data) % 4)
@@ -48,16 +48,16 @@ class Blob:
         return ref
 
     def add_bytes(self, data: bytes) -> Ref:
-        """Append bytes."""
+        """Append bytes and return their reference."""
         return self.add(np.frombuffer(data, np.uint8))
 
     @property
     def data(self) -> bytes:
-        """All of them."""
+        """The bytes of all arrays."""
         return b"".join(self._parts)
 
 
-def packed(head: Json, blob: Blob) -> bytes:
+def make_pack(head: Json, blob: Blob) -> bytes:
     """Return a pack; the same bytes for the same content."""
     text = json.dumps(head, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-(len(text) + 4) % 8)

@@ -1,4 +1,4 @@
-"""A trial of a stored result, as it is seen again: its scene, its motion, its levels and curves."""
+"""A trial of a stored result, for playback: its scene, its motion, its levels and curves."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from ..verify.recorded_plan import (
 )
 from ..world import TIMESTEP
 
-PHASE, TIME_IN = "phase", "time."
-"""Column of a log with the number of a phase, and how the details with the time in each begin."""
+PHASE_COLUMN, TIME_PREFIX = "phase", "time."
+"""The column of a log with the number of a phase, and the prefix of the details with its time."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,22 +39,22 @@ class Curve:
     """The samples of a measure in one level."""
 
     measure: str
-    """Its name; of a further column of its log also the column's, as ``success.height``."""
+    """The name of the measure, with that of a further column of its log, as ``success.height``."""
     unit: str
-    """Of its value; empty where the log says none."""
+    """The unit of the value; empty where the log states none."""
     times: Array
-    """Since the simulation began, (n,) [s]."""
+    """The simulation times of the samples, (n,) [s]."""
     values: Array
-    """(n,); NaN: there was nothing to measure."""
+    """The values, (n,); NaN: nothing was measured."""
     names: tuple[str, ...] = ()
-    """Of the values 1, 2, ..., where they number something, as phases; else empty."""
+    """The names of the values 1, 2, ..., if they are numbers of phases; else empty."""
 
     @property
     def is_share(self) -> bool:
-        """Whether its values have the unit 1 and lie between 0 and 1, as those of a share."""
-        seen = self.values[np.isfinite(self.values)]
+        """The kind of the values: True if they have the unit 1 and are between 0 and 1."""
+        values = self.values[np.isfinite(self.values)]
         has_unit = self.unit == "1" and not self.names
-        return has_unit and bool(((seen >= 0.0) & (seen <= 1.0)).all())
+        return has_unit and bool(((values >= 0.0) & (values <= 1.0)).all())
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -62,49 +62,49 @@ class RecordedLevel:
     """A level of a trial."""
 
     label: str
-    """As ``fog 0.5``."""
+    """The swept values, as ``fog 0.5``."""
     status: str
-    """``ok``, or what went wrong."""
-    why: str
-    """Why it is not ok; empty if it is."""
-    began: float
-    """Simulation time at which it began [s]."""
-    ended: float
-    """Simulation time at which it ended [s]."""
+    """The status: ``ok``, or the kind of failure."""
+    reason: str
+    """The reason of a status other than ok; else empty."""
+    start_time: float
+    """The simulation time of the beginning [s]."""
+    end_time: float
+    """The simulation time of the end [s]."""
     values: dict[str, float | None]
-    """Measure -> its value at the end."""
+    """The final value of each measure."""
     curves: tuple[Curve, ...]
-    """Of all measures that have a log, in the file's order."""
-    swept: Mapping[str, float] = field(default_factory=dict)
-    """Swept parameter -> value, outermost first."""
+    """The curves of all measures that have a log, in the file's order."""
+    swept_values: Mapping[str, float] = field(default_factory=dict)
+    """The value of each swept parameter, outermost first."""
     details: tuple[Curve, ...] = ()
-    """Of the further columns of their logs."""
+    """The curves of the further columns of their logs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RecordedTrial:
-    """A trial that was run."""
+    """A finished trial."""
 
     directory: Path
-    """The result."""
+    """The result directory."""
     index: int
-    """Its number."""
+    """The number of the trial."""
     title: str
-    """As ``currents, pi, seed 7``."""
+    """The title, as ``currents, pi, seed 7``."""
     seed: int
-    """Of its random streams."""
+    """The seed of its random streams."""
     scene: SceneSpec
-    """As it was run, with ``--set``; what varies is drawn for the seed when it is opened."""
+    """The scene with ``--set``, before the variation by the seed."""
     timestep: float
-    """Of the run [s]."""
+    """The timestep of the run [s]."""
     compatibility: frozenset[str]
-    """Quirks that were on."""
+    """The active compatibility options."""
     data_path: tuple[Path, ...]
-    """Folders in which files are looked for."""
+    """The folders in which files are searched."""
     track: MotionTrack
-    """Where everything was."""
+    """The recorded motion."""
     levels: tuple[RecordedLevel, ...]
-    """In order."""
+    """The levels in order."""
 
     @staticmethod
     def open(
@@ -113,18 +113,18 @@ class RecordedTrial:
         """Read a trial of a result.
 
         Args:
-            directory: of the result.
-            index: number of the trial, from 0.
-            overrides: where the files are, if not where they were.
+            directory: the result directory.
+            index: the number of the trial, from 0.
+            overrides: the present paths of the files, if they have moved.
 
         Raises:
-            ResultError: there is no such trial, it was not finished, or its motion was not kept.
-            AssetNotFound: its scene is nowhere.
+            ResultError: there is no such trial, it is not finished, or its motion is missing.
+            AssetNotFound: its scene is not found.
         """
-        where = overrides or FileOverrides()
+        sources = overrides or FileOverrides()
         result = load(directory)
-        head, stored = journal.read_any(_finished(directory, index))
-        if head is None or stored.end is None:
+        head, trial = journal.read_any(_journal_path(directory, index))
+        if head is None or trial.end is None:
             raise ResultError(f"{directory}: trial {index} is not finished; --resume runs it.")
         track = load_track(journal.track_path(directory, index))
         run = result.run
@@ -134,46 +134,47 @@ class RecordedTrial:
             index=index,
             title=f"{name}, {run.algorithm}, seed {head['seed']}",
             seed=int(head["seed"]),
-            scene=scene_of(result, directory, where),
+            scene=scene_of(result, directory, sources),
             timestep=run.timestep[0] if run.timestep else TIMESTEP,
             compatibility=frozenset(run.compatibility or ()),
-            data_path=where.data_path,
+            data_path=sources.data_path,
             track=track,
             levels=tuple(
-                _level(row, began) for row, began in zip(stored.rows, track.levels, strict=False)
+                _level(row, track_level)
+                for row, track_level in zip(trial.rows, track.levels, strict=False)
             ),
         )
 
 
 def trials_of_first_seed(directory: Path) -> tuple[int, ...]:
-    """Return the numbers of the trials whose motion is there and whose seed is that of the first.
+    """Return the numbers of the recorded trials whose seed is that of the first.
 
-    Where a benchmark's levels are independent they are a trial each, and these are all levels.
+    If a benchmark's levels are independent, each is a trial, and these are all levels.
 
     Raises:
         ResultError: there is no motion.
     """
-    there = journal.recorded_trials(directory)
-    if not there:
-        _finished(directory, 0)
-    seeds = [journal.head_of(journal.path_of(directory, i)).get("seed") for i in there]
-    return tuple(i for i, seed in zip(there, seeds, strict=True) if seed == seeds[0])
+    numbers = journal.recorded_trials(directory)
+    if not numbers:
+        _journal_path(directory, 0)
+    seeds = [journal.head_of(journal.path_of(directory, i)).get("seed") for i in numbers]
+    return tuple(i for i, seed in zip(numbers, seeds, strict=True) if seed == seeds[0])
 
 
 def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> SceneSpec:
-    """Find the scene of a result by name and hash, and change it as it was (``--set``)."""
-    typed = typed_words(directory)
-    with suppress(UwsimError):  # a benchmark that is gone leads to no scene, and needs not
-        named = named_input(result, "benchmark")
-        file = find_input("benchmark", named, overrides.benchmark, directory, overrides, typed)
-        typed += [str(file.parent / name) for name in scene_named_by(file)]
-    named = named_input(result, "scene")
-    path = find_input("scene", named, overrides.scene, directory, overrides, typed)
+    """Find the scene of a result by name and hash, and apply its settings (``--set``)."""
+    words = typed_words(directory)
+    with suppress(UwsimError):  # a missing benchmark names no scene; the record may be enough
+        record = named_input(result, "benchmark")
+        file = find_input("benchmark", record, overrides.benchmark, directory, overrides, words)
+        words += [str(file.parent / name) for name in scene_named_by(file)]
+    record = named_input(result, "scene")
+    path = find_input("scene", record, overrides.scene, directory, overrides, words)
     arguments = xacro_arguments(result.run.settings or ())
     scene = read_scene(path, data_path=overrides.data_path, arguments=arguments)
     for name, value in result.run.settings or ():
         if not name.startswith(OF_ALGORITHM):
-            with suppress(UwsimError):  # it was right when it was run: it is of an updater
+            with suppress(UwsimError):  # it was valid in the run: it belongs to an updater
                 scene = apply_setting(scene, name, value)
     return scene
 
@@ -181,14 +182,14 @@ def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> Scene
 def levels_without_motion(
     directory: Path, index: int, names: Sequence[str]
 ) -> tuple[RecordedLevel, ...]:
-    """Return the levels of a finished trial whose motion is not there, from its journal alone.
+    """Return the levels of a finished trial without recorded motion, from its journal.
 
     Args:
-        directory: of the result.
-        index: number of the trial.
-        names: of what changes with the levels, outermost first.
+        directory: the result directory.
+        index: the number of the trial.
+        names: the swept parameters, outermost first.
     """
-    _, stored = journal.read_any(journal.path_of(directory, index))
+    _, trial = journal.read_any(journal.path_of(directory, index))
     return tuple(
         _level(
             row,
@@ -199,21 +200,21 @@ def levels_without_motion(
                 status=row.status,
             ),
         )
-        for row in stored.rows
+        for row in trial.rows
     )
 
 
-def _finished(directory: Path, index: int) -> Path:
-    """Return the journal of a trial whose motion is there; raises ResultError."""
-    there = journal.recorded_trials(directory)
-    if not there:
+def _journal_path(directory: Path, index: int) -> Path:
+    """Return the journal of a trial with recorded motion; raise ResultError."""
+    numbers = journal.recorded_trials(directory)
+    if not numbers:
         raise ResultError(
-            f"{directory}: holds no motion (units/*{journal.TRACK}): it was made by an earlier "
-            "version, or no trial of it is finished. Run it again to see it."
+            f"{directory} has no motion (units/*{journal.TRACK}): an earlier version wrote it, "
+            "or none of its trials is finished. Run it again to record the motion."
         )
-    if index not in there:
+    if index not in numbers:
         raise ResultError(
-            f"{directory}: no motion of trial {index}; expected one of {_ranges(there)}."
+            f"{directory} has no motion of trial {index}; expected one of {_ranges(numbers)}."
         )
     return journal.path_of(directory, index)
 
@@ -224,23 +225,23 @@ def _ranges(numbers: tuple[int, ...]) -> str:
     return ", ".join(map(str, numbers))
 
 
-def _level(row: StoredRow, began: TrackLevel) -> RecordedLevel:
-    label = ", ".join(f"{name} {value:g}" for name, value in began.values.items())
+def _level(row: StoredRow, track_level: TrackLevel) -> RecordedLevel:
+    label = ", ".join(f"{name} {value:g}" for name, value in track_level.values.items())
     return RecordedLevel(
         label=label,
         status=row.status,
-        why=row.missing.get("total", ""),
-        began=began.began,
-        ended=began.began + began.duration,
-        swept=began.values,
+        reason=row.missing.get("total", ""),
+        start_time=track_level.began,
+        end_time=track_level.began + track_level.duration,
+        swept_values=track_level.values,
         values={name: value for name, (value, _) in row.measures.items()},
         curves=tuple(
-            _curve(name, row.measures[name][1], samples, began.began)
+            _curve(name, row.measures[name][1], samples, track_level.began)
             for name, samples in row.logs.items()
             if samples
         ),
         details=tuple(
-            _detail(row, name, (column, place), began.began)
+            _detail(row, name, (column, place), track_level.began)
             for name, columns in row.log_headers.items()
             for place, column in enumerate(columns[1:], start=2)
             if row.logs.get(name)
@@ -248,23 +249,23 @@ def _level(row: StoredRow, began: TrackLevel) -> RecordedLevel:
     )
 
 
-def _detail(row: StoredRow, measure: str, column: tuple[str, int], began: float) -> Curve:
-    """The curve of a further column of a log: its heading, as ``height [m]``, and its place."""
+def _detail(row: StoredRow, measure: str, column: tuple[str, int], start_time: float) -> Curve:
+    """Return the curve of a further column: its heading, as ``height [m]``, and its index."""
     name, _, unit = column[0].partition(" [")
-    curve = _curve(f"{measure}.{name}", unit.rstrip("]"), row.logs[measure], began, column[1])
-    return replace(curve, names=_phases(row, measure)) if name == PHASE else curve
+    curve = _curve(f"{measure}.{name}", unit.rstrip("]"), row.logs[measure], start_time, column[1])
+    return replace(curve, names=_phases(row, measure)) if name == PHASE_COLUMN else curve
 
 
 def _phases(row: StoredRow, measure: str) -> tuple[str, ...]:
-    """Names of the phases of a measure, in order: it has the time in each of them."""
-    start = f"{measure}.{TIME_IN}"
+    """Return the names of a measure's phases, in order: it has the time in each of them."""
+    start = f"{measure}.{TIME_PREFIX}"
     return tuple(name.removeprefix(start) for name in row.details if name.startswith(start))
 
 
 def _curve(
-    name: str, unit: str, samples: Sequence[Sequence[Any]], began: float, place: int = 1
+    name: str, unit: str, samples: Sequence[Sequence[Any]], start_time: float, place: int = 1
 ) -> Curve:
-    """The curve of one place in the samples; place 0 is the time in the level [s]."""
-    chosen = [(sample[0], sample[place]) for sample in samples]
-    values = np.array([[np.nan if v is None else v for v in pair] for pair in chosen])
-    return Curve(measure=name, unit=unit, times=began + values[:, 0], values=values[:, 1])
+    """Return the curve of one column of the samples; column 0 is the time in the level [s]."""
+    pairs = [(sample[0], sample[place]) for sample in samples]
+    values = np.array([[np.nan if v is None else v for v in pair] for pair in pairs])
+    return Curve(measure=name, unit=unit, times=start_time + values[:, 0], values=values[:, 1])

@@ -1,4 +1,4 @@
-"""A recorded trial as an MCAP file of ROS 2 messages, with bodies that 3-D panels show.
+"""A recorded trial as an MCAP file of ROS 2 messages, with shapes for 3-D panels.
 
 ``/tf`` has every body of the motion track in ``world`` (W, z up), 30 times a second; ``/scene`` the
 shapes, once: markers that are locked to these frames; ``/robot_description`` the first vehicle's
@@ -24,23 +24,23 @@ from ..middleware.types import wire_type
 from ..model.parts import Part
 from ..simulation import Simulation
 from ..simulation.tracked_bodies import TrackedBodies
-from .film.puppets import Puppets
+from .film.trial_scene import TrialScene
 from .recorded import RecordedTrial
-from .shapes import SCENE, shapes
+from .shapes import SCENE_TOPIC, shape_markers
 
 SUFFIX = ".mcap"
 WORLD = "world"
-"""Frame of W."""
+"""The frame of W."""
 Message = tuple[float, str, Any]
-"""Time [s], topic, message."""
+"""A message: time [s], topic, content."""
 
 
 def check_recording_path(path: Path, *, overwrite: bool) -> None:
-    """Refuse a path that cannot be written; raises BadSetting."""
+    """Reject a path that cannot be written; raise BadSetting."""
     if path.is_dir():
-        raise BadSetting(f"-o {path}: is a folder.")
+        raise BadSetting(f"-o {path}: the path is a folder; expected a file.")
     if path.exists() and not overwrite:
-        raise BadSetting(f"-o {path}: exists; --overwrite replaces it.")
+        raise BadSetting(f"-o {path}: the file exists; --overwrite replaces it.")
 
 
 def write_recording(
@@ -49,39 +49,39 @@ def write_recording(
     """Write a trial as an MCAP file, with the same bytes for the same trial.
 
     Args:
-        trial: the one.
-        path: of the file.
-        on_frame: called after each row of the motion track.
+        trial: the trial.
+        path: the path of the file.
+        on_frame: the callback after each row of the motion track.
 
     Returns:
         The number of messages.
     """
-    puppets = Puppets(trial)
+    scene = TrialScene(trial)
     try:
         n = 0
-        puppets.put(0.0)
+        scene.show_time(0.0)
         file = McapFile(path)
-        with name_file_in_errors(path), whole_or_nothing(file):
+        with name_file_in_errors(path), finish_or_discard(file):
             messages = [
-                (0.0, f"/{SCENE}", _shapes(puppets.simulation)),
-                *_about(trial, puppets.simulation),
+                (0.0, f"/{SCENE_TOPIC}", _shapes(scene.simulation)),
+                *_other_messages(trial, scene.simulation),
             ]
-            waiting = deque(sorted(messages, key=lambda each: each[0]))
+            queue = deque(sorted(messages, key=lambda message_row: message_row[0]))
             for time, message in _transforms(trial):
-                while waiting and waiting[0][0] <= time:
-                    n += _write(file, *waiting.popleft())
-                n += _write(file, time, "/tf", message)
+                while queue and queue[0][0] <= time:
+                    n += _write_message(file, *queue.popleft())
+                n += _write_message(file, time, "/tf", message)
                 on_frame()
-            for each in waiting:
-                n += _write(file, *each)
+            for message_row in queue:
+                n += _write_message(file, *message_row)
         return n
     finally:
-        puppets.close()
+        scene.close()
 
 
 @contextmanager
-def whole_or_nothing(file: McapFile) -> Iterator[None]:
-    """Finish a file, or leave nothing of it after an error."""
+def finish_or_discard(file: McapFile) -> Iterator[None]:
+    """Finish a file, or discard it after an error."""
     try:
         yield
         file.close()
@@ -90,11 +90,11 @@ def whole_or_nothing(file: McapFile) -> Iterator[None]:
         raise
 
 
-def _write(file: McapFile, time: float, topic: str, message: Any) -> int:
-    own: type = type(message)
-    kind = wire_type(own)
-    assert kind is not None
-    file.write(topic, kind, round(time * NANOSECONDS), message)
+def _write_message(file: McapFile, time: float, topic: str, message: Any) -> int:
+    message_type: type = type(message)
+    ros_type = wire_type(message_type)
+    assert ros_type is not None
+    file.write(topic, ros_type, round(time * NANOSECONDS), message)
     return 1
 
 
@@ -110,13 +110,13 @@ def _transforms(trial: RecordedTrial) -> Iterator[tuple[float, TFMessage]]:
         )
 
 
-def _about(trial: RecordedTrial, simulation: Simulation) -> Iterator[Message]:
-    """What is not motion: the robot, the levels, the measures."""
+def _other_messages(trial: RecordedTrial, simulation: Simulation) -> Iterator[Message]:
+    """Yield the messages of the robot, the levels and the measures."""
     robots = simulation.world.model.robots
     if robots and (file := Path(robots[0].path)).is_file():
         yield 0.0, "/robot_description", String(data=file.read_text(encoding="utf-8"))
     for level in trial.levels:
-        yield level.began, "/level", String(data=level.label)
+        yield level.start_time, "/level", String(data=level.label)
         for curve in level.curves:
             for time, value in zip(curve.times.tolist(), curve.values.tolist(), strict=True):
                 if np.isfinite(value):
@@ -124,7 +124,7 @@ def _about(trial: RecordedTrial, simulation: Simulation) -> Iterator[Message]:
 
 
 def _shapes(simulation: Simulation) -> MarkerArray:
-    """The shapes in the frames of their bodies; what stands still in W."""
+    """Return the shapes in the frames of their bodies; fixed ones in W."""
     bodies = TrackedBodies(simulation.world)
     rows = bodies.rows()
 
@@ -132,7 +132,7 @@ def _shapes(simulation: Simulation) -> MarkerArray:
         body = bodies.body_of(part)
         if body is None:
             return WORLD, np.eye(4)
-        here = Pose(rows[body, :3], rotation_from_quaternion(rows[body, 3:]))
-        return bodies.names[body], here.inverse().matrix
+        world_from_body = Pose(rows[body, :3], rotation_from_quaternion(rows[body, 3:]))
+        return bodies.names[body], world_from_body.inverse().matrix
 
-    return shapes(simulation, frame_of)
+    return shape_markers(simulation, frame_of)

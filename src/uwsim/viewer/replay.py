@@ -11,45 +11,44 @@ import numpy as np
 
 from ..base.deprecation import deprecated
 from ..errors import ResultError
-from ..physics.compile_scene import compile_scene
 from ..results import journal
 from ..results.atomic_file import write_text
 from ..results.journal import recorded_trials, trials_without_motion
-from ..simulation import Simulation
 from ..verify.recorded_plan import FileOverrides
 from .document import document
+from .film.trial_scene import open_scene
 from .head import body_poses, scene_head
-from .pack import Blob, packed
+from .pack import Blob, make_pack
 from .recorded import Curve, RecordedLevel, RecordedTrial, levels_without_motion
 
 Json = dict[str, Any]
 SUFFIXES = (".html", ".htm")
-"""Of the files that `Replay.save` writes."""
+"""The suffixes of the files that `Replay.save` writes."""
 NO_MOTION = "no motion"
-"""Status of a level that cannot be seen."""
-GAP = 1e-3
-"""After the last sample of a level nothing was measured [s]."""
-TICKS = 1e4
-"""Of the times of curves, in a second."""
-HEIGHT = 720
-"""Of the page in a notebook [px]."""
+"""The status of a level without recorded motion."""
+CURVE_GAP = 1e-3
+"""The time between the last sample of a level and the gap in its curve [s]."""
+TICKS_PER_SECOND = 1e4
+"""The ticks of the times of curves in a second."""
+NOTEBOOK_HEIGHT = 720
+"""The height of the page in a notebook [px]."""
 
 
 class Replay:
-    """Some trials of a result, to be seen again.
+    """Some trials of a result, for playback.
 
-    Nothing is run again: the motion of every trial is in the result, and the page draws the scene
-    from it with the shaders of the renderer. In a notebook it shows itself.
+    No trial runs again: the motion of every trial is in the result, and the page draws the scene
+    from it with the shaders of the renderer. A notebook displays the page.
 
     Args:
-        directory: of the result.
-        trials: their numbers; without them all that are finished: of those whose motion is not
-            there the levels are listed, with the status `NO_MOTION`.
-        overrides: where the files of the scene are, if not where they were.
+        directory: the result directory.
+        trials: their numbers; by default all finished trials. The levels of those without recorded
+            motion are listed with the status `NO_MOTION`.
+        overrides: the present paths of the scene's files, if they have moved.
 
     Raises:
-        ResultError: a trial's motion is not there.
-        AssetNotFound: the scene is nowhere.
+        ResultError: the motion of a trial is missing.
+        AssetNotFound: the scene is not found.
     """
 
     def __init__(
@@ -65,7 +64,7 @@ class Replay:
         self.trials_without_motion = trials_without_motion(directory) if trials is None else ()
         """The numbers of the trials without a file of their motion."""
         if not self._trials:
-            raise ResultError(f"{directory}: no trial was chosen.")
+            raise ResultError(f"{directory}: the list of trials is empty.")
         self._seeds = sorted({trial.seed for trial in self._trials})
         self.title = self._trials[0].title
         """The benchmark, the algorithm and the seed, or the number of seeds, of the trials."""
@@ -79,9 +78,9 @@ class Replay:
         return self.trials_without_motion
 
     def pack(self) -> bytes:
-        """Return what the page shows (`head`)."""
+        """Return the data of the page (`head`)."""
         blob, first_trial = Blob(), self._trials[0]
-        with _scene_of(first_trial) as simulation:
+        with open_scene(first_trial) as simulation:
             head = scene_head(simulation, self.title, blob)
         descriptions = {trial.index: _trial(trial, blob) for trial in self._trials}
         if len(self._seeds) > 1:
@@ -89,32 +88,29 @@ class Replay:
                 for level in descriptions[trial.index]["levels"]:
                     level["label"] = f"seed {trial.seed}: {level['label']}"
         initial_poses = {body["name"]: body["pose"] for body in head["bodies"]}
-        poses_by_seed = {
-            seed: _moved(trial, initial_poses) for seed, trial in self._varied().items()
-        }
+        varied_trials = self._varied_trials().items()
+        poses = {seed: _moved_poses(trial, initial_poses) for seed, trial in varied_trials}
         for trial in self._trials:
-            descriptions[trial.index]["poses"] = poses_by_seed.get(trial.seed, {})
+            descriptions[trial.index]["poses"] = poses.get(trial.seed, {})
         names = list(first_trial.track.levels[0].values) if first_trial.track.levels else []
-        descriptions |= {
-            index: _unseen(self.directory, index, names, blob)
-            for index in self.trials_without_motion
-        }
+        for index in self.trials_without_motion:
+            descriptions[index] = _trial_without_motion(self.directory, index, names, blob)
         head["trials"] = [descriptions[index] for index in sorted(descriptions)]
-        return packed(head, blob)
+        return make_pack(head, blob)
 
-    def _varied(self) -> dict[int, RecordedTrial]:
-        """Seeds of which the scene differs from that of the first trial, with a trial of each."""
-        first = self._trials[0]
-        if not first.scene.vary:
+    def _varied_trials(self) -> dict[int, RecordedTrial]:
+        """Return a trial of each seed whose scene differs from that of the first trial."""
+        first_trial = self._trials[0]
+        if not first_trial.scene.vary:
             return {}
-        return {trial.seed: trial for trial in self._trials if trial.seed != first.seed}
+        return {trial.seed: trial for trial in self._trials if trial.seed != first_trial.seed}
 
     def html(self) -> str:
-        """Return the page, which needs nothing else."""
+        """Return the page, which loads no other file."""
         return document(self.title, self.pack())
 
     def save(self, path: str | Path) -> Path:
-        """Write the page, whole or not at all; the same result gives the same bytes.
+        """Write the page atomically; the same result gives the same bytes.
 
         Raises:
             ResultError: the name does not end in .html.
@@ -127,33 +123,21 @@ class Replay:
 
     def _repr_html_(self) -> str:
         page = html.escape(self.html(), quote=True)
-        style = f"width: 100%; height: {HEIGHT}px; border: 0"
+        style = f"width: 100%; height: {NOTEBOOK_HEIGHT}px; border: 0"
         return (
             f'<iframe srcdoc="{page}" style="{style}" title="{html.escape(self.title)}"></iframe>'
         )
 
 
-def _scene_of(trial: RecordedTrial) -> Simulation:
-    """Open the scene of a trial, at step 0."""
-    model = compile_scene(
-        trial.scene,
-        seed=trial.seed,
-        timestep=trial.timestep,
-        data_path=trial.data_path,
-        compatibility=trial.compatibility,
-    )
-    return Simulation(model, runs_code=False)
-
-
-def _moved(trial: RecordedTrial, at_first: Mapping[str, list[float]]) -> Json:
-    """Return the bodies that a trial's seed puts elsewhere, with their poses."""
-    with _scene_of(trial) as simulation:
+def _moved_poses(trial: RecordedTrial, initial_poses: Mapping[str, list[float]]) -> Json:
+    """Return the bodies that a trial's seed places elsewhere, with their poses."""
+    with open_scene(trial) as simulation:
         poses = body_poses(simulation)
-    return {name: pose for name, pose in poses.items() if pose != at_first.get(name)}
+    return {name: pose for name, pose in poses.items() if pose != initial_poses.get(name)}
 
 
 def _trial(trial: RecordedTrial, blob: Blob) -> Json:
-    """Describe a trial as `head` says."""
+    """Describe a trial in the format of `head`."""
     motion = journal.track_path(trial.directory, trial.index).read_bytes()
     return {
         "title": trial.title,
@@ -163,18 +147,18 @@ def _trial(trial: RecordedTrial, blob: Blob) -> Json:
     }
 
 
-def _unseen(directory: Path, index: int, names: Sequence[str], blob: Blob) -> Json:
-    """Describe a trial whose motion is not there; ``names``: of what changes with the levels."""
+def _trial_without_motion(directory: Path, index: int, names: Sequence[str], blob: Blob) -> Json:
+    """Describe a trial without recorded motion; ``names`` are those of the swept parameters."""
     levels = levels_without_motion(directory, index, names)
     path = journal.track_path(directory, index)
-    described = [
+    rows = [
         {
             "label": level.label or f"level {number}",
             "status": NO_MOTION,
             "why": f"{path.parent.name}/{path.name} is missing; the level was {level.status}",
-            "start": level.began,
-            "end": level.ended,
-            "values": dict(level.swept),
+            "start": level.start_time,
+            "end": level.end_time,
+            "values": dict(level.swept_values),
         }
         for number, level in enumerate(levels, start=1)
     ]
@@ -182,7 +166,7 @@ def _unseen(directory: Path, index: int, names: Sequence[str], blob: Blob) -> Js
     return {
         "title": f"trial {index}",
         "motion": None,
-        "levels": described,
+        "levels": rows,
         "curves": curves,
         "poses": {},
     }
@@ -193,23 +177,23 @@ def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
     return {
         "label": level.label or f"level {number + 1}",
         "status": level.status,
-        "why": level.why or None,
-        "start": level.began,
-        "end": level.ended,
-        "values": dict(level.swept),
+        "why": level.reason or None,
+        "start": level.start_time,
+        "end": level.end_time,
+        "values": dict(level.swept_values),
     }
 
 
 def _measures(levels: Sequence[RecordedLevel]) -> list[str]:
-    """Names of the curves: of measures with a log, then of the further columns of each log.
+    """Return the names of the curves: measures with a log, then the further columns of each log.
 
-    Those that have no value in any level are left out.
+    A curve without a value in any level is left out.
     """
-    return list(dict.fromkeys(curve.measure for curve in _seen(levels)))
+    return list(dict.fromkeys(curve.measure for curve in _curves_with_values(levels)))
 
 
-def _seen(levels: Sequence[RecordedLevel]) -> Iterator[Curve]:
-    """The curves with a value, those of a measure before the columns of its log."""
+def _curves_with_values(levels: Sequence[RecordedLevel]) -> Iterator[Curve]:
+    """Yield the curves with a value, those of a measure before the columns of its log."""
     for measure in dict.fromkeys(c.measure for level in levels for c in level.curves):
         for level in levels:
             for curve in (*level.curves, *level.details):
@@ -219,11 +203,11 @@ def _seen(levels: Sequence[RecordedLevel]) -> Iterator[Curve]:
 
 
 def _curve(name: str, levels: Sequence[RecordedLevel], blob: Blob) -> Json:
-    """The samples of a measure through all levels, with a gap where time passes between two."""
-    found = [c for level in levels for c in (*level.curves, *level.details) if c.measure == name]
-    times, values = [found[0].times], [found[0].values]
-    for curve in found[1:]:
-        gap = times[-1][-1] + GAP
+    """Join the samples of a measure of all levels, with a gap where time passes between two."""
+    curves = [c for level in levels for c in (*level.curves, *level.details) if c.measure == name]
+    times, values = [curves[0].times], [curves[0].values]
+    for curve in curves[1:]:
+        gap = times[-1][-1] + CURVE_GAP
         if curve.times[0] > gap:
             times.append(np.array([gap]))
             values.append(np.array([np.nan]))
@@ -231,9 +215,9 @@ def _curve(name: str, levels: Sequence[RecordedLevel], blob: Blob) -> Json:
         values.append(curve.values)
     return {
         "name": name,
-        "unit": found[0].unit,
-        "names": list(next((c.names for c in found if c.names), ())),
-        "is_share": all(c.is_share for c in found),
-        "times": blob.add(np.rint(np.concatenate(times) * TICKS).astype("<u4")),
+        "unit": curves[0].unit,
+        "names": list(next((c.names for c in curves if c.names), ())),
+        "is_share": all(c.is_share for c in curves),
+        "times": blob.add(np.rint(np.concatenate(times) * TICKS_PER_SECOND).astype("<u4")),
         "values": blob.add(np.concatenate(values).astype("<f4")),
     }

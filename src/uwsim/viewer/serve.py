@@ -1,4 +1,4 @@
-"""Serving one page to browsers on this computer."""
+"""A server of one page for browsers on this computer."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from ..errors import BadSetting
 
 LOOPBACK = "127.0.0.1"
-POLL = 0.5
-"""How often it is looked whether to go on [s]."""
+POLL_PERIOD = 0.5
+"""The period of the check whether the server runs [s]."""
 
 
 class ServedPage:
-    """A page that is served on the loopback interface alone, under an address that is no guess.
+    """A page that is served on the loopback interface only, at an address that cannot be guessed.
 
     Args:
-        page: its HTML.
-        port: 0 is any that is free.
+        page: the HTML of the page.
+        port: the port; 0 selects a free one.
     """
 
     def __init__(self, page: str, port: int) -> None:
@@ -31,9 +31,11 @@ class ServedPage:
 
             def do_GET(self) -> None:
                 """Answer with the page, or with 404."""
-                is_it = secrets.compare_digest(self.path.partition("?")[0].encode(), path.encode())
-                body = content if is_it else b"not found"
-                self.send_response(HTTPStatus.OK if is_it else HTTPStatus.NOT_FOUND)
+                is_page = secrets.compare_digest(
+                    self.path.partition("?")[0].encode(), path.encode()
+                )
+                body = content if is_page else b"not found"
+                self.send_response(HTTPStatus.OK if is_page else HTTPStatus.NOT_FOUND)
                 self.send_header("Content-Type", "text/html; charset=utf-8")
                 self.send_header("Content-Length", str(len(body)))
                 self.send_header("Cache-Control", "no-store")
@@ -42,12 +44,12 @@ class ServedPage:
                 self.wfile.write(body)
 
             def log_message(self, format: str, *values: object) -> None:
-                """Say nothing."""
+                """Write nothing."""
 
         self._server = ThreadingHTTPServer((LOOPBACK, port), Handler)
         self._server.daemon_threads = True
         self.url = f"http://{LOOPBACK}:{self._server.server_port}{path}"
-        """Its address."""
+        """The address of the page."""
         self._thread = threading.Thread(target=self._server.serve_forever, daemon=True)
         self._thread.start()
 
@@ -55,7 +57,7 @@ class ServedPage:
         """Serve until Ctrl-C, or until `close` is called."""
         try:
             while self._thread.is_alive():
-                self._thread.join(POLL)
+                self._thread.join(POLL_PERIOD)
         finally:
             self.close()
 

@@ -13,23 +13,25 @@ from ..messages import ColorRGBA, Marker, MarkerArray, Point, Vector3, header
 from ..model.parts import Part
 from ..simulation import Simulation
 
-SCENE = "scene"
+SCENE_TOPIC = "scene"
 """The topic of the shapes."""
 
 
-def shapes(simulation: Simulation, frame_of: Callable[[Part], tuple[str, Array]]) -> MarkerArray:
+def shape_markers(
+    simulation: Simulation, frame_of: Callable[[Part], tuple[str, Array]]
+) -> MarkerArray:
     """Return a marker for each mesh of the scene, locked to the frame of its body.
 
     Args:
-        simulation: of the scene.
-        frame_of: returns the name of the frame that a part moves with, and ``frame_from_world``
-            (4, 4) now.
+        simulation: the simulation of the scene.
+        frame_of: the function that returns the name of the frame that a part moves with, and the
+            present ``frame_from_world`` (4, 4).
     """
     scenery = simulation.world.scenery
     markers: list[Marker] = []
     for part in scenery.parts:
         frame, frame_from_world = frame_of(part)
-        placed = product(frame_from_world, scenery.world_from_mesh(part))
+        frame_from_mesh = product(frame_from_world, scenery.world_from_mesh(part))
         for mesh in part.model.meshes:
             marker = Marker(
                 header=header(0.0, frame),
@@ -39,7 +41,7 @@ def shapes(simulation: Simulation, frame_of: Callable[[Part], tuple[str, Array]]
                 frame_locked=True,
                 scale=Vector3(x=1.0, y=1.0, z=1.0),
                 color=_colour(mesh),
-                points=[*_points(mesh, placed)],
+                points=[*_points(mesh, frame_from_mesh)],
             )
             marker.pose.orientation.w = 1.0
             markers.append(marker)
@@ -47,14 +49,14 @@ def shapes(simulation: Simulation, frame_of: Callable[[Part], tuple[str, Array]]
 
 
 def _points(mesh: Mesh, frame_from_mesh: Array) -> list[Point]:
-    """Corners of all triangles in the frame, to 0.1 mm."""
+    """Return the corners of all triangles in the frame, to 0.1 mm."""
     vertices = mesh.vertices.astype(np.float64) @ frame_from_mesh[:3, :3].T + frame_from_mesh[:3, 3]
     corners = np.round(vertices, 4)[mesh.triangles.ravel()]
     return [Point(x=x, y=y, z=z) for x, y, z in corners.tolist()]
 
 
 def _colour(mesh: Mesh) -> ColorRGBA:
-    """The mesh's colour times the mean of its texture."""
+    """Return the mesh's colour times the mean of its texture."""
     mean = np.ones(3) if mesh.texture is None else mesh.texture.pixels.mean(axis=(0, 1)) / 255.0
     r, g, b = (np.array(mesh.colour) * mean).tolist()
     return ColorRGBA(r=r, g=g, b=b, a=mesh.opacity)

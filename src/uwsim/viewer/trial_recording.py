@@ -1,7 +1,7 @@
 """Recordings of a benchmark: the messages of each trial in a file of its own.
 
-Times are those of the trial's simulation, from 0 s. Where there are several trials a file's name
-has the number that the trial has in the result (``units/00003.motion``: ``dive-00003.mcap``).
+Times are those of the trial's simulation, from 0 s. If there are several trials, a file's name
+has the trial's number in the result (``units/00003.motion``: ``dive-00003.mcap``).
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from .scene_topics import SceneTopics
 
 @dataclass(frozen=True, kw_only=True)
 class TrialRecording:
-    """Records the trials of one run; it changes no byte of the result.
+    """The recording of the trials of one run; it changes no byte of the result.
 
-    Images and point clouds are recorded where the algorithm or a measure reads them: none is drawn
-    for the recording.
+    Images and point clouds are recorded if the algorithm or a measure subscribes to them: none is
+    rendered for the recording.
     """
 
     path: Path
-    """The file, or what the names of several begin with."""
+    """The file, or the beginning of the names of several files."""
     images: ImageStorage
-    """How images are kept."""
+    """The storage of images."""
     is_single: bool
-    """Whether there is but one trial, whose file is `path` itself."""
+    """The number of trials: True if there is only one, whose file is `path` itself."""
 
     def path_of(self, trial: Trial) -> Path:
         """Return the file of a trial."""
@@ -41,8 +41,8 @@ class TrialRecording:
             return self.path
         return self.path.with_name(f"{self.path.stem}-{trial.index:05d}{self.path.suffix}")
 
-    def missing(self, run: Run) -> list[Path]:
-        """Return the files that are not there of trials that are finished."""
+    def missing_files(self, run: Run) -> list[Path]:
+        """Return the files of finished trials that do not exist."""
         to_run = {trial.index for trial in run.unfinished()}
         files = [self.path_of(t) for t in run.plan.trials() if t.index not in to_run]
         return [file for file in files if not file.exists()]
@@ -51,7 +51,7 @@ class TrialRecording:
     def recording(self, simulation: Simulation, trial: Trial) -> Iterator[None]:
         """Record a trial until its end."""
         topics = SceneTopics(simulation, is_on_bus=False)
-        path = self.path_of(trial).absolute()  # an algorithm may go elsewhere
+        path = self.path_of(trial).absolute()  # an algorithm may change the folder
         with Recorder(simulation.bus, path, images=self.images) as recorder:
             recorder.start(lambda: simulation.time, is_unnoticed=True)
             topics.record(recorder)
@@ -64,13 +64,13 @@ class TrialRecording:
 def trial_recordings(
     plans: Sequence[Plan], path: Path, images: ImageStorage, folders: Sequence[str]
 ) -> list[TrialRecording]:
-    """Return what records each of some plans that are run together.
+    """Return the recordings of plans that are run together, one for each.
 
     Args:
-        plans: an algorithm each.
-        path: the file that the user named.
-        images: how images are kept.
-        folders: names of the algorithms' folders; none where there is one algorithm.
+        plans: the plans, one for each algorithm.
+        path: the user's file.
+        images: the storage of images.
+        folders: the names of the algorithms' folders; empty for one algorithm.
     """
     return [
         TrialRecording(
@@ -90,22 +90,22 @@ def check_recordings(
     resume: bool,
     overwrite: bool,
 ) -> None:
-    """Refuse what cannot be recorded; changes nothing.
+    """Reject recordings that cannot be written, before anything changes.
 
     Args:
-        plans: an algorithm each.
-        recordings: what records them.
+        plans: the plans, one for each algorithm.
+        recordings: their recordings.
         out: the result directory.
-        resume: whether a run is gone on with: its trials may have their recordings.
-        overwrite: whether earlier recordings are replaced.
+        resume: True if a run is resumed: its trials may have their recordings.
+        overwrite: True if earlier recordings are replaced.
 
     Raises:
-        BadSetting: no recording can be written there.
+        BadSetting: a recording cannot be written.
     """
     for plan, recording in zip(plans, recordings, strict=True):
         if recording.path.resolve().is_relative_to(out.resolve()):
             raise BadSetting(
-                f"--record {recording.path}: is in the result directory, which holds nothing else."
+                f"--record {recording.path}: the path is in the result directory; expected another."
             )
         for trial in plan.trials():
             check_path(recording.path_of(trial), overwrite=overwrite or resume)

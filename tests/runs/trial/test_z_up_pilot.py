@@ -80,7 +80,7 @@ def test_a_vehicle_turns_to_starboard_whichever_way_its_z_axis_points(scene: Pat
 def test_a_pilots_benchmark_of_a_vehicle_with_z_up_is_sent_again_with_the_same_bytes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.viewer.live.server.CLOSING", 0.2)  # [s]
+    monkeypatch.setattr("uwsim.viewer.live.server.CLOSE_TIMEOUT", 0.2)  # [s]
     write_files(PAGE.read_text(), tmp_path)
     benchmark = tmp_path / "hover.xml"
     text = re.sub("<interval>.*</interval>", "<interval>0.5</interval>", benchmark.read_text())

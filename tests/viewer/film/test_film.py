@@ -21,9 +21,9 @@ from uwsim.rendering.grey import grey_truncated
 from uwsim.results.journal import recorded_trials, track_path
 from uwsim.results.motion import Signal
 from uwsim.simulation.views import focus_of
-from uwsim.viewer.film.curves import chosen, short_name
-from uwsim.viewer.film.film import Film, FilmSpec, record
-from uwsim.viewer.film.puppets import Puppets
+from uwsim.viewer.film.curves import select_curves, short_name
+from uwsim.viewer.film.film import Film, FilmSpec, save_film
+from uwsim.viewer.film.trial_scene import TrialScene
 from uwsim.viewer.recorded import Curve, RecordedLevel, RecordedTrial, _level
 
 
@@ -42,7 +42,7 @@ def test_a_recorded_trial_has_its_levels_and_the_samples_of_its_measures(
     assert [level.label for level in trial.levels] == ["fog 0", "fog 0.4", "fog 0.8"]
     curve = trial.levels[1].curves[0]
     assert (curve.measure, curve.unit) == ("corners", "px")
-    assert curve.times[0] == pytest.approx(trial.levels[1].began, abs=0.051)
+    assert curve.times[0] == pytest.approx(trial.levels[1].start_time, abs=0.051)
 
 
 def test_lamps_are_as_bright_as_they_were(trial: RecordedTrial) -> None:
@@ -52,21 +52,21 @@ def test_lamps_are_as_bright_as_they_were(trial: RecordedTrial) -> None:
         signals=(*track.signals, Signal(name="lamp/headlight", step=0.01)),
         values=np.column_stack([track.values, brightness]),
     )
-    puppets = Puppets(replace(trial, scene=night(LAMP), track=dimmed))
-    (lamp,) = puppets.simulation.world.scenery.mounted_lamps
+    scene = TrialScene(replace(trial, scene=night(LAMP), track=dimmed))
+    (lamp,) = scene.simulation.world.scenery.mounted_lamps
     for frame in (0, 5, track.n_frames - 1):
-        puppets.put((frame + 0.01) / track.rate)
+        scene.show_time((frame + 0.01) / track.rate)
         assert lamp.intensity == pytest.approx(brightness[frame] * LAMP.intensity)
-    puppets.close()
+    scene.close()
 
 
 def level_with(*curves: Curve, details: tuple[Curve, ...] = ()) -> RecordedLevel:
     return RecordedLevel(
         label="",
         status="ok",
-        why="",
-        began=0.0,
-        ended=1.0,
+        reason="",
+        start_time=0.0,
+        end_time=1.0,
         values={},
         curves=curves,
         details=details,
@@ -98,9 +98,9 @@ def test_the_further_columns_of_a_log_are_curves_with_their_units(trial: Recorde
 def test_a_measure_alone_is_drawn_with_the_further_columns_of_its_log() -> None:
     details = (curve("a.x"), curve("a.nothing", np.nan), curve("a.y"))
     alone, two = level_with(curve("a"), details=details), level_with(curve("a"), curve("b"))
-    assert [one.measure for one in chosen(alone, ())] == ["a", "a.x", "a.y"]
-    assert [one.measure for one in chosen(two, ())] == ["a", "b"]
-    assert [one.measure for one in chosen(alone, ("a.y", "a"))] == ["a.y", "a"]
+    assert [one.measure for one in select_curves(alone, ())] == ["a", "a.x", "a.y"]
+    assert [one.measure for one in select_curves(two, ())] == ["a", "b"]
+    assert [one.measure for one in select_curves(alone, ("a.y", "a"))] == ["a.y", "a"]
 
 
 @pytest.mark.parametrize("size", [(480, 360), (640, 480), (360, 480)])
@@ -111,7 +111,7 @@ def test_title_curves_and_inset_hide_nothing_of_the_view(
     film = Film(trial, FilmSpec(size=size, view=view))  # type: ignore[arg-type]
     try:
         frame = film.draw(0.5)
-        seen = film._view(0.5)
+        seen = film._view_image(0.5)
         height, width = seen.shape[:2]
         top = int(film._head_height)
         assert width == size[0]
@@ -127,7 +127,7 @@ def test_title_curves_and_inset_hide_nothing_of_the_view(
 
 def film_corners(film: Film) -> np.ndarray[Any, Any]:
     """Corners of what the view is about, in W, (8, 3)."""
-    return np.asarray(focus_of(film._puppets.simulation).corners)
+    return np.asarray(focus_of(film._scene.simulation).corners)
 
 
 def test_curves_of_one_measure_are_named_without_it() -> None:
@@ -141,18 +141,18 @@ def test_bodies_are_put_where_they_were_and_cameras_go_with_them(trial: Recorded
     number = trial.track.bodies.index("girona500/base_link")
     poses = trial.track.poses.copy()
     poses[30:, number, 0] += 1.0
-    puppets = Puppets(replace(trial, track=replace(trial.track, poses=poses)))
+    scene = TrialScene(replace(trial, track=replace(trial.track, poses=poses)))
     try:
-        world = puppets.simulation.world
-        puppets.put(0.7)
+        world = scene.simulation.world
+        scene.show_time(0.7)
         np.testing.assert_allclose(world.engine.poses.vehicle(0).position, poses[21, number, :3])
         assert world.scenery.state.water.fog == pytest.approx(0.4)
         before = world.sensors.camera("bowtech1").world_from_camera.position
-        puppets.put(1.0)
+        scene.show_time(1.0)
         now = world.sensors.camera("bowtech1").world_from_camera.position
         np.testing.assert_allclose(now - before, [1.0, 0.0, 0.0], atol=1e-3)
     finally:
-        puppets.close()
+        scene.close()
 
 
 def test_levels_are_chapters(small: Film) -> None:
@@ -170,26 +170,26 @@ def test_the_inset_is_the_image_of_the_camera(small: Film, trial: RecordedTrial)
     width, height = small._inset_size
     top = small._strip_top + 12
     inset = frame[top : top + height, 240 - width - 12 : 240 - 12]
-    puppets = Puppets(trial)
+    scene = TrialScene(trial)
     try:
-        puppets.put(0.6)
-        camera = puppets.simulation.world.sensors.camera("bowtech1")
+        scene.show_time(0.6)
+        camera = scene.simulation.world.sensors.camera("bowtech1")
         lens = camera.intrinsics.with_size(width, height)
-        seen = puppets.simulation.world.scenery.render_clean(camera.world_from_camera, lens)
+        seen = scene.simulation.world.scenery.render_clean(camera.world_from_camera, lens)
         assert seen.colour is not None
         off = np.abs(inset.astype(int) - seen.colour.astype(int)).max(axis=2) > 2
         assert off.mean() < 0.25  # the corners that are drawn into it
     finally:
-        puppets.close()
+        scene.close()
 
 
 def test_a_grey_camera_is_grey_in_the_inset_and_as_the_view(
     small: Film, trial: RecordedTrial, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    camera = small._puppets.simulation.world.sensors.camera("bowtech1")
-    coloured = small._seen("bowtech1", (72, 54), 0.6)
+    camera = small._scene.simulation.world.sensors.camera("bowtech1")
+    coloured = small._camera_image("bowtech1", (72, 54), 0.6)
     monkeypatch.setattr(camera, "is_grey", True)
-    grey = small._seen("bowtech1", (72, 54), 0.6)
+    grey = small._camera_image("bowtech1", (72, 54), 0.6)
     plain = (grey[..., 0] == grey[..., 1]) & (grey[..., 1] == grey[..., 2])
     assert plain.mean() > 0.8  # all but the quadrangles of truth and estimate
     expected = grey_truncated(np.ascontiguousarray(coloured))
@@ -243,7 +243,7 @@ def test_a_film_has_its_frames_its_chapters_and_the_same_bytes_twice(
     paths = [tmp_path / f"{name}{suffix}" for name in ("one", "two")]
     for path in paths:
         film = Film(trial, FilmSpec(size=(160, 160), rate=10.0))
-        record(film, path)
+        save_film(film, path)
         film.close()
     assert paths[0].read_bytes() == paths[1].read_bytes()
     command = [ffmpeg, "-i", str(paths[0]), "-map", "0:v", "-f", "null", "-stats", "-"]
@@ -272,7 +272,7 @@ def test_an_interrupted_film_keeps_its_finished_part(
 
     film.draw, draw = lambda time: (interrupt(), draw(time))[1], film.draw  # type: ignore[method-assign]
     with pytest.raises(KeyboardInterrupt):
-        record(film, path)
+        save_film(film, path)
     film.close()
     assert [each.name for each in tmp_path.iterdir()] == ([path.name] if n_drawn else [])
     if not n_drawn:
@@ -298,7 +298,7 @@ def test_what_cannot_be_filmed_is_said_in_a_line(
         (["-o", out, "--view", "orbitt"], "Did you mean 'orbit'?"),
         (["-o", out, "--size", "161x160"], "expected even numbers"),
         (["-o", out, "--size", "16000x160"], "from 160 to 7680"),
-        (["-o", out, "--begin", "9"], "Nothing to show from 9 s"),
+        (["-o", out, "--begin", "9"], "has no image from 9 s"),
         (["-o", out, "--curve", "corner"], "Did you mean 'corners'?"),
         (["-o", out, "--camera", "bowtech"], "No virtual camera is called 'bowtech'"),
     ]:
@@ -310,7 +310,7 @@ def test_what_cannot_be_filmed_is_said_in_a_line(
     shutil.copytree(result, old)
     track_path(old, 0).unlink()
     assert main(["replay", str(old), "-o", out]) == 2
-    assert "holds no motion" in capsys.readouterr().err
+    assert "has no motion" in capsys.readouterr().err
     assert not Path(out).exists()
 
 

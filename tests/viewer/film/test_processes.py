@@ -11,8 +11,8 @@ import pytest
 from uwsim.cli import main
 from uwsim.errors import RunFailed, UnknownName
 from uwsim.viewer.film.encoder import as_rgb
-from uwsim.viewer.film.film import FilmSpec, Reel, n_frames_of, record
-from uwsim.viewer.film.processes import DrawingProcesses, processes_for
+from uwsim.viewer.film.film import FilmSpec, Reel, n_frames_of, save_film
+from uwsim.viewer.film.processes import DrawingProcesses, count_processes
 from uwsim.viewer.recorded import RecordedTrial
 
 SPEC = FilmSpec(size=(160, 160), rate=25.0)
@@ -46,7 +46,7 @@ def test_a_process_that_dies_is_named_and_leaves_no_file(
 
     path = tmp_path / "film.webp"
     with pytest.raises(RunFailed, match="draws the film has ended: killed by SIGKILL"):
-        record(drawing, path, kill)
+        save_film(drawing, path, kill)
     assert not list(tmp_path.iterdir())
 
 
@@ -61,8 +61,8 @@ def test_what_a_process_cannot_draw_is_an_error_of_the_film(trial: RecordedTrial
 
 
 def test_a_short_film_has_one_process() -> None:
-    assert processes_for(20) == 1
-    assert 1 <= processes_for(10_000) <= 16
+    assert count_processes(20) == 1
+    assert 1 <= count_processes(10_000) <= 16
 
 
 @pytest.mark.slow
@@ -72,7 +72,7 @@ def test_the_command_draws_long_films_by_several_processes(
     options = ["--size", "160x160", "--fps", "100"]
     for n, name in [(1, "one.webp"), (2, "two.webp")]:
         monkeypatch.setattr(
-            "uwsim.viewer.film.processes.processes_for", lambda n_frames, n=n: min(n, n_frames)
+            "uwsim.viewer.film.processes.count_processes", lambda n_frames, n=n: min(n, n_frames)
         )
         assert main(["replay", str(result), "-o", str(tmp_path / name), *options]) == 0
     assert (tmp_path / "one.webp").read_bytes() == (tmp_path / "two.webp").read_bytes()

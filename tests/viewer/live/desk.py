@@ -1,4 +1,4 @@
-"""A server of live views without a network: what was published, and what viewers say."""
+"""A server of live views without a network: it stores what a view publishes."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ from typing import Any
 
 
 class Desk:
-    """Stands for `uwsim.viewer.live.server.LiveServer`, with one viewer.
+    """A fake of `uwsim.viewer.live.server.LiveServer`, with one viewer.
 
     Args:
-        wanted: channels that are asked for.
-        said: messages of viewers that wait, each with the number of its viewer.
+        wanted: the requested channels.
+        said: the waiting messages, each with the number of its viewer.
     """
 
     n_viewers = 1
@@ -25,21 +25,21 @@ class Desk:
         self.published: list[tuple[str, Any]] = []
 
     def publish(self, channel: str, content: str | bytes) -> None:
-        """Keep what is published."""
+        """Store the content."""
         self.published.append((channel, content))
 
     def on(self, channel: str) -> list[Any]:
-        """Return what was published on a channel."""
+        """Return the contents of a channel."""
         return [content for name, content in self.published if name == channel]
 
-    def forget(self, channels: object) -> None:
-        """Nothing is kept for later viewers."""
+    def remove_channels(self, channels: object) -> None:
+        """Remove nothing, as there are no later viewers."""
 
-    def wanted(self) -> frozenset[str]:
-        """Channels that are asked for."""
+    def channels(self) -> frozenset[str]:
+        """Return the requested channels."""
         return self._wanted
 
-    def messages(self) -> list[tuple[int, dict[str, Any]]]:
-        """Take what viewers have said."""
+    def take_messages(self) -> list[tuple[int, dict[str, Any]]]:
+        """Take out the messages of viewers."""
         said, self.said = self.said, []
         return said

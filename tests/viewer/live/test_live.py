@@ -28,7 +28,7 @@ from uwsim.runs.executors.executor import SerialExecutor, run_all
 from uwsim.runs.trial.pilot_inputs import PilotInputs
 from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.viewer.live.clock import Clock
-from uwsim.viewer.live.mapping import KEYS, PilotMapping, merged, read_mapping
+from uwsim.viewer.live.mapping import KEYS, PilotMapping, read_mapping, sum_inputs
 from uwsim.viewer.live.server import LiveServer
 from uwsim.viewer.live.session import LiveSession
 
@@ -38,7 +38,7 @@ WAIT = 60.0
 
 @pytest.fixture
 def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[LiveServer]:
-    monkeypatch.setattr("uwsim.viewer.live.server.CLOSING", 0.2)  # [s]
+    monkeypatch.setattr("uwsim.viewer.live.server.CLOSE_TIMEOUT", 0.2)  # [s]
     made = LiveServer(lambda: "<p>page</p>")
     yield made
     made.close()
@@ -98,7 +98,7 @@ def server_has(server: LiveServer, n: int) -> list[tuple[int, dict[str, Any]]]:
     found: list[tuple[int, dict[str, Any]]] = []
     pause = threading.Event()
     for _ in range(6000):
-        found += server.messages()
+        found += server.take_messages()
         if len(found) >= n:
             return found
         pause.wait(0.01)
@@ -198,19 +198,19 @@ def test_a_clock_waits_for_the_wall_and_single_steps_are_counted() -> None:
     now = [0.0]
     clock = Clock(2.0, lambda: now[0], lambda seconds: now.__setitem__(0, now[0] + seconds))
     clock.begin(0.0)
-    assert not clock.waits(0.0)
-    while clock.waits(1.0):
+    assert not clock.has_to_wait(0.0)
+    while clock.has_to_wait(1.0):
         clock.sleep(1.0)
     assert now[0] == pytest.approx(0.5, abs=0.01)
-    assert clock.control({"action": "step"})
-    assert not clock.waits(9.0)
-    clock.stepped()
-    assert clock.waits(9.0)
-    assert clock.control({"action": "play"})
-    assert clock.control({"action": "speed", "speed": 0})
-    assert not clock.waits(99.0)
-    assert not clock.control({"action": "speed", "speed": "fast"})
-    assert not clock.control({"action": "reset"})
+    assert clock.apply_control({"action": "step"})
+    assert not clock.has_to_wait(9.0)
+    clock.count_step()
+    assert clock.has_to_wait(9.0)
+    assert clock.apply_control({"action": "play"})
+    assert clock.apply_control({"action": "speed", "speed": 0})
+    assert not clock.has_to_wait(99.0)
+    assert not clock.apply_control({"action": "speed", "speed": "fast"})
+    assert not clock.apply_control({"action": "reset"})
 
 
 def test_keys_gamepad_and_sticks_become_axes_and_nonsense_counts_as_nothing() -> None:
@@ -223,8 +223,8 @@ def test_keys_gamepad_and_sticks_become_axes_and_nonsense_counts_as_nothing() ->
     assert values[at("sway")] == 1.0
     odd = {"keys": "w", "axes": [None, float("nan"), "1"], "buttons": {}, "sticks": [True]}
     assert not any(mapping.values(odd))
-    assert merged({}) is None
-    assert merged({1: values, 2: values})[at("heave")] == -1.0  # type: ignore[index]
+    assert sum_inputs({}) is None
+    assert sum_inputs({1: values, 2: values})[at("heave")] == -1.0  # type: ignore[index]
     assert not {"f", "c", "1", "2", "3"} & KEYS.keys()  # those of the page
 
 
@@ -327,7 +327,7 @@ def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_c
 )
 def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str) -> None:
     desk = Desk()
-    session = LiveSession(desk, speed=0.0, mapping=PilotMapping(), resets=True)  # type: ignore[arg-type]
+    session = LiveSession(desk, speed=0.0, mapping=PilotMapping(), allows_reset=True)  # type: ignore[arg-type]
     with uwsim.load(scene) as simulation:
         PilotInputs(simulation, session.pilot)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})

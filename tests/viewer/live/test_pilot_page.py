@@ -167,7 +167,7 @@ def test_sticks_and_images_of_cameras_do_not_cover_each_other(
 def test_keys_that_move_nothing_are_not_in_the_help_and_no_letter_has_two_meanings(
     browser: Any, server: LiveServer
 ) -> None:
-    session = LiveSession(server, mapping=PilotMapping(), resets=True)
+    session = LiveSession(server, mapping=PilotMapping(), allows_reset=True)
     with uwsim.load("currents-scene") as simulation:
         session.open(simulation, "scene", pilot_topics(simulation))
         session.close()
@@ -215,7 +215,7 @@ def test_the_orbit_goes_along_with_the_piloted_vehicle_and_keeps_its_distance(
             moved = Pose(np.add(began.position, (3.0, -2.0, 0.5)), began.rotation)
             simulation.world.engine.place_vehicle(index, moved)
             session.view._due["row"] = 0.0
-            session.view.hand_over()
+            session.view.publish_due()
             session.close()
             page = page_of(browser, server)
             page.wait_for_function("uwsim.page.drawn !== ''")

@@ -16,7 +16,7 @@ from uwsim.runs.trial.pilot_topics import pilot_topics
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 from uwsim.viewer.live.mapping import PilotMapping
-from uwsim.viewer.live.piloted import piloted_of
+from uwsim.viewer.live.pilot_targets import find_pilot_targets
 from uwsim.viewer.live.session import LiveSession
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -45,8 +45,8 @@ def opened(tmp_path: Path) -> Opened:
 
 def test_the_second_vehicle_is_piloted_where_the_first_cannot_be_steered(opened: Opened) -> None:
     with opened(TWIST) as simulation:
-        piloted = piloted_of(simulation.world, pilot_topics(simulation))
-        assert (piloted.vehicle, piloted.why) == (1, "")
+        piloted = find_pilot_targets(simulation.world, pilot_topics(simulation))
+        assert (piloted.vehicle, piloted.reason) == (1, "")
         held = tuple(float(axis == "surge") for axis in AXES)
         PilotInputs(simulation, lambda: held)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
@@ -62,7 +62,7 @@ def test_a_scene_without_interfaces_says_what_it_lacks_once(
 ) -> None:
     with opened("") as simulation:
         parameters = pilot_topics(simulation)
-        piloted = piloted_of(simulation.world, parameters)
+        piloted = find_pilot_targets(simulation.world, parameters)
         assert piloted.axes == frozenset()
         assert piloted.keys(PilotMapping()) == {}
         assert piloted.sticks(PilotMapping()) == ["", "", "", ""]
@@ -86,7 +86,7 @@ def test_a_scene_without_interfaces_says_what_it_lacks_once(
 )
 def test_axes_are_those_that_the_vehicle_has(scene: str, axes: set[str]) -> None:
     with uwsim.load(scene) as simulation:
-        piloted = piloted_of(simulation.world, pilot_topics(simulation))
+        piloted = find_pilot_targets(simulation.world, pilot_topics(simulation))
         joints = [
             name
             for vehicle in simulation.world.vehicles.names[:1]
@@ -116,13 +116,13 @@ def test_whoever_waits_for_a_page_says_so_once_and_not_at_once(
             now[0] += 0.5
             return int(now[0] > 5.0)
 
-    monkeypatch.setattr("uwsim.viewer.live.session.NAP", 0.0)
+    monkeypatch.setattr("uwsim.viewer.live.session.MAX_SLEEP", 0.0)
     session = LiveSession(
         Late(),  # type: ignore[arg-type]
         mapping=PilotMapping(),
-        waits=True,
+        waits_for_page=True,
         wall=lambda: now[0],
-        say=lambda text: told.append(f"{now[0]:g}: {text}"),
+        report=lambda text: told.append(f"{now[0]:g}: {text}"),
     )
     with uwsim.load("currents-scene") as simulation:
         session.open(simulation, "scene")

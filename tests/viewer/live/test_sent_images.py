@@ -15,7 +15,7 @@ from uwsim.errors import BadSetting
 from uwsim.simulation.views import FIELD, view_from_pose
 from uwsim.viewer.live.server import LiveServer
 from uwsim.viewer.live.session import LiveSession
-from uwsim.viewer.live.view import HEADER, IMAGE, _asked_for, jpeg
+from uwsim.viewer.live.view import HEADER, IMAGE, _parse_view, encode_jpeg
 
 __all__ = ["server"]
 CAMERA = "bowtech1"
@@ -76,9 +76,9 @@ def test_a_view_without_webgl_has_the_field_of_the_page(
     message = {"pose": [0, 0, 1, 1, 0, 0, 0], "width": 320, "height": 240, **said}
     if wanted is None:
         with pytest.raises(BadSetting):
-            _asked_for(message)
+            _parse_view(message)
     else:
-        lens = view_from_pose(*_asked_for(message)).intrinsics
+        lens = view_from_pose(*_parse_view(message)).intrinsics
         assert 2.0 * np.arctan(120.0 / lens.fy) == pytest.approx(wanted)
 
 
@@ -104,7 +104,9 @@ def test_the_page_shows_images_without_being_put_together_again(
     page = opened(browser, server, MAPPING, 768)
     for number, colour in enumerate((RED, (20, 30, 220), RED)):
         image = np.full((150, 200, 3), colour, np.uint8)
-        server.publish(f"?image/{CAMERA}", HEADER.pack(IMAGE, 0, 0, number, 0.0) + jpeg(image))
+        server.publish(
+            f"?image/{CAMERA}", HEADER.pack(IMAGE, 0, 0, number, 0.0) + encode_jpeg(image)
+        )
         page.wait_for_function(
             f"({PIXEL})().every((c, i) => Math.abs(c - {[*colour, 255]}[i]) < 6)"
         )

@@ -52,11 +52,11 @@ def shown(
     browser: Any, server: LiveServer, simulation: Simulation, move: Callable[[], object] = lambda: 0
 ) -> Any:
     """Open the page of a simulation that stands still, piloted; ``move`` is done before."""
-    session = LiveSession(server, mapping=PilotMapping(), resets=True)
+    session = LiveSession(server, mapping=PilotMapping(), allows_reset=True)
     session.open(simulation, "scene", pilot_topics(simulation))
     move()
     session.view._due = dict.fromkeys(session.view._due, 0.0)
-    session.view.hand_over()
+    session.view.publish_due()
     session.close()
     page = page_of(browser, server)
     page.wait_for_function(
@@ -199,7 +199,7 @@ def test_topics_are_shown_on_request(browser: Any, server: LiveServer) -> None:
         for k in range(3):
             fields = [["status", "fine"], ["pose.x", 1.5 + k], ["pose.y", None]]
             text = {"type": "topic", "name": "dataNavigator", "time": 0.1 * k, "fields": fields}
-            while "?topic/dataNavigator" not in server.wanted():
+            while "?topic/dataNavigator" not in server.channels():
                 page.wait_for_timeout(20)
             server.publish("?topic/dataNavigator", json.dumps({**text, "is_cut": False}))
             page.wait_for_function(
@@ -215,7 +215,7 @@ def test_topics_are_shown_on_request(browser: Any, server: LiveServer) -> None:
         assert page.locator(".topic canvas").count() == 1
         page.locator(".topic h3 button").click()
         assert page.locator(".topic").count() == 0
-        while server.wanted() & {"?topic/dataNavigator"}:
+        while server.channels() & {"?topic/dataNavigator"}:
             page.wait_for_timeout(20)
     page.context.close()
 

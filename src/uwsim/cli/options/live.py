@@ -92,9 +92,9 @@ class LiveOptions:
             server,
             speed=speed,
             mapping=mapping,
-            waits=waits,
-            resets=resets,
-            say=lambda text: print(text, file=sys.stderr),
+            waits_for_page=waits,
+            allows_reset=resets,
+            report=lambda text: print(text, file=sys.stderr),
         )
         typer.echo(f"view: {server.url}", err=True)
         try:

@@ -1,4 +1,4 @@
-"""The curves of a level under a film, with a cursor that runs along."""
+"""The curves of a level under a film, with a cursor at the present time."""
 
 from __future__ import annotations
 
@@ -9,32 +9,32 @@ import numpy as np
 
 from ...base.geometry import Array
 from ..recorded import Curve, RecordedLevel
-from .overlay import COLOURS, DIM, INK, PANEL, Pixels, blend, polyline, write
+from .overlay import COLOURS, GREY, INK, PANEL, Pixels, blend, draw_lines, write_text
 
 MAX_CURVES = 4
-"""Drawn at once."""
-MAX_OF_ONE = 6
-"""The same, of the one measure that has a log, with the further columns of it."""
-GAP = 16
-"""Space between two curves [px]."""
+"""The greatest number of curves at once."""
+MAX_MEASURE_CURVES = 6
+"""The greatest number of curves of a single measure, with the further columns of its log."""
+CELL_GAP = 16
+"""The space between two curves [px]."""
 
 
-def chosen(level: RecordedLevel, names: tuple[str, ...]) -> list[Curve]:
+def select_curves(level: RecordedLevel, names: tuple[str, ...]) -> list[Curve]:
     """Return the curves of a level that are drawn: those named, or the first ones.
 
-    Where one measure alone has a log, the further columns of the log are drawn with it.
+    If only one measure has a log, the further columns of the log are drawn with it.
     """
     if names:
-        by_name = {curve.measure: curve for curve in _seen((*level.curves, *level.details))}
+        by_name = {curve.measure: curve for curve in _drop_empty((*level.curves, *level.details))}
         return [by_name[name] for name in names if name in by_name]
-    curves = _seen(level.curves)
+    curves = _drop_empty(level.curves)
     if len(curves) == 1:
-        return [*curves, *_seen(level.details)][:MAX_OF_ONE]
+        return [*curves, *_drop_empty(level.details)][:MAX_MEASURE_CURVES]
     return curves[:MAX_CURVES]
 
 
-def _seen(curves: tuple[Curve, ...]) -> list[Curve]:
-    """Those that have a value at all."""
+def _drop_empty(curves: tuple[Curve, ...]) -> list[Curve]:
+    """Return the curves that have a value."""
     return [curve for curve in curves if np.isfinite(curve.values).any()]
 
 
@@ -58,9 +58,9 @@ class CurvePanel:
 
     Args:
         level: the level.
-        names: of measures whose curves are drawn; empty: the first ones.
-        box: x, y, width and height in the frame [px].
-        letters: height of the letters [px].
+        names: the measures whose curves are drawn; empty: the first ones.
+        box: the x, y, width and height in the frame [px].
+        letter_height: the height of the letters [px].
     """
 
     def __init__(
@@ -68,29 +68,29 @@ class CurvePanel:
         level: RecordedLevel,
         names: tuple[str, ...],
         box: tuple[int, int, int, int],
-        letters: int,
+        letter_height: int,
     ) -> None:
-        self._level, self._box, self._letters = level, box, letters
-        self._head = round(1.5 * letters)
-        self._cells = self._arrange(chosen(level, names))
+        self._level, self._box, self._letter_height = level, box, letter_height
+        self._head = round(1.5 * letter_height)
+        self._cells = self._arrange(select_curves(level, names))
         _, _, width, height = box
         self._ground: Pixels = np.full((height, width, 3), PANEL, np.uint8)
         lines = [(self._line(cell), cell.colour) for cell in self._cells]
-        blend(self._ground, polyline((width, height), lines), 0, 0)
+        blend(self._ground, draw_lines((width, height), lines), 0, 0)
         for cell in self._cells:
-            write(self._ground, cell.name, (cell.x, cell.y), letters, cell.colour)
+            write_text(self._ground, cell.name, (cell.x, cell.y), letter_height, cell.colour)
 
     def draw(self, frame: Pixels, time: float) -> None:
-        """Draw it into a frame, with the cursor at a time [s] and the values there."""
+        """Draw the panel into a frame, with the cursor at a time [s] and the values there."""
         x, y, width, height = self._box
         frame[y : y + height, x : x + width] = self._ground
         for cell in self._cells:
-            cursor = x + cell.x + self._across(time, cell.width)
+            cursor = x + cell.x + self._cursor_x(time, cell.width)
             frame[y + cell.y + self._head : y + cell.y + cell.height, cursor : cursor + 2] = INK
             unit = "" if cell.curve.unit == "1" else cell.curve.unit
-            value = f"{shown(value_at(cell.curve, time))} {unit}".strip()
+            value = f"{format_value(value_at(cell.curve, time))} {unit}".strip()
             corner = x + cell.x + cell.width, y + cell.y
-            write(frame, value, corner, self._letters, DIM, right=True)
+            write_text(frame, value, corner, self._letter_height, GREY, right=True)
 
     def _arrange(self, curves: list[Curve]) -> list[_Cell]:
         """Return the cells: two rows where there are more than two curves."""
@@ -99,33 +99,33 @@ class CurvePanel:
         n_rows = min(2, len(curves)) if len(curves) > 1 else 1
         n_columns = -(-len(curves) // n_rows)
         _, _, width, height = self._box
-        wide, tall = width // n_columns, height // n_rows
+        cell_width, cell_height = width // n_columns, height // n_rows
         return [
             _Cell(
                 curve=curve,
                 name=short_name(curve.measure, curves),
                 colour=COLOURS[number % len(COLOURS)],
-                x=(number // n_rows) * wide,
-                y=(number % n_rows) * tall,
-                width=wide - GAP,
-                height=tall - GAP // 2,
+                x=(number // n_rows) * cell_width,
+                y=(number % n_rows) * cell_height,
+                width=cell_width - CELL_GAP,
+                height=cell_height - CELL_GAP // 2,
             )
             for number, curve in enumerate(curves)
         ]
 
-    def _across(self, time: float, width: int) -> int:
+    def _cursor_x(self, time: float, width: int) -> int:
         level = self._level
-        share = (time - level.began) / max(level.ended - level.began, 1e-9)
+        share = (time - level.start_time) / max(level.end_time - level.start_time, 1e-9)
         return round(min(max(share, 0.0), 1.0) * (width - 2))
 
     def _line(self, cell: _Cell) -> Array:
-        """The curve in pixels of the panel, (n, 2)."""
+        """Return the curve in pixels of the panel, (n, 2)."""
         level, curve = self._level, cell.curve
-        low, high = span(curve.values)
-        room = max(1, cell.height - self._head - 3)
-        share = (curve.times - level.began) / max(level.ended - level.began, 1e-9)
+        low, high = scale_limits(curve.values)
+        plot_height = max(1, cell.height - self._head - 3)
+        share = (curve.times - level.start_time) / max(level.end_time - level.start_time, 1e-9)
         x = cell.x + share * (cell.width - 2)
-        y = cell.y + self._head + (1.0 - (curve.values - low) / (high - low)) * room
+        y = cell.y + self._head + (1.0 - (curve.values - low) / (high - low)) * plot_height
         return np.column_stack([x, y])
 
 
@@ -135,8 +135,8 @@ def short_name(name: str, curves: Sequence[Curve]) -> str:
     return name.partition(".")[2] or name if len(measures) == 1 else name
 
 
-def span(values: Array) -> tuple[float, float]:
-    """Return the ends of the scale of a curve: 0 is in it where the curve comes near."""
+def scale_limits(values: Array) -> tuple[float, float]:
+    """Return the limits of the scale of a curve: 0 is in it if the curve comes near."""
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     if low > 0.0 and low < 0.5 * high:
         low = 0.0
@@ -153,6 +153,6 @@ def value_at(curve: Curve, time: float) -> float:
     return float(curve.values[number]) if number >= 0 else float("nan")
 
 
-def shown(value: float) -> str:
-    """Return a value with three digits; a dash where there is none."""
+def format_value(value: float) -> str:
+    """Return a value with three digits; a dash for NaN."""
     return "-" if not np.isfinite(value) else f"{value:.3g}"

@@ -1,6 +1,6 @@
-"""Encoders of films: ffmpeg, which runs as a process of its own, or animated WebP.
+"""Encoders of films: ffmpeg, which runs as a separate process, or animated WebP.
 
-Equal images give equal bytes: ffmpeg uses one thread and leaves out what varies.
+Equal images give equal bytes: ffmpeg uses one thread and writes no variable metadata.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ CODECS = {
         *("-deadline", "realtime", "-cpu-used", "8", "-row-mt", "0"),
     ),
 }
-"""Suffix of a film -> options of ffmpeg."""
+"""The options of ffmpeg for each suffix."""
 WEBP = ".webp"
 SUFFIXES = (*CODECS, WEBP)
 MAX_WEBP_FRAMES = 1200
-"""Frames of a WebP, which are all held in memory."""
-QUALITY = 60
-"""Of WebP, 0..100."""
+"""The greatest number of frames of a WebP, which are all in memory."""
+WEBP_QUALITY = 60
+"""The quality of WebP images, 0..100."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,58 +42,58 @@ class Chapter:
     """A chapter of a film."""
 
     title: str
-    """Shown by players."""
+    """The title that players show."""
     start: float
-    """Where it begins in the film [s]."""
+    """The start in the film [s]."""
     end: float
-    """Where it ends [s]."""
+    """The end in the film [s]."""
 
 
 class Encoder(Protocol):
-    """Takes the images of a film one after the other."""
+    """An encoder of the images of a film, one after the other."""
 
-    def add(self, packed: bytes) -> None:
+    def add(self, frame: bytes) -> None:
         """Append an image, packed by `packing_of` its path."""
 
     def close(self, *, is_to_keep: bool) -> None:
-        """Write the file with the images so far; or leave none."""
+        """Write the file with the images so far, or discard it."""
 
 
-def check_film_path(path: Path, *, overwrite: bool, others: Sequence[str] = ()) -> None:
-    """Refuse a path that cannot be written; raises BadSetting or MissingExtra.
+def check_film_path(path: Path, *, overwrite: bool, other_suffixes: Sequence[str] = ()) -> None:
+    """Reject a path that cannot be written; raise BadSetting or MissingExtra.
 
     Args:
-        path: of the film.
-        overwrite: whether an earlier file is replaced.
-        others: suffixes of what is no film, but would have been right, too.
+        path: the path of the film.
+        overwrite: True if an earlier file is replaced.
+        other_suffixes: the valid suffixes of other files.
     """
     suffix = path.suffix.lower()
     if suffix not in SUFFIXES:
-        near = did_you_mean(suffix, (*SUFFIXES, *others))
-        right = ", ".join((*SUFFIXES, *others))
-        raise BadSetting(f"-o {path}: expected one of {right}.{near}")
+        near = did_you_mean(suffix, (*SUFFIXES, *other_suffixes))
+        suffixes = ", ".join((*SUFFIXES, *other_suffixes))
+        raise BadSetting(f"-o {path}: expected one of {suffixes}.{near}")
     if path.is_dir():
-        raise BadSetting(f"-o {path}: is a folder.")
+        raise BadSetting(f"-o {path}: the path is a folder; expected a file.")
     if path.exists() and not overwrite:
-        raise BadSetting(f"-o {path}: exists; --overwrite replaces it.")
+        raise BadSetting(f"-o {path}: the file exists; --overwrite replaces it.")
     if suffix in CODECS and importlib.util.find_spec("imageio_ffmpeg") is None:
         raise MissingExtra(
-            f"-o {path}: {suffix} is written by ffmpeg, which is not installed. Install it with: "
-            "pip install 'uwsim[film]'; .webp needs nothing."
+            f"-o {path}: {suffix} needs ffmpeg, which is not installed. Install it with: "
+            "pip install 'uwsim[film]'; .webp does not need it."
         )
 
 
 Packing = Callable[[Pixels], bytes]
-"""Makes of an image (h, w, 3) what an encoder takes."""
+"""The function that packs an image (h, w, 3) for an encoder."""
 
 
 def packing_of(path: Path) -> Packing:
-    """Return how images are packed for the encoder of a path, as its suffix says."""
+    """Return the packing of images for the encoder of a path, by its suffix."""
     return as_rgb if path.suffix.lower() == WEBP else as_yuv
 
 
 def as_rgb(frame: Pixels) -> bytes:
-    """Pack an image (h, w, 3) as it is."""
+    """Pack an image (h, w, 3) without change."""
     return frame.tobytes()
 
 
@@ -105,7 +105,7 @@ def as_yuv(frame: Pixels) -> bytes:
 def encoder_of(
     path: Path, size: tuple[int, int], rate: float, chapters: Sequence[Chapter]
 ) -> Encoder:
-    """Return the encoder for a path, as its suffix says."""
+    """Return the encoder for a path, by its suffix."""
     if path.suffix.lower() == WEBP:
         return WebpEncoder(path, size, rate)
     return FfmpegEncoder(path, size, rate, chapters)
@@ -115,10 +115,10 @@ class FfmpegEncoder:
     """A film by ffmpeg; MP4 (H.264) or WebM (VP9), with chapters.
 
     Args:
-        path: of the film; it is there after `close`.
-        size: width and height, both even [px].
-        rate: images a second [Hz].
-        chapters: in order.
+        path: the path of the film, which `close` writes.
+        size: the width and height, both even [px].
+        rate: the images in a second [Hz].
+        chapters: the chapters in order.
     """
 
     def __init__(
@@ -133,7 +133,7 @@ class FfmpegEncoder:
         self._folder = tempfile.TemporaryDirectory(prefix=f".{path.stem}-", dir=path.parent)
         folder = Path(self._folder.name)
         self._draft = folder / f"film{path.suffix.lower()}"
-        self._said: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - the film's disk may be full
+        self._log: IO[bytes] = tempfile.TemporaryFile()  # noqa: SIM115 - the film's disk may be full
         with name_file_in_errors(path):
             (folder / "chapters").write_text(_metadata(chapters), encoding="utf-8")
         command = [
@@ -147,26 +147,26 @@ class FfmpegEncoder:
         self._process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,
-            stdout=self._said,
-            stderr=self._said,
+            stdout=self._log,
+            stderr=self._log,
             start_new_session=True,  # Ctrl-C in a terminal does not reach it
         )
 
-    def add(self, packed: bytes) -> None:
+    def add(self, frame: bytes) -> None:
         """Append an image, packed by `as_yuv`.
 
         Raises:
-            RunFailed: ffmpeg has failed.
+            RunFailed: ffmpeg failed.
         """
         assert self._process.stdin is not None
         try:
-            self._process.stdin.write(packed)
+            self._process.stdin.write(frame)
         except OSError:
             raise self._failure() from None
         self._n_frames += 1
 
     def close(self, *, is_to_keep: bool) -> None:
-        """Write the film with the images so far; or stop, and leave nothing."""
+        """Write the film with the images so far, or discard it."""
         assert self._process.stdin is not None
         try:
             if not is_to_keep or self._n_frames == 0:
@@ -182,88 +182,88 @@ class FfmpegEncoder:
                 self._cut_chapters()
             self._draft.replace(self._path)
         finally:
-            self._said.close()
+            self._log.close()
             self._folder.cleanup()
 
     def _cut_chapters(self) -> None:
-        """Write the film again, without encoding, with the chapters that it reaches."""
+        """Write the film again, without encoding, with the chapters that it contains."""
         end = self._n_frames / self._rate
-        reached = [replace(one, end=min(one.end, end)) for one in self._chapters if one.start < end]
-        chapters = self._draft.with_name("reached")
-        chapters.write_text(_metadata(reached), encoding="utf-8")
-        whole = self._draft.with_name(f"whole{self._draft.suffix}")
-        self._draft.replace(whole)
+        chapters = [replace(c, end=min(c.end, end)) for c in self._chapters if c.start < end]
+        metadata = self._draft.with_name("reached")
+        metadata.write_text(_metadata(chapters), encoding="utf-8")
+        film = self._draft.with_name(f"whole{self._draft.suffix}")
+        self._draft.replace(film)
         command = [
-            *(self._ffmpeg, "-y", "-nostdin", "-loglevel", "error", "-i", str(whole)),
-            *("-i", str(chapters), "-map", "0:v", "-map_metadata", "1", "-map_chapters", "1"),
+            *(self._ffmpeg, "-y", "-nostdin", "-loglevel", "error", "-i", str(film)),
+            *("-i", str(metadata), "-map", "0:v", "-map_metadata", "1", "-map_chapters", "1"),
             *("-c", "copy", "-fflags", "+bitexact", str(self._draft)),
         ]
-        if subprocess.run(command, stdout=self._said, stderr=self._said).returncode != 0:
+        if subprocess.run(command, stdout=self._log, stderr=self._log).returncode != 0:
             raise self._failure()
 
     def _failure(self) -> RunFailed:
         self._process.wait()
-        self._said.seek(0)
-        lines = self._said.read().decode(errors="replace").strip().splitlines()
-        why = lines[-1].rpartition("] ")[2] if lines else "it said nothing"  # without its part
-        return RunFailed(f"{self._path}: ffmpeg has failed: {why}")
+        self._log.seek(0)
+        lines = self._log.read().decode(errors="replace").strip().splitlines()
+        reason = lines[-1].rpartition("] ")[2] if lines else "it wrote no message"
+        return RunFailed(f"{self._path}: ffmpeg failed: {reason}")
 
 
 class WebpEncoder:
-    """An animated WebP that plays for ever.
+    """An animated WebP that repeats.
 
     Args:
-        path: of the file; it is there after `close`.
-        size: width and height [px].
-        rate: images a second [Hz].
+        path: the path of the file, which `close` writes.
+        size: the width and height [px].
+        rate: the images in a second [Hz].
     """
 
     def __init__(self, path: Path, size: tuple[int, int], rate: float) -> None:
         self._path, self._size, self._rate = path, size, rate
         self._frames: list[Image.Image] = []
 
-    def add(self, packed: bytes) -> None:
+    def add(self, frame: bytes) -> None:
         """Append an image, packed by `as_rgb`.
 
         Raises:
-            RunFailed: there are too many.
+            RunFailed: the film has too many images.
         """
         if len(self._frames) >= MAX_WEBP_FRAMES:
             raise RunFailed(
-                f"A .webp holds {MAX_WEBP_FRAMES} images at most; choose fewer with --fps, --speed "
-                "or --until, or another suffix."
+                f"A .webp has at most {MAX_WEBP_FRAMES} images; reduce them by --fps, --speed "
+                "or --until, or choose another suffix."
             )
-        self._frames.append(Image.frombytes("RGB", self._size, packed))
+        self._frames.append(Image.frombytes("RGB", self._size, frame))
 
     def close(self, *, is_to_keep: bool) -> None:
-        """Write the file with the images so far; or leave none."""
+        """Write the file with the images so far, or discard it."""
         if not is_to_keep or not self._frames:
             return
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        first, *others = self._frames
+        first_frame, *frames = self._frames
         with atomic_write(self._path) as draft:
-            first.save(
+            first_frame.save(
                 draft,
                 format="WEBP",
                 save_all=True,
-                append_images=others,
+                append_images=frames,
                 duration=round(1000.0 / self._rate),
                 loop=0,
-                quality=QUALITY,
+                quality=WEBP_QUALITY,
                 method=4,
             )
 
 
 def _metadata(chapters: Sequence[Chapter]) -> str:
-    """Return the chapters as ffmpeg reads them."""
+    """Return the chapters in the format of ffmpeg."""
     lines = [";FFMETADATA1"]
     for chapter in chapters:
         lines += ["[CHAPTER]", "TIMEBASE=1/1000", f"START={round(1000 * chapter.start)}"]
-        lines += [f"END={round(1000 * chapter.end)}", f"title={_escaped(chapter.title)}"]
+        lines += [f"END={round(1000 * chapter.end)}", f"title={_escape(chapter.title)}"]
     return "\n".join([*lines, ""])
 
 
-def _escaped(text: str) -> str:
+def _escape(text: str) -> str:
     for letter in "\\=;#":
         text = text.replace(letter, f"\\{letter}")
     return text.replace("\n", " ")

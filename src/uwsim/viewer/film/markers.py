@@ -13,10 +13,10 @@ from ...results.motion import DrawnMarker
 from . import overlay
 from .overlay import Pixels
 
-CLOSE = 0.02
-"""Lines are cut so far ahead of the viewer [m]."""
-FAR = 20_000.0
-"""Pixels farther from the image's corner are moved here [px]."""
+NEAR_DISTANCE = 0.02
+"""The distance from the camera at which lines are cut [m]."""
+MAX_PIXEL = 20_000.0
+"""The greatest coordinate of a pixel; those farther away are moved there [px]."""
 
 
 def draw_markers(
@@ -24,49 +24,49 @@ def draw_markers(
     markers: Mapping[str, DrawnMarker],
     world_from_camera: Pose,
     lens: Intrinsics,
-    letters: int,
+    letter_height: int,
 ) -> Pixels:
     """Return an image with its markers: their lines, or the names of those that have none.
 
     Args:
-        frame: (h, w, 3).
-        markers: name -> how it is drawn.
-        world_from_camera: where the viewer is; OpenGL axes.
-        lens: the pinhole.
-        letters: their size [px].
+        frame: the image, (h, w, 3).
+        markers: the markers by their names.
+        world_from_camera: the pose of the camera; OpenGL axes.
+        lens: the intrinsics of the camera.
+        letter_height: the height of the letters [px].
     """
     if not markers:
         return frame
     picture = Image.fromarray(frame)
     pen = ImageDraw.Draw(picture)
     words: list[tuple[str, Array, str]] = []
-    for name, look in markers.items():
-        world_from_marker = Pose.from_quaternion(np.array(look.pose[:3]), np.array(look.pose[3:]))
+    for name, marker in markers.items():
+        position, quaternion = np.array(marker.pose[:3]), np.array(marker.pose[3:])
+        world_from_marker = Pose.from_quaternion(position, quaternion)
         camera_from_marker = world_from_camera.inverse() @ world_from_marker
-        for line in look.lines:
-            for begin, end in ahead(camera_from_marker.transform(np.array(line))):
-                ends = np.clip(lens.project(np.stack([begin, end])), -FAR, FAR)
-                pen.line([tuple(each) for each in ends.tolist()], fill=look.colour, width=2)
-        if not look.lines and camera_from_marker.position[2] < -CLOSE:
-            words.append((name, lens.project(camera_from_marker.position[None])[0], look.colour))
+        for line in marker.lines:
+            for begin, end in clip_line(camera_from_marker.transform(np.array(line))):
+                ends = np.clip(lens.project(np.stack([begin, end])), -MAX_PIXEL, MAX_PIXEL)
+                pen.line([tuple(point) for point in ends.tolist()], fill=marker.colour, width=2)
+        if not marker.lines and camera_from_marker.position[2] < -NEAR_DISTANCE:
+            words.append((name, lens.project(camera_from_marker.position[None])[0], marker.colour))
     for name, place, colour in words:
-        u, v = (float(value) for value in np.clip(place, -FAR, FAR))
+        u, v = (float(value) for value in np.clip(place, -MAX_PIXEL, MAX_PIXEL))
         pen.ellipse((u - 3, v - 3, u + 3, v + 3), fill=colour)
-        at = u + 5.0, v - 5.0 - letters
-        pen.text(
-            at, name, fill=colour, font=overlay.font(letters), stroke_width=1, stroke_fill="#0c141e"
-        )
+        corner = u + 5.0, v - 5.0 - letter_height
+        font = overlay.font(letter_height)
+        pen.text(corner, name, fill=colour, font=font, stroke_width=1, stroke_fill="#0c141e")
     return np.asarray(picture).copy()
 
 
-def ahead(points: Array) -> list[tuple[Array, Array]]:
+def clip_line(points: Array) -> list[tuple[Array, Array]]:
     """Return the parts of a line (n, 3) in the camera's frame that are ahead of the camera."""
     parts = []
     for begin, end in itertools.pairwise(points):
-        depths = -begin[2] - CLOSE, -end[2] - CLOSE
+        depths = -begin[2] - NEAR_DISTANCE, -end[2] - NEAR_DISTANCE
         if max(depths) <= 0.0:
             continue
         share = depths[0] / (depths[0] - depths[1]) if min(depths) < 0.0 else 0.0
-        between = begin + share * (end - begin)
-        parts.append((between if depths[0] < 0.0 else begin, between if depths[1] < 0.0 else end))
+        cut = begin + share * (end - begin)
+        parts.append((cut if depths[0] < 0.0 else begin, cut if depths[1] < 0.0 else end))
     return parts

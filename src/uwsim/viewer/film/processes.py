@@ -1,4 +1,4 @@
-"""Drawing the images of a film in several processes, each with its own graphics context."""
+"""Processes that draw the images of a film, each with its own graphics context."""
 
 from __future__ import annotations
 
@@ -22,23 +22,23 @@ from ..recorded import RecordedTrial
 from .encoder import Chapter, Packing
 from .film import FilmSpec, Reel, chapters_of, n_frames_of
 
-MOST = 16
-"""The most processes that draw one film: they feed one encoder."""
-FEWEST_IMAGES = 60
-"""Images that make up for the start of a process."""
-BLOCK = 6
-"""Consecutive images of one process: those with the same image of the inset are drawn by one."""
-AHEAD = BLOCK + 2
-"""Images that a process draws before they are taken; fewer than a block would make it wait."""
-FAILED = b"uwsim: failed\0"
-"""Begins a message that is no image but an error."""
-PATIENCE = 10.0
-"""How long a process may take to leave, before it is made to [s]."""
+MAX_PROCESSES = 16
+"""The greatest number of processes that draw one film: they feed one encoder."""
+MIN_IMAGES = 60
+"""The number of images that outweigh the start of a process."""
+BLOCK_SIZE = 6
+"""The consecutive images of one process, which share the image of the inset."""
+QUEUE_SIZE = BLOCK_SIZE + 2
+"""The images that wait in a process; fewer than a block would stop it."""
+ERROR_PREFIX = b"uwsim: failed\0"
+"""The prefix of a message with an error instead of an image."""
+EXIT_TIMEOUT = 10.0
+"""The time until a process that has ended is waited for [s]."""
 
 
-def processes_for(n_frames: int) -> int:
-    """Return how many processes draw a film of so many images: one a core, 1 for a short film."""
-    return max(1, min(len(os.sched_getaffinity(0)), n_frames // FEWEST_IMAGES, MOST))
+def count_processes(n_frames: int) -> int:
+    """Return the number of processes for a film: one a core, 1 for a short film."""
+    return max(1, min(len(os.sched_getaffinity(0)), n_frames // MIN_IMAGES, MAX_PROCESSES))
 
 
 class DrawingProcesses:
@@ -48,14 +48,14 @@ class DrawingProcesses:
     ``if __name__ == "__main__"``.
 
     Args:
-        trials: as of `Reel`.
-        spec: as of `Reel`.
-        n: how many processes.
+        trials: the trials of a `Reel`.
+        spec: the settings of the film.
+        n: the number of processes.
     """
 
     def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec, n: int) -> None:
         self._trials, self.spec = tuple(trials), spec
-        """What they show."""
+        """The settings of the film."""
         self._n = n
         self._pipes: list[Connection] = []
         self._parents: list[Connection] = []
@@ -65,42 +65,42 @@ class DrawingProcesses:
         context = multiprocessing.get_context("spawn")
         with set_environment(ENVIRONMENT):
             for k in range(self._n):
-                pipe, theirs = context.Pipe(duplex=False)
-                watched, parent = context.Pipe(duplex=False)
-                what = self._trials, self.spec, pack
+                pipe, child_pipe = context.Pipe(duplex=False)
+                child_end, parent = context.Pipe(duplex=False)
+                job = self._trials, self.spec, pack
                 process = context.Process(
-                    target=draw_blocks, args=(what, k, self._n, theirs, watched)
+                    target=draw_blocks, args=(job, k, self._n, child_pipe, child_end)
                 )
                 self._pipes.append(pipe)
                 self._parents.append(parent)
                 start_ignoring_interrupts(process)
                 self._processes.append(process)
-                for end in (theirs, watched):
+                for end in (child_pipe, child_end):
                     end.close()  # so that a pipe ends when the process at its other end does
 
     def chapters(self) -> list[Chapter]:
-        """Return the chapters of all."""
+        """Return the chapters of all trials."""
         return chapters_of(self._trials, self.spec)
 
     def frames(self, pack: Packing) -> Iterator[bytes]:
-        """Start the processes; return the images in order, each packed.
+        """Start the processes; yield the images in order, each packed.
 
         Raises:
-            RunFailed: a process has died.
-            UwsimError: what a process could not draw.
+            RunFailed: a process has ended.
+            UwsimError: a process cannot draw an image.
         """
         self._start(pack)
         for number in range(sum(n_frames_of(trial, self.spec) for trial in self._trials)):
-            at = number // BLOCK % self._n
+            index = number // BLOCK_SIZE % self._n
             try:
-                received = self._pipes[at].recv_bytes()
+                frame = self._pipes[index].recv_bytes()
             except (EOFError, OSError):
-                self._processes[at].join(PATIENCE)
-                reason = how(self._processes[at].exitcode)
+                self._processes[index].join(EXIT_TIMEOUT)
+                reason = how(self._processes[index].exitcode)
                 raise RunFailed(f"A process that draws the film has ended: {reason}.") from None
-            if received.startswith(FAILED):
-                raise pickle.loads(received.removeprefix(FAILED))
-            yield received
+            if frame.startswith(ERROR_PREFIX):
+                raise pickle.loads(frame.removeprefix(ERROR_PREFIX))
+            yield frame
 
     def close(self) -> None:
         """End the processes."""
@@ -113,35 +113,35 @@ class DrawingProcesses:
 
 
 def draw_blocks(
-    what: tuple[Sequence[RecordedTrial], FilmSpec, Packing],
-    first: int,
+    job: tuple[Sequence[RecordedTrial], FilmSpec, Packing],
+    offset: int,
     n: int,
     pipe: Connection,
     parent: Connection,
 ) -> None:
-    """Draw every n-th block from ``first`` on, and send each image; ends with the parent."""
+    """Draw every n-th block from ``offset`` on, and send each image; end with the parent."""
     exit_with_parent(parent)
-    trials, spec, pack = what
-    drawn: queue.Queue[bytes | None] = queue.Queue(AHEAD)
-    sender = threading.Thread(target=_send, args=(drawn, pipe))
+    trials, spec, pack = job
+    frames: queue.Queue[bytes | None] = queue.Queue(QUEUE_SIZE)
+    sender = threading.Thread(target=_send, args=(frames, pipe))
     sender.start()
     try:
         reel = Reel(trials, spec)
         try:
             for number in range(reel.n_frames):
-                if number // BLOCK % n == first:
-                    drawn.put(pack(reel.draw(number)))
+                if number // BLOCK_SIZE % n == offset:
+                    frames.put(pack(reel.draw(number)))
         finally:
             reel.close()
     except Exception as error:
-        drawn.put(FAILED + pickle.dumps(picklable(error)))
+        frames.put(ERROR_PREFIX + pickle.dumps(picklable(error)))
     finally:
-        drawn.put(None)
+        frames.put(None)
         sender.join()
 
 
-def _send(drawn: queue.Queue[bytes | None], pipe: Connection) -> None:
-    """Send what is drawn while the next image is drawn."""
+def _send(frames: queue.Queue[bytes | None], pipe: Connection) -> None:
+    """Send each image while the next one is drawn."""
     with suppress(OSError):  # the parent has gone
-        while (one := drawn.get()) is not None:
-            pipe.send_bytes(one)
+        while (frame := frames.get()) is not None:
+            pipe.send_bytes(frame)

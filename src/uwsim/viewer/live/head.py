@@ -1,4 +1,4 @@
-"""The first message of a live view: the scene, and what the rows mean."""
+"""The first message of a live view: the scene, and the columns of the rows."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from ...results.motion.motion_track import POSITION_STEP, QUATERNION_STEP
 from ...simulation import Simulation
 from ...simulation.tracked_state import TrackedState
 from ..head import scene_head
-from ..pack import Blob, packed
+from ..pack import Blob, make_pack
 
 
 def head_of(simulation: Simulation, title: str, state: TrackedState) -> bytes:
     """Return the pack of a live view (`uwsim.viewer.head`).
 
     Args:
-        simulation: at step 0.
-        title: of the page.
-        state: whose rows follow.
+        simulation: the simulation, at step 0.
+        title: the title of the page.
+        state: the source of the rows that follow.
     """
     blob = Blob()
     head = scene_head(simulation, title, blob, is_live=True)
@@ -32,4 +32,4 @@ def head_of(simulation: Simulation, title: str, state: TrackedState) -> bytes:
         "quaternion": QUATERNION_STEP,
         "signals": [asdict(signal) for signal in state.signals],
     }
-    return packed(head, blob)
+    return make_pack(head, blob)

@@ -1,4 +1,4 @@
-"""What keys, gamepad and sticks of the page do: by default, and by a file of the user's.
+"""The mapping of keys, gamepad and sticks of the page to axes: by default, and by a user's file.
 
 .. code-block:: toml
 
@@ -30,33 +30,33 @@ KEYS = {
     **{"h": "-joint2", "u": "+joint3", "j": "-joint3", "i": "+joint4", "k": "-joint4"},
     **{"o": "+jaw", "l": "-jaw", "m": "+lamps", "n": "-lamps"},
 }
-"""Key -> axis and direction; none of those by which the page itself is used."""
+"""The axis and direction of each key; the page itself uses none of these keys."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PilotMapping:
-    """Which axis everything moves, or which axes, with blanks between them."""
+    """The axes of each key, button and stick, separated by blanks if there are several."""
 
     keys: Mapping[str, str] = field(default_factory=lambda: KEYS)
-    """Key, as the browser names it in lower case -> axes with their signs."""
+    """The axes, with their signs, of each key, as the browser names it in lower case."""
     axes: tuple[str, ...] = ("yaw", "-heave", "sway", "-surge")
-    """Of the axes of the gamepad."""
+    """The targets of the axes of the gamepad."""
     buttons: tuple[str, ...] = ("", "", "", "", "", "", "-jaw", "+jaw")
-    """Of its buttons."""
+    """The targets of the buttons of the gamepad."""
     sticks: tuple[str, ...] = ("yaw", "heave", "sway", "surge")
-    """Of the sticks on the screen: left x, left y, right x, right y."""
+    """The targets of the sticks on the screen: left x, left y, right x, right y."""
     dead_zone: float = 0.08
-    """Of gamepad and sticks: less counts as none [1]."""
+    """The dead zone of gamepad and sticks [1]."""
 
-    def values(self, said: Mapping[str, Any]) -> tuple[float, ...]:
-        """Return the value of each axis, -1..1, for a message of the page; nonsense counts as 0."""
+    def values(self, message: Mapping[str, Any]) -> tuple[float, ...]:
+        """Return the value of each axis, -1..1, for a message of the page; 0 for invalid input."""
         total = dict.fromkeys(AXES, 0.0)
-        pressed = said.get("keys")
-        for key in pressed[:32] if isinstance(pressed, list) else ():
+        keys = message.get("keys")
+        for key in keys[:32] if isinstance(keys, list) else ():
             if isinstance(key, str) and key in self.keys:
                 _add(total, self.keys[key], 1.0)
         for name in ("axes", "buttons", "sticks"):
-            numbers = said.get(name)
+            numbers = message.get(name)
             for target, number in zip(
                 getattr(self, name), numbers if isinstance(numbers, list) else (), strict=False
             ):
@@ -66,25 +66,26 @@ class PilotMapping:
 
 
 def read_mapping(path: Path) -> PilotMapping:
-    """Read a mapping file; what it lacks is as usual.
+    """Read a mapping file; the default mapping replaces what it lacks.
 
     Raises:
-        BadSetting: it cannot be read, or names an axis that there is not.
+        BadSetting: it cannot be read, or names an axis that does not exist.
     """
     try:
-        read = tomllib.loads(path.read_text(encoding="utf-8"))
+        table = tomllib.loads(path.read_text(encoding="utf-8"))
     except RecursionError:
         raise BadSetting(f"--pilot-mapping {path}: lists are nested too deeply.") from None
     except (OSError, ValueError) as error:
-        why = getattr(error, "strerror", None) or error
-        raise BadSetting(f"--pilot-mapping {path}: cannot be read: {why}.") from None
-    known = [each.name for each in fields(PilotMapping)]
-    for name, value in read.items():
-        if name not in known:
-            raise BadSetting(f"--pilot-mapping {path}: {name!r}?{did_you_mean(name, known)}")
+        reason = getattr(error, "strerror", None) or error
+        raise BadSetting(f"--pilot-mapping {path}: the file cannot be read: {reason}.") from None
+    names = [entry.name for entry in fields(PilotMapping)]
+    for name, value in table.items():
+        if name not in names:
+            near = did_you_mean(name, names)
+            raise BadSetting(f"--pilot-mapping {path}: {name!r} is not a setting.{near}")
         _check(path, name, value)
-    given: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in read.items()}
-    return PilotMapping(**given)
+    settings: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in table.items()}
+    return PilotMapping(**settings)
 
 
 def _check(path: Path, name: str, value: object) -> None:
@@ -116,15 +117,15 @@ def _add(total: dict[str, float], targets: str, value: float) -> None:
 
 
 def _number(value: object) -> float:
-    """A number of a page, -1..1; 0 for what is none."""
+    """Return a number of a page, -1..1; 0 if it is not a number."""
     if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
         return 0.0
     return float(min(1, max(-1, value)))
 
 
-def merged(by_viewer: Mapping[int, Sequence[float]]) -> tuple[float, ...] | None:
-    """Return what all pilots do together, -1..1 each; None where there is none."""
-    if not by_viewer:
+def sum_inputs(inputs: Mapping[int, Sequence[float]]) -> tuple[float, ...] | None:
+    """Return the sum of all pilots' inputs, -1..1 each; None without a pilot."""
+    if not inputs:
         return None
-    sums = [sum(column) for column in zip(*by_viewer.values(), strict=True)]
+    sums = [sum(column) for column in zip(*inputs.values(), strict=True)]
     return tuple(min(1.0, max(-1.0, value)) for value in sums)

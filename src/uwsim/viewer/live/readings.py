@@ -1,4 +1,4 @@
-"""The state of a vehicle in numbers that its pose does not tell: joints, forces, battery, pace."""
+"""The state of a vehicle besides its pose, in numbers: joints, forces, battery, pace."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from ...messages import BatteryState, WrenchStamped
 from ...simulation import Simulation
 
 WINDOW = 2.0
-"""Wall time over which the real-time factor is taken [s]."""
+"""The wall time over which the real-time factor is computed [s]."""
 Reading = tuple[str, str, float | None]
-"""Name, unit, and value; None: there is none now."""
+"""A reading: name, unit, and value; None without a value."""
 
 
 class Readings:
-    """What a page shows of a vehicle besides its motion; nothing in the simulation changes by it.
+    """The readings of a vehicle besides its motion; they change nothing in the simulation.
 
     Args:
-        simulation: the one.
-        vehicle: number of the vehicle in the scene.
+        simulation: the simulation.
+        vehicle: the index of the vehicle in the scene.
     """
 
     def __init__(self, simulation: Simulation, vehicle: int) -> None:
         world = simulation.world
         self._simulation, self._vehicle = simulation, None
-        self._past: deque[tuple[float, float]] = deque()  # wall time and simulation time [s]
+        self._history: deque[tuple[float, float]] = deque()  # wall time and simulation time [s]
         self._sensors: list[tuple[str, Any]] = []
         if not world.vehicles:
             return
@@ -39,17 +39,16 @@ class Readings:
         self._is_simulated = world.engine.is_simulated(self._vehicle.index)
         for element, part in world.model.scene.vehicles[vehicle].all_parts():
             if isinstance(part, ForceSensorSpec | BatterySpec):
-                with suppress(UnknownName):  # one on a link that is not there is left out
+                with suppress(UnknownName):  # a sensor on a link that does not exist is left out
                     self._sensors.append((part.name, world.sensors.sensor(part.name, (element,))))
         self._turns = tuple(j.kind != "prismatic" for j in world.model.robots[vehicle].movable)
 
-    def take(self, wall: float, *, is_paused: bool = False) -> list[Reading]:
-        """Return all of them at a wall time [s]."""
-        readings = list(self._of_vehicle())
-        readings.append(("real-time factor", "1", self._pace(wall, is_paused=is_paused)))
-        return readings
+    def read(self, wall: float, *, is_paused: bool = False) -> list[Reading]:
+        """Return all readings at a wall time [s]."""
+        factor = self._real_time_factor(wall, is_paused=is_paused)
+        return [*self._vehicle_readings(), ("real-time factor", "1", factor)]
 
-    def _of_vehicle(self) -> Iterator[Reading]:
+    def _vehicle_readings(self) -> Iterator[Reading]:
         vehicle, world = self._vehicle, self._simulation.world
         if vehicle is None:
             return
@@ -67,14 +66,14 @@ class Readings:
             elif isinstance(message, BatteryState):
                 yield f"battery/{name}", "%", 100.0 * message.percentage
 
-    def _pace(self, wall: float, *, is_paused: bool) -> float | None:
-        """Simulation time to wall time of the last seconds; None while it is paused."""
-        past, now = self._past, self._simulation.time
+    def _real_time_factor(self, wall: float, *, is_paused: bool) -> float | None:
+        """Return the ratio of simulation to wall time of the last seconds; None while paused."""
+        history, now = self._history, self._simulation.time
         if is_paused:
-            past.clear()
+            history.clear()
             return None
-        past.append((wall, now))
-        while len(past) > 2 and past[1][0] <= wall - WINDOW:
-            past.popleft()
-        began, then = past[0]
-        return (now - then) / (wall - began) if wall - began > 0.25 else None
+        history.append((wall, now))
+        while len(history) > 2 and history[1][0] <= wall - WINDOW:
+            history.popleft()
+        start_wall, start = history[0]
+        return (now - start) / (wall - start_wall) if wall - start_wall > 0.25 else None

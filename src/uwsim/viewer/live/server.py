@@ -1,8 +1,8 @@
-"""The server of a live view: one port for the page and its socket, in a thread of its own.
+"""The server of a live view: one port for the page and its socket, in a separate thread.
 
-The simulation hands over copies; whoever looks gets the newest of each kind, and what a slow
-reader has missed is gone. Only this computer is listened to. A request needs the token of the
-address that is printed; the socket, besides, the origin of the page.
+The simulation publishes copies; each viewer receives the newest of each kind, and a slow viewer
+misses older ones. The server listens on this computer only. A request needs the token of the
+printed address; the socket also needs the origin of the page.
 """
 
 from __future__ import annotations
@@ -31,51 +31,51 @@ from ...middleware.limited_connection import ConnectionLimits, LimitedConnection
 
 HOST = "127.0.0.1"
 MAX_MESSAGE = 4096
-"""Of a viewer [byte]."""
+"""The greatest size of a viewer's message [byte]."""
 MAX_MESSAGES = 120
-"""Of a viewer in a second."""
+"""The greatest number of a viewer's messages in a second."""
 SHARE, BURST = 0.05, 0.1
-"""Share of the wall time in which a viewer is read, and the time at once [s]."""
+"""The share of the wall time in which a viewer is read, and the time at once [s]."""
 MAX_VIEWERS = 16
-MAX_WANTED = 16
-"""Of cameras, and of topics, that a viewer gets."""
-KEPT = 256
-"""Messages of viewers that wait for the simulation."""
-BUFFER = 64 * 1024
-"""Of what is on its way to a viewer [byte]."""
-CLOSING = 1.0
-"""How long a viewer that is disconnected may take to answer [s]."""
-START = 60.0
-"""Longest time that the port takes to open [s]."""
+MAX_REQUESTED = 16
+"""The greatest number of cameras, and of topics, that a viewer receives."""
+MAX_WAITING = 256
+"""The greatest number of messages that wait for the simulation."""
+WRITE_BUFFER = 64 * 1024
+"""The size of the write buffer of a viewer [byte]."""
+CLOSE_TIMEOUT = 1.0
+"""The greatest time for the answer of a viewer that is disconnected [s]."""
+START_TIMEOUT = 60.0
+"""The greatest time until the port is open [s]."""
 
 Message = dict[str, Any]
 
 
 @dataclass(eq=False)
 class Viewer:
-    """Somebody who looks."""
+    """A connected page."""
 
     number: int
-    """Counts viewers from 1."""
+    """The number of the viewer, from 1."""
     socket: ServerConnection
     """The connection."""
     wake: asyncio.Event = field(default_factory=asyncio.Event)
-    """Set when there is something new."""
-    sent: dict[str, int] = field(default_factory=dict)
-    """Channel -> version that was sent last."""
-    wanted: frozenset[str] = frozenset()
-    """Optional channels that are wanted."""
+    """The event that something new has arrived."""
+    sent_versions: dict[str, int] = field(default_factory=dict)
+    """The version of each channel that was sent last."""
+    channels: frozenset[str] = frozenset()
+    """The optional channels that the viewer requests."""
 
 
 class LiveServer:
-    """Serves a page and what is published to everybody who looks.
+    """The server of a page and of all that is published to its viewers.
 
-    A *channel* is a name of which only the newest content is sent: text or bytes. Channels that
-    begin with ``?`` go only to those who want them.
+    A *channel* is a name with its newest content, text or bytes. Channels that begin with ``?`` are
+    sent only to viewers that request them.
 
     Args:
-        page: returns the HTML.
-        port: 0: any that is free.
+        page: the function that returns the HTML.
+        port: the port; 0 selects a free one.
 
     Raises:
         BadSetting: the port is taken.
@@ -89,39 +89,39 @@ class LiveServer:
         self._viewers: dict[int, Viewer] = {}
         self._n_viewers = 0
         self._limits = ConnectionLimits(SHARE, BURST)
-        self._messages: deque[tuple[int, Message]] = deque(maxlen=KEPT)
+        self._messages: deque[tuple[int, Message]] = deque(maxlen=MAX_WAITING)
         self._loop = asyncio.new_event_loop()
         self._stop = asyncio.Event()
-        self._started = threading.Event()
+        self._start_event = threading.Event()
         self._failure: OSError | None = None
         self.port = port
-        """The port that is listened to."""
+        """The port that the server listens on."""
         self._thread = threading.Thread(target=self._run, name="live view", daemon=True)
         self._thread.start()
-        self._started.wait(START)
+        self._start_event.wait(START_TIMEOUT)
         if self._failure is not None:
-            self._thread.join(START)
-            why = os.strerror(self._failure.errno or 0)  # asyncio's own text repeats the address
-            raise BadSetting(f"--port {port}: cannot be opened: {why}.")
+            self._thread.join(START_TIMEOUT)
+            reason = os.strerror(self._failure.errno or 0)  # asyncio's own text repeats the address
+            raise BadSetting(f"--port {port}: cannot be opened: {reason}.")
 
     @property
     def url(self) -> str:
-        """What a browser opens."""
+        """The address of the page for a browser."""
         return f"http://{HOST}:{self.port}/?token={self._token}"
 
     @property
     def n_viewers(self) -> int:
-        """How many look now."""
+        """The present number of viewers."""
         with self._lock:
             return len(self._viewers)
 
-    def wanted(self) -> frozenset[str]:
-        """Return the optional channels that anybody wants."""
+    def channels(self) -> frozenset[str]:
+        """Return the optional channels that any viewer requests."""
         with self._lock:
-            return frozenset().union(*(viewer.wanted for viewer in self._viewers.values()))
+            return frozenset().union(*(viewer.channels for viewer in self._viewers.values()))
 
     def publish(self, channel: str, content: str | bytes) -> None:
-        """Make something the newest of its channel; returns at once."""
+        """Replace the content of a channel; return at once."""
         with self._lock:
             self._version += 1
             self._channels[channel] = self._version, content
@@ -129,20 +129,20 @@ class LiveServer:
                 return
         self._call(self._wake)
 
-    def forget(self, channels: Callable[[str], bool]) -> None:
-        """Send nothing more of the channels that this chooses."""
+    def remove_channels(self, channels: Callable[[str], bool]) -> None:
+        """Remove the channels for which the function returns True."""
         with self._lock:
             self._channels = {n: c for n, c in self._channels.items() if not channels(n)}
 
-    def messages(self) -> list[tuple[int, Message]]:
-        """Take out what viewers have said: number of the viewer, and message; oldest first."""
+    def take_messages(self) -> list[tuple[int, Message]]:
+        """Take out the messages of viewers, oldest first, each with the viewer's number."""
         with self._lock:
-            taken = list(self._messages)
+            messages = list(self._messages)
             self._messages.clear()
-        return taken
+        return messages
 
-    def drop(self, number: int, reason: str) -> None:
-        """Disconnect one viewer; ``reason`` is what its browser shows."""
+    def disconnect(self, number: int, reason: str) -> None:
+        """Disconnect one viewer; its browser shows the ``reason``."""
         with self._lock:
             viewer = self._viewers.get(number)
         if viewer is not None:
@@ -150,9 +150,9 @@ class LiveServer:
             self._call(lambda: self._loop.create_task(socket.close(1008, reason[:100])))
 
     def close(self) -> None:
-        """Disconnect everybody and close the port."""
+        """Disconnect all viewers and close the port."""
         self._call(self._stop.set)
-        self._thread.join(START)
+        self._thread.join(START_TIMEOUT)
 
     def _call(self, function: Callable[[], object]) -> None:
         try:
@@ -165,60 +165,60 @@ class LiveServer:
         try:
             self._loop.run_until_complete(self._serve())
         finally:
-            self._started.set()
+            self._start_event.set()
             self._loop.close()
 
     async def _serve(self) -> None:
         try:
             server = await serve(
-                self._talk,
+                self._handle_socket,
                 HOST,
                 self.port,
-                process_request=self._answer,
+                process_request=self._handle_request,
                 create_connection=cast(Any, partial(LimitedConnection, limits=self._limits)),
                 max_size=MAX_MESSAGE,
                 max_queue=4,
-                write_limit=BUFFER,
+                write_limit=WRITE_BUFFER,
                 compression=None,
                 ping_interval=20.0,
-                close_timeout=CLOSING,
+                close_timeout=CLOSE_TIMEOUT,
             )
         except OSError as error:
             self._failure = error
             return
         self.port = _port_of(server)
-        self._started.set()
+        self._start_event.set()
         await self._stop.wait()
         server.close()
         await server.wait_closed()
 
-    def _answer(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Answer what asks for the page; None lets a socket be opened."""
+    def _handle_request(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Answer a request for the page; None opens a socket."""
         try:
-            return self._answer_to(request)
-        except (ValueError, LookupError):  # an address of nonsense, two headers of one name
-            return _text(HTTPStatus.BAD_REQUEST, "The request is not as it should be.")
+            return self._check_request(request)
+        except (ValueError, LookupError):  # an invalid address, two headers of one name
+            return _text_response(HTTPStatus.BAD_REQUEST, "The request is invalid.")
 
-    def _answer_to(self, request: Request) -> Response | None:
+    def _check_request(self, request: Request) -> Response | None:
         address = urlsplit(request.path)
         token = parse_qs(address.query).get("token", [""])[0]
         if not hmac.compare_digest(token.encode(), self._token.encode()):
-            return _text(HTTPStatus.FORBIDDEN, "The address lacks the token that was printed.")
+            return _text_response(HTTPStatus.FORBIDDEN, "The address lacks the printed token.")
         if address.path == "/":
-            return _text(HTTPStatus.OK, self._page(), kind="text/html")
+            return _text_response(HTTPStatus.OK, self._page(), kind="text/html")
         if address.path != "/socket":
-            return _text(HTTPStatus.NOT_FOUND, "There is nothing here.")
+            return _text_response(HTTPStatus.NOT_FOUND, "There is nothing here.")
         origin = request.headers.get("Origin")
         if origin is not None and origin not in self._origins():
-            return _text(HTTPStatus.FORBIDDEN, "The page comes from elsewhere.")
+            return _text_response(HTTPStatus.FORBIDDEN, "The page has another origin.")
         if len(self._viewers) >= MAX_VIEWERS:
-            return _text(HTTPStatus.SERVICE_UNAVAILABLE, "Too many look already.")
+            return _text_response(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many viewers.")
         return None
 
     def _origins(self) -> tuple[str, str]:
         return f"http://{HOST}:{self.port}", f"http://localhost:{self.port}"
 
-    async def _talk(self, socket: ServerConnection) -> None:
+    async def _handle_socket(self, socket: ServerConnection) -> None:
         self._n_viewers += 1
         viewer = Viewer(number=self._n_viewers, socket=socket)
         viewer.wake.set()
@@ -226,7 +226,7 @@ class LiveServer:
             self._viewers[viewer.number] = viewer
         sender = asyncio.create_task(self._send(viewer))
         try:
-            await self._listen(viewer)
+            await self._receive(viewer)
         except ConnectionClosed:
             pass
         finally:
@@ -236,45 +236,45 @@ class LiveServer:
                 self._messages.append((viewer.number, {"type": "left"}))
 
     async def _send(self, viewer: Viewer) -> None:
-        """Send what is new; while the viewer reads slowly, newer things replace older ones."""
+        """Send what is new; for a slow viewer, newer content replaces older content."""
         try:
             while True:
                 await viewer.wake.wait()
                 viewer.wake.clear()
-                for channel, version in self._news(viewer):
+                for channel, version in self._new_versions(viewer):
                     with self._lock:
                         now = self._channels.get(channel)
                     if now is not None:
-                        viewer.sent[channel] = max(version, now[0])
+                        viewer.sent_versions[channel] = max(version, now[0])
                         await viewer.socket.send(now[1])
         except ConnectionClosed:
             return
 
-    def _news(self, viewer: Viewer) -> list[tuple[str, int]]:
-        """Channels with something new for a viewer, and its version; the oldest first."""
+    def _new_versions(self, viewer: Viewer) -> list[tuple[str, int]]:
+        """Return the channels with new content for a viewer, and its version; the oldest first."""
         with self._lock:
-            new = [
+            versions = [
                 (version, channel)
                 for channel, (version, _) in self._channels.items()
-                if version > viewer.sent.get(channel, 0)
-                and (not channel.startswith("?") or channel in viewer.wanted)
+                if version > viewer.sent_versions.get(channel, 0)
+                and (not channel.startswith("?") or channel in viewer.channels)
             ]
-        return [(channel, version) for version, channel in sorted(new)]
+        return [(channel, version) for version, channel in sorted(versions)]
 
-    async def _listen(self, viewer: Viewer) -> None:
-        """Take the viewer's messages; one who says too much, or nonsense, is disconnected."""
-        began, n = self._loop.time(), 0
+    async def _receive(self, viewer: Viewer) -> None:
+        """Receive a viewer's messages; disconnect it if they are too many or invalid."""
+        start, n = self._loop.time(), 0
         async for text in viewer.socket:
             now = self._loop.time()
-            if now - began >= 1.0:
-                began, n = now, 0
+            if now - start >= 1.0:
+                start, n = now, 0
             n += 1
-            message = _message(text)
+            message = _parse_message(text)
             if message is None or n > MAX_MESSAGES:
-                why = "too many messages" if message is not None else "no such message"
-                await viewer.socket.close(1008, why)
+                reason = "too many messages" if message is not None else "invalid message"
+                await viewer.socket.close(1008, reason)
                 return
-            viewer.wanted = _wanted(message, viewer.wanted)
+            viewer.channels = _requested_channels(message, viewer.channels)
             with self._lock:
                 self._messages.append((viewer.number, message))
 
@@ -288,19 +288,19 @@ def _port_of(server: Server) -> int:
     return port
 
 
-def _wanted(message: Message, before: frozenset[str]) -> frozenset[str]:
-    """Return the optional channels that a viewer wants after a message."""
+def _requested_channels(message: Message, channels: frozenset[str]) -> frozenset[str]:
+    """Return the optional channels that a viewer requests after a message."""
     for kind, key, prefix in (("images", "cameras", "?image/"), ("topics", "names", "?topic/")):
         names = message.get(key)
         if message["type"] == kind and isinstance(names, list):
-            kept = {channel for channel in before if not channel.startswith(prefix)}
-            chosen = {f"{prefix}{name}" for name in names[:MAX_WANTED] if isinstance(name, str)}
-            return frozenset(kept | chosen)
-    return before
+            rest = {channel for channel in channels if not channel.startswith(prefix)}
+            texts = (name for name in names[:MAX_REQUESTED] if isinstance(name, str))
+            return frozenset(rest | {f"{prefix}{name}" for name in texts})
+    return channels
 
 
-def _message(text: str | bytes) -> Message | None:
-    """Read a message; None if it is none."""
+def _parse_message(text: str | bytes) -> Message | None:
+    """Parse a message; None if it is invalid."""
     if not isinstance(text, str):
         return None
     try:
@@ -310,7 +310,7 @@ def _message(text: str | bytes) -> Message | None:
     return message if isinstance(message, dict) and isinstance(message.get("type"), str) else None
 
 
-def _text(status: HTTPStatus, text: str, kind: str = "text/plain") -> Response:
+def _text_response(status: HTTPStatus, text: str, kind: str = "text/plain") -> Response:
     body = text.encode()
     headers = Headers(
         {

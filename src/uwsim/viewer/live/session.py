@@ -1,6 +1,6 @@
-"""The live views of one simulation after another, their pace, and the pilots who look on.
+"""The live views of one simulation after another, their pace, and their pilots.
 
-Nothing is written to a simulation but a pilot's inputs, which go over the bus like those of any
+Only a pilot's inputs and resets change a simulation; the inputs go over the bus as those of any
 program.
 """
 
@@ -17,29 +17,28 @@ from ...benchmark.updaters import Level
 from ...runs.trial.level_row import LevelRow
 from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
-from .audience import Audience, News
-from .clock import NAP, Clock
+from .clock import MAX_SLEEP, Clock
 from .mapping import PilotMapping
-from .piloted import piloted_of
+from .pilot_targets import find_pilot_targets
 from .server import LiveServer
 from .view import LiveView
+from .viewer_requests import Changes, ViewerRequests
 
-PATIENCE = 1.0
-"""So long nobody may look before the terminal is told that a simulation waits [s]."""
+REPORT_DELAY = 1.0
+"""The time without a viewer after which the terminal reports that a simulation waits [s]."""
 
 
 class LiveSession:
-    """What viewers see and do while simulations come and go (`uwsim.runs.trial.onlooker.Onlooker`).
+    """The viewers of simulations, one after the other (`uwsim.runs.trial.onlooker.Onlooker`).
 
     Args:
-        server: to whom it is handed.
-        speed: simulation time a second of the wall clock; 0: as fast as it can.
-        mapping: what keys and sticks do; None: nobody pilots.
-        waits: whether a simulation does not begin before somebody looks.
-        resets: whether viewers may put vehicles and objects back where they began; not where
-            anything is scored.
-        wall: returns the wall time [s].
-        say: is told in words what it waits for.
+        server: the server of the pages.
+        speed: the simulation time in a second of the wall clock; 0: no limit.
+        mapping: the mapping of keys and sticks; None: there is no pilot.
+        waits_for_page: True if a simulation begins only when there is a viewer.
+        allows_reset: True if viewers may reset vehicles and objects; not in a scored run.
+        wall: the function that returns the wall time [s].
+        report: the function that reports a wait for a page on the terminal.
     """
 
     def __init__(
@@ -48,23 +47,24 @@ class LiveSession:
         *,
         speed: float = 1.0,
         mapping: PilotMapping | None = None,
-        waits: bool = False,
-        resets: bool = False,
+        waits_for_page: bool = False,
+        allows_reset: bool = False,
         wall: Callable[[], float] = time.monotonic,
-        say: Callable[[str], None] | None = None,
+        report: Callable[[str], None] | None = None,
     ) -> None:
-        self._server, self._wall, self._say = server, wall, say
+        self._server, self._wall, self._report = server, wall, report
         self._clock = Clock(speed, wall)
-        self._audience = Audience(server, self._clock, mapping)
-        self._mapping, self._waits, self._resets = mapping, waits, resets
-        self._piloted: dict[str, Any] = {  # what pilots move, as pages are told
+        self._requests = ViewerRequests(server, self._clock, mapping)
+        self._mapping = mapping
+        self._waits_for_page, self._allows_reset = waits_for_page, allows_reset
+        self._pilot_fields: dict[str, Any] = {  # the pilot's part of the message "state"
             **{"vehicle": 0, "why": "", "names": {}},
             "sticks": ["", "", "", ""] if mapping is None else list(mapping.sticks),
             "mapping": {} if mapping is None else dict(mapping.keys),
             "reserved": [] if mapping is None else sorted(mapping.keys),
         }
         self.view: LiveView | None = None
-        """The view of the simulation that is open."""
+        """The view of the open simulation."""
 
     def open(
         self,
@@ -75,107 +75,107 @@ class LiveSession:
         """Show a simulation from now on; it is at step 0.
 
         Args:
-            simulation: the one.
-            title: of the page.
-            parameters: of the pilot; None: all keys and sticks are shown, or nobody pilots.
+            simulation: the simulation.
+            title: the title of the page.
+            parameters: the pilot's; None: all keys and sticks are shown, or there is no pilot.
         """
-        self._find_out_what_pilots_move(simulation, parameters)
-        self._server.forget(lambda channel: channel != "state")
+        self._update_pilot_fields(simulation, parameters)
+        self._server.remove_channels(lambda channel: channel != "state")
         self.view = view = LiveView(
             simulation,
             self._server,
-            self._audience,
+            self._requests,
             title=title,
-            vehicle=self._piloted["vehicle"],
-            resets=self._resets,
+            vehicle=self._pilot_fields["vehicle"],
+            allows_reset=self._allows_reset,
             wall=self._wall,
         )
-        self._say_state()
-        view.hand_over(is_paused=self._clock.is_paused)
-        if self._waits:
-            self._wait_for_a_page()
+        self._publish_state()
+        view.publish_due(is_paused=self._clock.is_paused)
+        if self._waits_for_page:
+            self._wait_for_page()
         self._clock.begin(simulation.time)
-        simulation.watch(lambda: self._look(simulation, view))
+        simulation.watch(lambda: self._on_step(simulation, view))
 
-    def _find_out_what_pilots_move(
+    def _update_pilot_fields(
         self, simulation: Simulation, parameters: Mapping[str, float | str] | None
     ) -> None:
-        """Keep it for pages, and say on the terminal where it is nothing."""
+        """Update the fields that pages show of the pilot; warn if no vehicle can be steered."""
         mapping = self._mapping
         if mapping is None or parameters is None:
             return
-        piloted = piloted_of(simulation.world, parameters)
-        if piloted.why and piloted.why != self._piloted["why"]:
-            warn(piloted.why)
-        self._piloted |= {
-            "vehicle": piloted.vehicle,
-            "sticks": piloted.sticks(mapping),
-            "why": piloted.why,
-            "names": piloted.names,
-            "mapping": piloted.keys(mapping),
+        targets = find_pilot_targets(simulation.world, parameters)
+        if targets.reason and targets.reason != self._pilot_fields["why"]:
+            warn(targets.reason)
+        self._pilot_fields |= {
+            "vehicle": targets.vehicle,
+            "sticks": targets.sticks(mapping),
+            "why": targets.reason,
+            "names": targets.names,
+            "mapping": targets.keys(mapping),
         }
 
-    def _wait_for_a_page(self) -> None:
-        """Wait until somebody looks; a page that is loaded again is back sooner than it is told."""
-        tells_at = self._wall() + PATIENCE
+    def _wait_for_page(self) -> None:
+        """Wait until there is a viewer; a page that reloads is back before the report."""
+        report_time = self._wall() + REPORT_DELAY
         while not self._server.n_viewers:
-            time.sleep(NAP)
-            if self._say is not None and self._wall() >= tells_at:
-                self._say(f"waits for a page: open {self._server.url}")
-                tells_at = math.inf
+            time.sleep(MAX_SLEEP)
+            if self._report is not None and self._wall() >= report_time:
+                self._report(f"waits for a page: open {self._server.url}")
+                report_time = math.inf
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
-        """A level is measured from now on."""
+        """Show that the measurement of a level begins."""
         if self.view is not None:
             self.view.begin_level(level, measures)
 
     def end_level(self, row: LevelRow) -> None:
-        """A level is over."""
+        """Show that a level is over."""
         if self.view is not None:
             self.view.end_level(row)
 
     def pilot(self) -> Sequence[float] | None:
-        """Return what all pilots do together; None before the first has done anything."""
-        return self._audience.inputs
+        """Return the sum of all pilots' inputs; None before the first input."""
+        return self._requests.inputs
 
     def close(self) -> None:
-        """The simulation is about to be closed."""
+        """End the view, before the simulation is closed."""
         if self.view is not None:
             self.view.close()
         self.view = None
 
-    def end(self, why: str) -> None:
-        """Tell everybody that nothing more comes."""
-        self._server.publish("end", json.dumps({"type": "end", "why": why}))
+    def end(self, reason: str) -> None:
+        """Send the end of the view to all pages."""
+        self._server.publish("end", json.dumps({"type": "end", "why": reason}))
 
-    def _look(self, simulation: Simulation, view: LiveView) -> None:
-        """Hand over what is due, and wait where the view is paused or ahead of its time."""
+    def _on_step(self, simulation: Simulation, view: LiveView) -> None:
+        """Publish what is due, and wait while the view is paused or ahead of its time."""
         if self.view is not view:
             return
-        self._hear(view)
-        while self._clock.waits(simulation.time):
+        self._handle_requests(view)
+        while self._clock.has_to_wait(simulation.time):
             self._clock.sleep(simulation.time)
-            self._hear(view)
-        self._clock.stepped()
+            self._handle_requests(view)
+        self._clock.count_step()
 
-    def _hear(self, view: LiveView) -> None:
-        """Do what viewers have asked for, and hand over what is due."""
-        news = self._audience.hear()
-        if News.PACE in news:
-            self._say_state()
-        if News.RESET in news and self._resets:
+    def _handle_requests(self, view: LiveView) -> None:
+        """Apply the viewers' requests, and publish what is due."""
+        changes = self._requests.receive()
+        if Changes.PACE in changes:
+            self._publish_state()
+        if Changes.RESET in changes and self._allows_reset:
             view.reset()
-        if News.INPUT in news:
-            view.follow()
-        view.hand_over(is_paused=self._clock.is_paused)
+        if Changes.INPUT in changes:
+            view.request_row()
+        view.publish_due(is_paused=self._clock.is_paused)
 
-    def _say_state(self) -> None:
+    def _publish_state(self) -> None:
         state = {
             "type": "state",
             "paused": self._clock.is_paused,
             "speed": self._clock.speed,
             "pilot": self._mapping is not None,
-            "resets": self._resets,
-            **self._piloted,
+            "resets": self._allows_reset,
+            **self._pilot_fields,
         }
         self._server.publish("state", json.dumps(state))

@@ -1,7 +1,7 @@
-"""A live view of one simulation: it looks between steps, and hands copies to the server.
+"""A live view of one simulation: it reads the state between steps, and sends copies.
 
-What it shows depends on the wall clock; the simulation does not: nothing is written to it, unless
-a viewer puts everything back where it began.
+The view depends on the wall clock; the simulation does not: the view does not change it, except by
+a reset that a viewer requests.
 """
 
 from __future__ import annotations
@@ -29,77 +29,77 @@ from ...simulation import Simulation
 from ...simulation.markers.lines import described, looks_of
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import FIELD, view_from_pose
-from .audience import MAX_SIDE, Audience
 from .head import head_of
-from .heard_topics import HeardTopics
 from .readings import Readings
 from .server import LiveServer, Message
+from .topic_monitor import TopicMonitor
+from .viewer_requests import MAX_SIDE, ViewerRequests
 
 RATE = 30.0
-"""Rows a second of the wall clock [Hz]."""
-PROMPT = 0.01
-"""A row goes out so long after an input has changed, when its vehicle has begun to move [s]."""
-MOVED = ("engine", "scenery", "devices", "vehicles")
-"""What of a world goes back to its beginning at a reset."""
+"""The rows in a second of the wall clock [Hz]."""
+INPUT_DELAY = 0.01
+"""The delay of a row after a change of an input, when its vehicle begins to move [s]."""
+RESET_FIELDS = ("engine", "scenery", "devices", "vehicles")
+"""The fields of the state that a reset restores."""
 IMAGE_RATE = 10.0
-"""Images a second of the wall clock [Hz]."""
+"""The images in a second of the wall clock [Hz]."""
 READING_RATE = 5.0
-"""Sets of readings, and messages of each topic, a second of the wall clock [Hz]."""
+"""The sets of readings, and messages of each topic, in a second of the wall clock [Hz]."""
 SAMPLE_RATE = 2.0
-"""Batches of samples a second of the wall clock [Hz]."""
+"""The batches of samples in a second of the wall clock [Hz]."""
 N_BATCHES = 600
-"""Batches of samples that are kept for whoever comes later."""
-QUALITY = 85
-"""Of JPEG images, 0..100."""
+"""The number of batches of samples that are stored for later viewers."""
+JPEG_QUALITY = 85
+"""The quality of JPEG images, 0..100."""
 HEADER = struct.Struct("<BBHId")
 ROW, IMAGE, VIEW, SAND = 1, 2, 3, 4
-"""Kinds of binary messages (`uwsim.viewer.head`)."""
+"""The kinds of binary messages (`uwsim.viewer.head`)."""
 
 
 class LiveView:
-    """What viewers see of a simulation.
+    """The view of one simulation.
 
     Args:
-        simulation: the one, at step 0.
-        server: to whom it is handed.
-        audience: what viewers have asked for.
-        title: of the page.
-        vehicle: number of the vehicle whose readings are shown.
-        resets: whether viewers may put vehicles and objects back where they began.
-        wall: returns the wall time [s].
+        simulation: the simulation, at step 0.
+        server: the server of the pages.
+        requests: the requests of viewers.
+        title: the title of the page.
+        vehicle: the index of the vehicle whose readings are shown.
+        allows_reset: True if viewers may reset vehicles and objects.
+        wall: the function that returns the wall time [s].
     """
 
     def __init__(
         self,
         simulation: Simulation,
         server: LiveServer,
-        audience: Audience,
+        requests: ViewerRequests,
         *,
         title: str,
         vehicle: int,
-        resets: bool,
+        allows_reset: bool,
         wall: Callable[[], float],
     ) -> None:
         self._simulation, self._server, self._wall = simulation, server, wall
-        self._audience = audience
+        self._requests = requests
         self._state = TrackedState(simulation.world)
         self._measures: Sequence[TriggeredMeasure] = ()
-        self._taken: dict[str, int] = {}
+        self._n_sent: dict[str, int] = {}
         self._levels: list[dict[str, Any]] = []
-        self._markers: dict[str, Marker] = {}  # those sent last
+        self._markers: dict[str, Marker] = {}  # sent last
         self._sand = [heap.version for heap in simulation.world.scenery.heaps]  # sent last
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
-        self._prompt = math.inf  # when a row that follows an input is due
-        self._first = copy_fields(simulation.state, MOVED if resets else ())
+        self._early_row = math.inf  # the wall time of a row after an input [s]
+        self._initial_state = copy_fields(simulation.state, RESET_FIELDS if allows_reset else ())
         self._readings = Readings(simulation, vehicle)
-        self._topics = HeardTopics(simulation.bus, lambda: simulation.time, wall)
+        self._topics = TopicMonitor(simulation.bus, lambda: simulation.time, wall)
         head = head_of(simulation, title, self._state)
         server.publish("head", HEADER.pack(0, 0, 0, 0, 0.0) + head)
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
-        """A level is measured from now on."""
-        self._measures, self._taken = measures, {}
+        """Publish that the measurement of a level begins."""
+        self._measures, self._n_sent = measures, {}
         values = dict(level.values)
         label = ", ".join(f"{name} {value:g}" for name, value in values.items())
         now = self._simulation.time
@@ -110,32 +110,32 @@ class LiveView:
         self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
 
     def end_level(self, row: LevelRow) -> None:
-        """A level is over."""
+        """Publish that a level is over."""
         self._send_samples()
         self._measures = ()
-        why = row.missing.get("total", "")
-        self._levels[-1] |= {"status": row.status, "why": why, "end": row.ended_at}
+        reason = row.missing.get("total", "")
+        self._levels[-1] |= {"status": row.status, "why": reason, "end": row.ended_at}
         self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
 
     def reset(self) -> None:
-        """Put vehicles, joints and objects back where they began, at rest; time goes on."""
-        assign_fields(self._simulation.state, self._first)
+        """Restore the initial state of vehicles, joints and objects, at rest; time goes on."""
+        assign_fields(self._simulation.state, self._initial_state)
         self._simulation.world.scenery.redraw()
-        self.follow(0.0)
+        self.request_row(0.0)
 
-    def follow(self, delay: float = PROMPT) -> None:
-        """Send a row soon, after ``delay`` [s of wall time]: an input has changed."""
-        self._prompt = min(self._prompt, self._wall() + delay)
+    def request_row(self, delay: float = INPUT_DELAY) -> None:
+        """Send a row after ``delay`` [s of wall time], as an input has changed."""
+        self._early_row = min(self._early_row, self._wall() + delay)
 
     def close(self) -> None:
-        """Listen to nothing more; the simulation is about to be closed."""
+        """End all subscriptions; the simulation is closed next."""
         self._topics.close()
 
-    def hand_over(self, *, is_paused: bool = False) -> None:
-        """Hand over what is due at this wall time."""
+    def publish_due(self, *, is_paused: bool = False) -> None:
+        """Publish what is due at this wall time."""
         now = self._wall()
-        if now >= self._prompt:
-            self._prompt, self._due["row"] = math.inf, now
+        if now >= self._early_row:
+            self._early_row, self._due["row"] = math.inf, now
         if self._is_due("row", now, RATE):
             row = self._state.row().astype("<f4").tobytes()
             self._server.publish("row", self._header(ROW, 0) + row)
@@ -148,14 +148,14 @@ class LiveView:
         if self._is_due("images", now, IMAGE_RATE):
             self._send_images()
             self._send_views()
-            # where drawing takes long, the simulation goes on between one image and the next
+            # if rendering is slow, the simulation proceeds between two images
             rest = self._wall() + 0.5 / IMAGE_RATE
             self._due["images"] = max(self._due["images"], rest)
 
-    def _is_due(self, what: str, now: float, rate: float) -> bool:
-        if now < self._due[what]:
+    def _is_due(self, stream: str, now: float, rate: float) -> bool:
+        if now < self._due[stream]:
             return False
-        self._due[what] = max(self._due[what] + 1.0 / rate, now)
+        self._due[stream] = max(self._due[stream] + 1.0 / rate, now)
         return True
 
     def _header(self, kind: int, index: int) -> bytes:
@@ -167,40 +167,38 @@ class LiveView:
         """Send the samples of all logs since the last time."""
         if not self._measures:
             return
-        began = self._levels[-1]["start"]
+        start = self._levels[-1]["start"]
         samples: list[tuple[str, str, float, float | None]] = []
-        for triggered in self._measures:
-            name, unit = triggered.spec.name, triggered.measure.unit
-            first = self._taken.get(name, 0)
-            samples += [
-                (name, unit, began + (each[0] or 0.0), each[1]) for each in triggered.log[first:]
-            ]
-            self._taken[name] = len(triggered.log)
+        for measure in self._measures:
+            name, unit = measure.spec.name, measure.measure.unit
+            n_sent = self._n_sent.get(name, 0)
+            samples += [(name, unit, start + (s[0] or 0.0), s[1]) for s in measure.log[n_sent:]]
+            self._n_sent[name] = len(measure.log)
         if samples:
             text = json.dumps({"type": "samples", "samples": samples})
             self._server.publish(f"samples/{self._n_batches}", text)
-            gone = f"samples/{self._n_batches - N_BATCHES}"
-            self._server.forget(lambda channel: channel == gone)
+            old_channel = f"samples/{self._n_batches - N_BATCHES}"
+            self._server.remove_channels(lambda channel: channel == old_channel)
             self._n_batches += 1
 
     def _send_readings(self, now: float, *, is_paused: bool) -> None:
-        """Send the state of the piloted vehicle, and news of topics that pages ask for."""
-        found = self._readings.take(now, is_paused=is_paused)
-        message = {"type": "readings", "time": self._simulation.time, "readings": found}
+        """Send the readings of the piloted vehicle, and new messages of the requested topics."""
+        readings = self._readings.read(now, is_paused=is_paused)
+        message = {"type": "readings", "time": self._simulation.time, "readings": readings}
         self._server.publish("readings", json.dumps(message))
-        if (topics := self._topics.list_changed()) is not None:
+        if (topics := self._topics.changed_list()) is not None:
             self._server.publish("topics", topics)
-        for channel, news in self._topics.news(self._server.wanted()).items():
-            self._server.publish(channel, news)
+        for channel, text in self._topics.new_messages(self._server.channels()).items():
+            self._server.publish(channel, text)
 
     def _send_markers(self) -> None:
-        """Send the markers that programs have spawned, when they have changed."""
+        """Send the spawned markers, if they have changed."""
         world = self._simulation.world
-        shown = world.markers.shown
-        if list(map(id, shown.values())) == list(map(id, self._markers.values())):
+        spawned_markers = world.markers.shown
+        if list(map(id, spawned_markers.values())) == list(map(id, self._markers.values())):
             return
-        self._markers = shown
-        markers = described(looks_of(shown, world.model.scene.world_from_localized))
+        self._markers = spawned_markers
+        markers = described(looks_of(spawned_markers, world.model.scene.world_from_localized))
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_sand(self) -> None:
@@ -212,16 +210,16 @@ class LiveView:
                 self._server.publish(f"sand/{number}", content)
 
     def _send_images(self) -> None:
-        """Send what cameras have published; of those that nobody reads what they would see."""
-        wanted = self._server.wanted()
+        """Send the published camera images; render those of cameras without a subscriber."""
+        channels = self._server.channels()
         world = self._simulation.world
         for index, name in enumerate(world.sensors.cameras):
-            if (channel := f"?image/{name}") in wanted:
-                image = self._image(name, self._audience.width)
-                self._server.publish(channel, self._header(IMAGE, index) + jpeg(image))
+            if (channel := f"?image/{name}") in channels:
+                image = self._image(name, self._requests.width)
+                self._server.publish(channel, self._header(IMAGE, index) + encode_jpeg(image))
 
     def _image(self, camera: str, width: int = MAX_SIDE) -> npt.NDArray[np.uint8]:
-        """Return what a camera sees, ``width`` wide at most."""
+        """Return the image of a camera, at most ``width`` wide."""
         world = self._simulation.world
         view = world.sensors.camera(camera)
         lens = view.intrinsics
@@ -231,9 +229,9 @@ class LiveView:
             if images.camera.name == camera and images.last_pixels is not None:
                 seen = images.last_pixels
                 if is_smaller:
-                    seen = cv2.resize(seen, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
-                return seen
-        if is_smaller:  # what nobody will see is not drawn
+                    image = cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
+                return image
+        if is_smaller:  # no more pixels than the page shows
             lens = lens.with_size(*size)
         colour = world.scenery.render_clean(
             view.world_from_camera, lens, targets={"colour"}, is_polished=view.is_polished
@@ -243,16 +241,16 @@ class LiveView:
         return grey_truncated(pixels) if view.is_grey else pixels
 
     def _send_views(self) -> None:
-        """Draw the newest view that a page without WebGL asks for."""
-        asked = self._audience.view
-        if asked is None:
+        """Draw the newest view that a page without WebGL requests."""
+        request = self._requests.view
+        if request is None:
             return
-        camera = asked.get("camera")
+        camera = request.get("camera")
         if isinstance(camera, str) and camera in self._simulation.world.sensors.cameras:
             image = self._image(camera)
         else:
             try:
-                view = view_from_pose(*_asked_for(asked))
+                view = view_from_pose(*_parse_view(request))
             except BadSetting:
                 return
             scenery = self._simulation.world.scenery
@@ -261,20 +259,20 @@ class LiveView:
             ).colour
             assert colour is not None
             image = colour.view(np.uint8)
-        self._server.publish("view", self._header(VIEW, 0) + jpeg(image))
+        self._server.publish("view", self._header(VIEW, 0) + encode_jpeg(image))
 
 
-def jpeg(image: npt.NDArray[np.uint8]) -> bytes:
-    """Return an image, (h, w, 3) or (h, w), as JPEG."""
-    ordered = image if image.ndim == 2 else image[..., ::-1]
-    _, packed = cv2.imencode(
-        ".jpg", np.ascontiguousarray(ordered), [cv2.IMWRITE_JPEG_QUALITY, QUALITY]
+def encode_jpeg(image: npt.NDArray[np.uint8]) -> bytes:
+    """Encode an image, (h, w, 3) or (h, w), as JPEG."""
+    bgr = image if image.ndim == 2 else image[..., ::-1]
+    _, buffer = cv2.imencode(
+        ".jpg", np.ascontiguousarray(bgr), [cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY]
     )
-    return bytes(packed.tobytes())
+    return bytes(buffer.tobytes())
 
 
-def _asked_for(message: Message) -> tuple[Pose, tuple[int, int], float]:
-    """Read pose, size and vertical field of a view; raises BadSetting where they are none."""
+def _parse_view(message: Message) -> tuple[Pose, tuple[int, int], float]:
+    """Read pose, size and vertical field of a view; raise BadSetting if they are invalid."""
     pose, size = message.get("pose"), (message.get("width"), message.get("height"))
     field = message.get("fovy", FIELD)
     values = [*pose, *size, field] if isinstance(pose, list) and len(pose) == 7 else []
@@ -286,5 +284,5 @@ def _asked_for(message: Message) -> tuple[Pose, tuple[int, int], float]:
     is_valid = 16 <= width <= MAX_SIDE and 16 <= height <= MAX_SIDE and 0.01 <= fovy <= 3.1
     if not is_valid or np.linalg.norm(rows[3:]) < 1e-3:
         raise BadSetting("The size, the field or the orientation of the view is out of range.")
-    where = Pose(rows[:3], rotation_from_quaternion(rows[3:]))
-    return where, (int(width), int(height)), fovy
+    world_from_camera = Pose(rows[:3], rotation_from_quaternion(rows[3:]))
+    return world_from_camera, (int(width), int(height)), fovy

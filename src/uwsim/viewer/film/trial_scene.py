@@ -1,4 +1,4 @@
-"""A scene in which everything is put where it was in a recorded trial."""
+"""The scene of a recorded trial, in the recorded state of any time."""
 
 from __future__ import annotations
 
@@ -16,47 +16,47 @@ from ...simulation.tracked_state import LAMP
 from ..recorded import RecordedTrial
 
 
-class Puppets:
-    """The scene of a trial, opened, and the motion that its bodies are moved by.
+class TrialScene:
+    """The scene of a trial, opened, and its recorded motion.
 
     Args:
-        trial: the one.
-        simulation: its scene, opened before; it is not closed here. None: it is opened.
+        trial: the trial.
+        simulation: its scene, if it is open; it is not closed here. None: it is opened here.
     """
 
     def __init__(self, trial: RecordedTrial, simulation: Simulation | None = None) -> None:
-        self.simulation = simulation or scene_of(trial)
-        """The scene; it is not run."""
+        self.simulation = simulation or open_scene(trial)
+        """The simulation with the scene; it does not run."""
         self.track = trial.track
-        """Where everything was."""
+        """The recorded motion."""
         self._bodies = TrackedBodies(self.simulation.world)
-        known = {name: row for row, name in enumerate(self.track.bodies)}
-        self._rows = [known.get(name) for name in self._bodies.names]
-        self._first = self._bodies.rows()
-        self._owns = simulation is None
+        columns = {name: row for row, name in enumerate(self.track.bodies)}
+        self._rows = [columns.get(name) for name in self._bodies.names]
+        self._initial_rows = self._bodies.rows()
+        self._owns_simulation = simulation is None
 
-    def put(self, time: float) -> None:
-        """Show the scene of a time since the simulation began [s], between two frames too."""
-        before, share = frame_at(self.track, time)
-        after = min(before + 1, self.track.n_frames - 1)
-        poses = blended(self.track.poses[before], self.track.poses[after], share)
-        rows = self._first.copy()
+    def show_time(self, time: float) -> None:
+        """Show the scene at a simulation time [s], also between two frames."""
+        frame, share = frame_at(self.track, time)
+        next_frame = min(frame + 1, self.track.n_frames - 1)
+        poses = interpolate_poses(self.track.poses[frame], self.track.poses[next_frame], share)
+        rows = self._initial_rows.copy()
         for row, number in enumerate(self._rows):
             if number is not None:
                 rows[row] = poses[number]
         self._bodies.show(rows)
         world = self.simulation.world
-        fog, light = self.signal("fog", before), self.signal("light_rate", before)
+        fog, light = self.signal("fog", frame), self.signal("light_rate", frame)
         if fog is not None:
             world.scenery.set_fog(fog)
         if light is not None:
             world.scenery.set_light_rate(light)
         for lamp in world.devices:
             if isinstance(lamp, MountedLamp):
-                brightness = self.signal(f"{LAMP}{lamp.spec.name}", before)
+                brightness = self.signal(f"{LAMP}{lamp.spec.name}", frame)
                 lamp.state.brightness = 1.0 if brightness is None else brightness
         for number, heap in enumerate(world.scenery.heaps):
-            heap.show(self.track.sand.spots(number, before))
+            heap.show(self.track.sand.spots(number, frame))
 
     def signal(self, name: str, frame: int) -> float | None:
         """Return a signal in a frame; None where there is none."""
@@ -64,7 +64,7 @@ class Puppets:
         return None if values is None or math.isnan(values[frame]) else float(values[frame])
 
     def markers(self, time: float) -> dict[str, DrawnMarker]:
-        """Return the markers that were there at a time since the simulation began [s]."""
+        """Return the markers at a simulation time [s]."""
         return markers_at(self.track.markers, frame_at(self.track, time)[0])
 
     def corners(self, kind: str, camera: str, time: float) -> Array | None:
@@ -72,23 +72,23 @@ class Puppets:
 
         Args:
             kind: ``truth`` or ``estimate``.
-            camera: its name.
-            time: since the simulation began [s].
+            camera: the name of the camera.
+            time: the simulation time [s].
         """
         frame, _ = frame_at(self.track, time)
         names = [f"{kind}/{camera}/{k}/{axis}" for k in range(4) for axis in "uv"]
-        found = [self.signal(name, frame) for name in names]
-        if any(each is None for each in found):
+        values = [self.signal(name, frame) for name in names]
+        if any(value is None for value in values):
             return None
-        return np.array(found, dtype=np.float64).reshape(4, 2)
+        return np.array(values, dtype=np.float64).reshape(4, 2)
 
     def close(self) -> None:
         """Close the scene, if it was opened here."""
-        if self._owns:
+        if self._owns_simulation:
             self.simulation.close()
 
 
-def scene_of(trial: RecordedTrial) -> Simulation:
+def open_scene(trial: RecordedTrial) -> Simulation:
     """Open the scene of a trial; Python code that it names is not run."""
     model = compile_scene(
         trial.scene,
@@ -101,14 +101,14 @@ def scene_of(trial: RecordedTrial) -> Simulation:
 
 
 def frame_at(track: MotionTrack, time: float) -> tuple[int, float]:
-    """Return the frame at or before a time [s], and the share of the way to the next, 0..1."""
+    """Return the frame at or before a time [s], and the fraction of the way to the next, 0..1."""
     place = min(max(time * track.rate, 0.0), track.n_frames - 1.0)
     frame = min(int(place + 1e-6), track.n_frames - 1)
     return frame, min(max(place - frame, 0.0), 1.0)
 
 
-def blended(before: Array, after: Array, share: float) -> Array:
-    """Return poses (n, 7) between two rows of poses; quaternions by normalised mean."""
-    rows: Array = (1.0 - share) * before + share * after
+def interpolate_poses(start: Array, end: Array, share: float) -> Array:
+    """Interpolate poses (n, 7) between two frames; quaternions by their normalised mean."""
+    rows: Array = (1.0 - share) * start + share * end
     rows[:, 3:] /= np.maximum(np.linalg.norm(rows[:, 3:], axis=1, keepdims=True), 1e-9)
     return rows

@@ -1,7 +1,7 @@
-"""Topics that pages ask for: the numbers and texts of their newest messages.
+"""The topics that pages request: the numbers and texts of their newest messages.
 
-A topic is listened to as somebody who does not count (`uwsim.bus.Bus.subscribe`), so nothing is
-published, drawn or changed for it. A topic that nobody else reads may therefore be silent.
+The subscriptions do not count as such (`uwsim.bus.Bus.subscribe`): nothing is published, rendered
+or changed for them. A topic without another subscriber may therefore have no messages.
 """
 
 from __future__ import annotations
@@ -11,96 +11,92 @@ import json
 import math
 from collections.abc import Callable, Iterator, Set
 from functools import partial
+from itertools import islice
 from typing import Any
 
 import numpy as np
 
 from ...bus import Bus
 
-PERIOD = 0.1
-"""Least wall time between two messages of a topic that are taken apart [s]."""
+MIN_PERIOD = 0.1
+"""The shortest wall time between two messages of a topic that are read [s]."""
 MAX_FIELDS = 40
-"""Of a message that is shown."""
+"""The greatest number of fields of a message that are shown."""
 MAX_ENTRIES = 8
-"""Of an array in it."""
+"""The greatest number of entries of an array."""
 MAX_LETTERS = 200
-"""Of a text in it."""
+"""The greatest number of letters of a text."""
 CHANNEL = "?topic/"
-"""How the channel of a topic begins."""
+"""The prefix of the channel of a topic."""
 Value = float | str | None
 
 
-class HeardTopics:
-    """The topics of one simulation that pages ask for.
+class TopicMonitor:
+    """The topics of one simulation that pages request.
 
     Args:
-        bus: of the simulation.
-        time: returns the simulation time [s].
-        wall: returns the wall time [s].
+        bus: the bus of the simulation.
+        time: the function that returns the simulation time [s].
+        wall: the function that returns the wall time [s].
     """
 
     def __init__(self, bus: Bus, time: Callable[[], float], wall: Callable[[], float]) -> None:
         self._bus, self._time, self._wall = bus, time, wall
         self._stops: dict[str, Callable[[], None]] = {}
         self._due: dict[str, float] = {}
-        self._news: dict[str, str] = {}
-        self._listed: dict[str, str] = {}
+        self._new_messages: dict[str, str] = {}
+        self._last_list: dict[str, str] = {}
 
-    def list_changed(self) -> str | None:
-        """Return the list of all topics as a message, where it is another than the last time."""
+    def changed_list(self) -> str | None:
+        """Return the list of all topics as a message, if it has changed."""
         topics = self._bus.topics
-        if topics == self._listed:
+        if topics == self._last_list:
             return None
-        self._listed = topics
+        self._last_list = topics
         return json.dumps({"type": "topics", "topics": list(topics.items())})
 
-    def news(self, wanted: Set[str]) -> dict[str, str]:
-        """Return what came on the wanted channels since the last call, channel -> message."""
-        names = {channel.removeprefix(CHANNEL) for channel in wanted if channel.startswith(CHANNEL)}
+    def new_messages(self, channels: Set[str]) -> dict[str, str]:
+        """Return the new messages on the channels since the last call, channel -> message."""
+        names = {name.removeprefix(CHANNEL) for name in channels if name.startswith(CHANNEL)}
         for name in self._stops.keys() - names:
             self._stops.pop(name)()
         for name in names - self._stops.keys():
             if name in self._bus.topics:
-                heard = partial(self._hear, name)
-                self._stops[name] = self._bus.subscribe(name, object, heard, counts=False)
+                handler = partial(self._on_message, name)
+                self._stops[name] = self._bus.subscribe(name, object, handler, counts=False)
                 self._due[name] = 0.0
-        news, self._news = self._news, {}
+        news, self._new_messages = self._new_messages, {}
         return {f"{CHANNEL}{name}": text for name, text in news.items() if name in names}
 
     def close(self) -> None:
-        """Listen to nothing more."""
+        """End all subscriptions."""
         for stop in self._stops.values():
             stop()
         self._stops.clear()
 
-    def _hear(self, name: str, message: object) -> None:
+    def _on_message(self, name: str, message: object) -> None:
         wall = self._wall()
         if wall < self._due[name]:
             return
-        self._due[name] = wall + PERIOD
-        fields = list(_first(fields_of(message), MAX_FIELDS + 1))
-        about = {"type": "topic", "name": name, "time": self._time()}
+        self._due[name] = wall + MIN_PERIOD
+        fields = list(islice(fields_of(message), MAX_FIELDS + 1))
+        head = {"type": "topic", "name": name, "time": self._time()}
         cut = {"fields": fields[:MAX_FIELDS], "is_cut": len(fields) > MAX_FIELDS}
-        self._news[name] = json.dumps(about | cut)
-
-
-def _first(fields: Iterator[tuple[str, Value]], n: int) -> Iterator[tuple[str, Value]]:
-    for _, field in zip(range(n), fields, strict=False):
-        yield field
+        self._new_messages[name] = json.dumps(head | cut)
 
 
 def fields_of(message: object, path: str = "") -> Iterator[tuple[str, Value]]:
     """Yield the numbers and texts in a message, with their paths as ``pose.position.x``.
 
-    Of an array the first entries, and its length as ``NAME.length`` where it has more. What is not
-    finite is None. Headers and covariances are left out.
+    An array has its first entries, and its length as ``NAME.length`` if it has more. Values that
+    are not finite are None. Headers and covariances are left out.
     """
     if dataclasses.is_dataclass(message):
         for field in dataclasses.fields(message):
             if field.name.startswith("header") or field.name.endswith("covariance"):
                 continue
-            under = f"{path}.{field.name}" if path else field.name
-            yield from fields_of(getattr(message, field.name), under)
+            field_path = f"{path}.{field.name}" if path else field.name
+            yield from fields_of(getattr(message, field.name), field_path)
     elif isinstance(message, str):
         yield path, message[:MAX_LETTERS]
     elif isinstance(message, bool | np.bool_ | int | float | np.number):

@@ -1,0 +1,77 @@
+"""The vehicle and axes that viewers pilot, and the reason if there are none."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from ...algorithms.pilot import N_JOINTS, THRUSTER_AXES, TWIST_AXES
+from ...simulation.live_scene import LiveScene
+from .mapping import PilotMapping
+
+STEERING = ("twist_topic", "odom_topic", "thrusters_topic")
+"""The parameters of `uwsim.algorithms.pilot.Pilot` that steer the vehicle."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PilotTargets:
+    """The vehicle and the axes that pilots can move."""
+
+    vehicle: int
+    """The index of the vehicle in the scene; 0 if none is steered."""
+    axes: frozenset[str]
+    """The axes of `uwsim.algorithms.pilot.AXES` that have an effect."""
+    reason: str
+    """The reason why no vehicle can be steered; empty if one can be."""
+    names: Mapping[str, str]
+    """The names of the joints and thrusters in the vehicle's files, by their axes."""
+
+    def keys(self, mapping: PilotMapping) -> dict[str, str]:
+        """Return the keys that have an effect, with their axes."""
+        return {key: targets for key, targets in mapping.keys.items() if self._moves(targets)}
+
+    def sticks(self, mapping: PilotMapping) -> list[str]:
+        """Return the targets of the sticks: left x, left y, right x, right y; or empty."""
+        return [targets if self._moves(targets) else "" for targets in mapping.sticks]
+
+    def _moves(self, targets: str) -> bool:
+        return any(target.lstrip("+-") in self.axes for target in targets.split())
+
+
+def find_pilot_targets(world: LiveScene, parameters: Mapping[str, float | str]) -> PilotTargets:
+    """Return the targets of a pilot with these parameters in a scene."""
+    settings = {name: str(value) for name, value in parameters.items()}
+    topics = {settings[name] for name in STEERING if settings.get(name)}
+    axes: set[str] = set()
+    names: dict[str, str] = {}
+    if settings.get("twist_topic") or settings.get("odom_topic"):
+        axes.update(TWIST_AXES)
+    if settings.get("thrusters_topic"):
+        axes.update(THRUSTER_AXES[: int(float(settings.get("n_thrusters", 0)))])
+    if settings.get("joints_topic"):
+        joints = enumerate(settings.get("joints", "").split()[:N_JOINTS], start=1)
+        names.update({f"joint{number}": name for number, name in joints})
+        names.update({"jaw": jaw} if (jaw := settings.get("jaw", "").strip()) else {})
+        axes.update(names)
+    if settings.get("lamp_topics", "").strip():
+        axes.add("lamps")
+    reason = ""
+    if not world.vehicles:
+        reason = "Nothing can be piloted: the scene has no vehicle."
+    elif not topics:
+        reason = (
+            "No vehicle can be steered: the scene has no <ROSTwistToPAT> and no "
+            "<u:ROSThrustersToPAT> in its <rosInterfaces>."
+        )
+    vehicles = [
+        world.vehicles.names.index(name)
+        for spec in world.model.scene.ros_interfaces
+        if getattr(spec, "topic", None) in topics
+        and (name := getattr(spec, "vehicle_name", None)) in world.vehicles.names
+    ]
+    vehicle = next(iter(vehicles), 0)
+    if world.vehicles:
+        thrusters = world.vehicles.find(world.vehicles.names[vehicle]).thrusters
+        pairs = zip(THRUSTER_AXES, thrusters, strict=False)
+        names.update({axis: name for axis, name in pairs if axis in axes})
+    return PilotTargets(vehicle=vehicle, axes=frozenset(axes), reason=reason, names=names)

@@ -1,0 +1,100 @@
+"""The requests of viewers: inputs of pilots, views and images, and the pace."""
+
+from __future__ import annotations
+
+from enum import Flag, auto
+
+from ...algorithms.pilot import AXES
+from ...base.external_values import read_number
+from .clock import Clock
+from .mapping import PilotMapping, sum_inputs
+from .server import LiveServer, Message
+
+MAX_SIDE = 1280
+"""The greatest side of a view that is drawn for a page without WebGL [px]."""
+
+
+class Changes(Flag):
+    """The changes by the messages of viewers."""
+
+    NONE = 0
+    PACE = auto()
+    """A change of the pace."""
+    RESET = auto()
+    """A request to reset vehicles and objects."""
+    INPUT = auto()
+    """A change of a pilot's input."""
+
+
+class ViewerRequests:
+    """The requests of all viewers, which stay from one simulation to the next.
+
+    Args:
+        server: the source of their messages.
+        clock: the clock that they control.
+        mapping: the mapping of keys and sticks; None: there is no pilot.
+    """
+
+    def __init__(self, server: LiveServer, clock: Clock, mapping: PilotMapping | None) -> None:
+        self._server, self._clock, self._mapping = server, clock, mapping
+        self._views: dict[int, Message] = {}
+        self._widths: dict[int, int] = {}  # of the images of each viewer [px]
+        self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
+
+    @property
+    def inputs(self) -> tuple[float, ...] | None:
+        """The sum of all pilots' inputs, -1..1; None before the first input."""
+        return sum_inputs(self._inputs)
+
+    @property
+    def view(self) -> Message | None:
+        """The newest view that a page without WebGL requests; None if there is none."""
+        return next(reversed(self._views.values()), None)
+
+    @property
+    def width(self) -> int:
+        """The width of the images for the widest viewer [px]."""
+        return max(self._widths.values(), default=MAX_SIDE)
+
+    def receive(self) -> Changes:
+        """Read the messages of viewers since the last call; return what changed."""
+        changes = Changes.NONE
+        for viewer, message in self._server.take_messages():
+            try:
+                changes |= self._handle(viewer, message)
+            except Exception as error:  # no message of a viewer may end the run
+                self._server.disconnect(viewer, f"{type(error).__name__} in a message")
+        return changes
+
+    def _handle(self, viewer: int, message: Message) -> Changes:
+        kind = message["type"]
+        if kind == "control" and self._clock.apply_control(message):
+            return Changes.PACE
+        if kind == "control" and message.get("action") == "reset":
+            return Changes.RESET
+        if kind == "view":
+            self._views.pop(viewer, None)
+            self._views[viewer] = message
+        elif kind == "images":
+            self._widths[viewer] = _width_of(message)
+        elif kind == "input" and self._mapping is not None:
+            return self._set_input(viewer, self._mapping.values(message))
+        elif kind == "left":
+            self._views.pop(viewer, None)
+            self._widths.pop(viewer, None)
+            if viewer in self._inputs:
+                return self._set_input(viewer, (0.0,) * len(AXES))
+        return Changes.NONE
+
+    def _set_input(self, viewer: int, values: tuple[float, ...]) -> Changes:
+        """Store the present input of a viewer's pilot."""
+        if self._inputs.get(viewer) == values:
+            return Changes.NONE
+        self._inputs[viewer] = values
+        return Changes.INPUT
+
+
+def _width_of(message: Message) -> int:
+    """Return the width of the images that a viewer requests [px]; the greatest by default."""
+    width = read_number(message.get("width"))
+    return MAX_SIDE if width is None else round(min(max(width, 16.0), MAX_SIDE))
