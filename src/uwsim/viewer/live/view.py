@@ -227,7 +227,7 @@ class LiveView:
         is_smaller = width < lens.width
         for images in self._simulation.world.images.values():
             if images.camera.name == camera and images.last_pixels is not None:
-                seen = images.last_pixels
+                image = images.last_pixels
                 if is_smaller:
                     image = cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
                 return image
