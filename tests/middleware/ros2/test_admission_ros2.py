@@ -16,7 +16,7 @@ from uwsim.middleware.encodings import to_cdr
 from uwsim.middleware.ros2.participant import Participant
 from uwsim.middleware.ros2.quality import Quality
 from uwsim.middleware.ros2.raw_types import CDR_HEADER, raw_type
-from uwsim.middleware.ros2.service_server import CALL, CALL_FIELDS
+from uwsim.middleware.ros2.service_server import CALL_FIELDS, CALL_HEADER
 from uwsim.middleware.ros2.settings import Ros2Settings
 from uwsim.middleware.types import ros2_store
 
@@ -78,14 +78,14 @@ def test_another_participant_calls_no_service(
 
     simulator.bus.services.serve("reset", Empty, answer)
     simulator.step()
-    kind = raw_type(ros2_store(), "std_srvs/srv/Empty_Request", before=CALL_FIELDS)
+    kind = raw_type(ros2_store(), "std_srvs/srv/Empty_Request", first_fields=CALL_FIELDS)
     writers = [each.writer("rq/resetRequest", kind, Quality()) for each in two]
     until(lambda: all(writer.n_readers for writer in writers), simulator.step)
     admission = simulator.bridge.admission
     assert admission is not None
     admission.admit(named(two[1]))
     data = bytes(to_cdr(Empty()))
-    call = data[:CDR_HEADER] + CALL.pack(1, 1) + data[CDR_HEADER:]
+    call = data[:CDR_HEADER] + CALL_HEADER.pack(1, 1) + data[CDR_HEADER:]
     refused: list[tuple[str, str, int]] = []
     until(
         lambda: refused,

@@ -60,15 +60,15 @@ def test_an_rclpy_that_cannot_be_imported_is_told(
     (tmp_path / "rclpy" / "__init__.py").write_text(broken)
     monkeypatch.syspath_prepend(tmp_path)
     assert told({}, domain) == [
-        "uwsim: ros2: rclpy is there, and cannot be imported: librcl.so: cannot open shared object "
-        "file",
+        "uwsim: ros2: rclpy is installed but cannot be imported: librcl.so: cannot open shared "
+        "object file",
         "uwsim: ros2: a node on Cyclone DDS, without rclpy; for nodes on this computer",
     ]
 
 
 @pytest.mark.usefixtures("no_rclpy")
 def test_an_rclpy_that_is_asked_for_and_not_there_is_an_error(domain: int) -> None:
-    with pytest.raises(UwsimError, match="UWSIM_ROS2=rclpy, and it cannot be imported"):
+    with pytest.raises(UwsimError, match="UWSIM_ROS2=rclpy, but rclpy cannot be imported"):
         open_node({"UWSIM_ROS2": "rclpy"}, domain, Log("ros2", print))
 
 

@@ -18,7 +18,7 @@ from uwsim.middleware.types import SERVICES, ros2_store, service, wire_service
 
 pytest.importorskip("rclpy", reason="rclpy cannot be imported here; test_with_rclpy has it")
 
-from uwsim.middleware.ros2.rclpy_types import RclpyTypes, has_our_fields, how_to_get
+from uwsim.middleware.ros2.rclpy_types import RclpyTypes, has_same_fields, install_command
 
 
 @pytest.fixture
@@ -145,8 +145,8 @@ def test_types_that_rclpy_lacks_are_told_a_package_a_line_and_the_rest_goes_on(
     topics, services = (line.removeprefix("uwsim: : ") for line in simulator.lines)
     assert topics == (
         "not on the graph: /rov/second_sonar, /rov/sonar. rclpy has no marine_acoustic_msgs: "
-        "apt install ros-$ROS_DISTRO-marine-acoustic-msgs; or UWSIM_ROS2=dds, which does without "
-        "rclpy"
+        "apt install ros-$ROS_DISTRO-marine-acoustic-msgs; or set UWSIM_ROS2=dds, which does "
+        "not need rclpy"
     )
     assert services.startswith("not on the graph: /autoInit. rclpy")
     simulator.step()
@@ -191,7 +191,7 @@ def test_a_service_outside_whose_type_rclpy_lacks_is_an_error_that_names_it(
 
 
 def test_how_to_get_the_package_of_uwsim_is_to_build_its_folder() -> None:
-    command, _, folder = how_to_get("underwater_sensor_msgs").rpartition(" ")
+    command, _, folder = install_command("underwater_sensor_msgs").rpartition(" ")
     assert command == "colcon build --base-paths"
     assert (Path(folder) / "package.xml").is_file()
 
@@ -223,7 +223,7 @@ def test_all_types_of_the_packages_that_rclpy_has_have_our_fields() -> None:
         for name in ros2_store().fielddefs
         if name.startswith(here) and "_Event" not in name and name.count("/") == 2
     ]
-    wrong = [name for name in names if name not in SERVICES and not has_our_fields(name)]
+    wrong = [name for name in names if name not in SERVICES and not has_same_fields(name)]
     assert len(names) > 90
     assert wrong == []
 

@@ -1,8 +1,8 @@
 """The bus as a node of a ROS 2 graph.
 
-Endpoints follow the bus: what is published there has a writer, what is read there has a reader, and
-services are offered. A camera renders while a reader matches its writer. Messages are encoded
-in a thread of their own (``uwsim-ros2-out``), so that the simulation does not wait for it.
+Endpoints follow the bus: a published topic has a writer, a topic that is read has a reader, and
+services are offered. A camera renders while a reader matches its writer. A thread of its own
+(``uwsim-ros2-out``) encodes messages, so that the simulation does not wait for it.
 """
 
 from __future__ import annotations
@@ -23,22 +23,22 @@ from ..log import Log
 from ..queues import MAX_ITEMS, LatestQueue
 from ..stamps import clock_time, to_ros_clock, to_simulation_time
 from ..types import message_class, wire_service
-from .names import MAX_NAME, is_legal
+from .names import MAX_NAME_LENGTH, is_legal
 from .node import BytesReader, BytesWriter, Endpoint, Ros2Node
 from .quality import CLOCK, Quality, quality_of
 
 CLOSE_S = 5.0
-"""How long the last messages may take at the end [s]."""
+"""The time limit for sending the last messages at the end [s]."""
 
 
 class Ros2(Bridge):
-    """Connects a bus to a domain of ROS 2.
+    """The connection of a bus to a domain of ROS 2.
 
     Args:
-        bus: of the simulation.
+        bus: the bus of the simulation.
         clock: returns the simulation time [s].
-        node: in the graph; `close` closes it.
-        log: where events are reported.
+        node: the node in the graph; `close` closes it.
+        log: the log for events.
     """
 
     traits = TransportTraits(needs_discovery=True, needs_invitation=True, clock_period=ROS_PERIOD)
@@ -49,13 +49,13 @@ class Ros2(Bridge):
         self._writers: dict[str, BytesWriter] = {}
         self._readers: dict[str, BytesReader] = {}
         self._servers: dict[str, Endpoint] = {}
-        self._whole: set[str] = set()
-        self._left_out: set[str] = set()
-        self._outgoing: LatestQueue[tuple[str, object]] = LatestQueue()
+        self._complete_topics: set[str] = set()
+        self._illegal_names: set[str] = set()
+        self._send_queue: LatestQueue[tuple[str, object]] = LatestQueue()
         self._clock_class = message_class("rosgraph_msgs/Clock")
         self._n_clocks = 0
         self._add_writer(CLOCK, self._clock_class, self._on_clocks)
-        node.tell()
+        node.announce_endpoints()
         self._stop_elsewhere = bus.services.serve_elsewhere(
             node.offers, self.external_services.call_and_wait
         )
@@ -63,46 +63,48 @@ class Ros2(Bridge):
         self._thread.start()
 
     def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
-        """Make writers for what is published on the bus, readers for what is read there."""
-        legal = {name: ends for name, ends in topics.items() if self._is_legal(name)}
-        published = {name: ends for name, ends in legal.items() if ends.is_published}
-        read = {name: ends for name, ends in legal.items() if ends.is_read}
-        for name in sorted(set(self._writers) - set(published) - {CLOCK}):
+        """Make writers for the published topics of the bus, readers for those that are read."""
+        legal_topics = {name: ends for name, ends in topics.items() if self._is_legal(name)}
+        published_topics = {name: ends for name, ends in legal_topics.items() if ends.is_published}
+        read_topics = {name: ends for name, ends in legal_topics.items() if ends.is_read}
+        for name in sorted(set(self._writers) - set(published_topics) - {CLOCK}):
             self._writers.pop(name).close()
-        for name in sorted(set(self._readers) - set(read)):
+        for name in sorted(set(self._readers) - set(read_topics)):
             self._readers.pop(name).close()
-        for name in sorted(set(published) - set(self._writers)):
-            self._add_writer(name, published[name].type, _ReaderCount(self, name, self._node.lease))
-        for name in sorted(set(read) - set(self._readers)):
-            self._add_reader(name, read[name].type)
-        self._node.tell()
+        for name in sorted(set(published_topics) - set(self._writers)):
+            self._add_writer(
+                name, published_topics[name].type, _ReaderCount(self, name, self._node.lease)
+            )
+        for name in sorted(set(read_topics) - set(self._readers)):
+            self._add_reader(name, read_topics[name].type)
+        self._node.announce_endpoints()
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Offer the services of the bus."""
-        legal = set(filter(self._is_legal, services))
-        for name in sorted(set(self._servers) - legal):
+        legal_names = set(filter(self._is_legal, services))
+        for name in sorted(set(self._servers) - legal_names):
             self._servers.pop(name).close()
-        for name in sorted(legal - set(self._servers)):
+        for name in sorted(legal_names - set(self._servers)):
             kind = wire_service(services[name])
             self._servers[name] = self._node.server(name, kind, partial(self.request, name))
-        self._node.tell()
+        self._node.announce_endpoints()
 
     def _is_legal(self, name: str) -> bool:
-        """Whether ROS 2 allows a name; says once that it does not."""
+        """Return whether ROS 2 allows a name; report once that it does not."""
         if is_legal(name):
             return True
-        if name not in self._left_out:
-            self._left_out.add(name)
+        if name not in self._illegal_names:
+            self._illegal_names.add(name)
             self.log.report(
                 f"not on the graph: /{name[:300]}. A name of ROS 2 has letters, digits and _ "
-                f"between slashes, no part begins with a digit, and it has {MAX_NAME} letters at "
-                "most"
+                f"between slashes, no part begins with a digit, and it has at most "
+                f"{MAX_NAME_LENGTH} letters"
             )
         return False
 
     def send(self, topic: str, message: object) -> None:
         """Queue a message; the oldest are dropped while readers are too slow."""
-        if self._outgoing.put((topic, message), size_of(message)):
+        if self._send_queue.put((topic, message), size_of(message)):
             self.log.report(
                 "readers do not keep up; the oldest messages are dropped", kind="outgoing flood"
             )
@@ -110,40 +112,38 @@ class Ros2(Bridge):
     def read_all(self, topic: str) -> None:
         """Read a topic with its history (transient local), which its publishers then must offer.
 
-        A reader without history takes no sample that came before it knew the writer, and a writer
-        cannot tell when that is.
+        A reader without history misses samples from before it has discovered the writer, and a
+        writer cannot tell when that is.
         """
         name = topic.lstrip("/")
-        self._whole.add(name)
+        self._complete_topics.add(name)
         if name in self._readers:
             self._readers.pop(name).close()
             self._add_reader(name, self._topics[name].type)
 
     def _tick(self) -> None:
-        """Tell the time when it is due, and whether the thread of the node has ended."""
+        """Publish the time if it is due; report if the thread of the node has ended."""
         if self._node.error is not None:
             self.log.report(f"stopped: {self._node.error}", kind="stopped")
         super()._tick()
 
     def _publish_clock(self) -> None:
-        """Publish the time, if anybody reads it."""
         if self._n_clocks:
             self.send(CLOCK, self._clock_class(clock=clock_time(self.clock_topic.time())))
 
     def _clock_is_read(self) -> bool:
-        """Whether a reader matches the writer of ``/clock``."""
         return self._n_clocks > 0
 
     def has_publisher(self, topic: str) -> bool:
-        """Whether a writer outside matches the reader of ``topic``."""
+        """Return whether an external writer matches the reader of ``topic``."""
         reader = self._readers.get(topic)
         return reader is not None and reader.n_writers > 0
 
     def close(self) -> None:
-        """Send what waits, and leave the graph."""
+        """Send the waiting messages, and leave the graph."""
         self.send("", None)
         self._thread.join(timeout=CLOSE_S)
-        self._outgoing.close()
+        self._send_queue.close()
         self._stop_elsewhere()
         self._node.close()
         super().close()
@@ -153,7 +153,7 @@ class Ros2(Bridge):
         return self._node.call(name, request)
 
     def _publisher_of(self, topic: str) -> str:
-        """Nodes that publish a topic; a message does not say which of them sent it."""
+        """Return the nodes that publish a topic; a message does not state which of them sent it."""
         nodes = self._node.publishers(topic)
         return f"node {nodes[0]}" if len(nodes) == 1 else " or ".join(nodes[:3])
 
@@ -165,10 +165,14 @@ class Ros2(Bridge):
         self._writers[name] = self._node.writer(name, type, quality_of(name), on_readers)
 
     def _add_reader(self, name: str, type: type) -> None:
-        is_latched = name in (*LATCHED, *self._whole)
+        is_latched = name in (*LATCHED, *self._complete_topics)
         quality = Quality(depth=MAX_ITEMS, is_latched=is_latched, ignores_own=True)
         self._readers[name] = self._node.reader(
-            name, type, quality, partial(self._receive, name, type), partial(self._refuse, name)
+            name,
+            type,
+            quality,
+            partial(self._receive, name, type),
+            partial(self._report_best_effort, name),
         )
 
     def _receive(self, name: str, type: type, data: bytes, sender: str = "") -> None:
@@ -177,7 +181,7 @@ class Ros2(Bridge):
         except BadMessage as error:
             self.log.report(f"/{name}: a message was refused: {error}", kind=f"refused {name}")
 
-    def _refuse(self, name: str) -> None:
+    def _report_best_effort(self, name: str) -> None:
         self.log.report(
             f"/{name}: a publisher offers best effort only; it is not read, as commands must not "
             "be lost: set its reliability to RELIABLE",
@@ -185,8 +189,8 @@ class Ros2(Bridge):
         )
 
     def _write(self) -> None:
-        """Encode and write until `close`."""
-        while (item := self._outgoing.get()) is not None:
+        """Encode and write messages until `close`."""
+        while (item := self._send_queue.get()) is not None:
             topic, message = item
             writer = self._writers.get(topic)
             if message is None:
@@ -206,7 +210,7 @@ class Ros2(Bridge):
 
 
 class _ReaderCount:
-    """Tells a bridge how many outside read a topic, from their changing number."""
+    """A callback that reports changes of the number of readers of a topic to a bridge."""
 
     def __init__(self, bridge: Bridge, topic: str, lease: str) -> None:
         self._bridge, self._topic, self._lease, self._n = bridge, topic, lease, 0

@@ -1,4 +1,4 @@
-"""Which node the simulator is: one of rclpy where it can be imported, else one on Cyclone DDS."""
+"""The choice of the node: one of rclpy if it can be imported, else one on Cyclone DDS."""
 
 from __future__ import annotations
 
@@ -12,76 +12,75 @@ from .settings import settings_from
 
 NODES = ("rclpy", "dds")
 VARIABLE = "UWSIM_ROS2"
-"""By which a user chooses one of `NODES`; unset or empty: what there is."""
+"""The variable by which a user selects one of `NODES`; unset or empty: the available one."""
 REACH = {True: "for nodes on this computer", False: "its ports are open on all addresses"}
-"""Whether other computers cannot reach a node -> what is said of it."""
-MISSING = "--ros2: neither rclpy nor Cyclone DDS is installed: source a ROS 2, or pip install "
-MISSING += "uwsim[ros2]"
+"""The texts for a node that only this computer can reach, and for one that others can reach."""
+MISSING_EXTRA = (
+    "--ros2: neither rclpy nor Cyclone DDS is installed: source a ROS 2, or pip install "
+)
+MISSING_EXTRA += "uwsim[ros2]"
 
 
 def open_node(environment: Mapping[str, str], domain: int | None, log: Log) -> Ros2Node:
-    """Join a domain of ROS 2, and say by what.
+    """Join a domain of ROS 2, and report the kind of node.
 
     Args:
-        environment: variables of ROS 2, of Cyclone DDS and ``UWSIM_ROS2``.
+        environment: the variables of ROS 2, of Cyclone DDS and ``UWSIM_ROS2``.
         domain: ``--domain``; None: that of ``ROS_DOMAIN_ID``.
-        log: of the connection.
+        log: the log of the connection.
 
     Raises:
-        BadSetting: a variable has a value that is not known.
+        BadSetting: a variable has an invalid value.
         MissingExtra: there is neither rclpy nor Cyclone DDS.
         UwsimError: the domain cannot be joined.
     """
-    chosen = choice(environment)
-    if chosen == "dds":
-        return _dds(environment, domain, log)
+    kind = read_choice(environment)
+    if kind == "dds":
+        return _open_dds_node(environment, domain, log)
     try:
         from rclpy.utilities import get_rmw_implementation_identifier
 
         from .rclpy_node import RclpyNode
-    except (ImportError, OSError, RuntimeError) as error:  # of a broken installation, too
-        if chosen == "rclpy":
+    except (ImportError, OSError, RuntimeError) as error:  # the installation may be broken
+        if kind == "rclpy":
             raise UwsimError(
-                f"--ros2: {VARIABLE}=rclpy, and it cannot be imported: {error}"
+                f"--ros2: {VARIABLE}=rclpy, but rclpy cannot be imported: {error}"
             ) from None
         if importlib.util.find_spec("rclpy") is not None:
-            log.report(f"rclpy is there, and cannot be imported: {str(error).splitlines()[0]}")
-        return _dds(environment, domain, log)
+            log.report(f"rclpy is installed but cannot be imported: {str(error).splitlines()[0]}")
+        return _open_dds_node(environment, domain, log)
     node = RclpyNode(settings_from(environment, domain), log)
     log.report(f"a node of rclpy, on {get_rmw_implementation_identifier()}")
     return node
 
 
 def check(environment: Mapping[str, str], domain: int | None) -> None:
-    """Raise an error if a node can be had in no case; rclpy is not imported for it."""
-    chosen = choice(environment)
-    if chosen == "dds" or importlib.util.find_spec("rclpy") is None:
-        _find_dds()
+    """Raise an error if no node is possible; rclpy is not imported for it."""
+    kind = read_choice(environment)
+    if kind == "dds" or importlib.util.find_spec("rclpy") is None:
+        _check_dds()
     settings_from(environment, domain)
 
 
-def choice(environment: Mapping[str, str]) -> str:
-    """Return what the user asks for: ``rclpy``, ``dds``, or nothing."""
-    found = environment.get(VARIABLE, "")
-    if found not in ("", *NODES):
-        near = did_you_mean(found, NODES)
-        raise BadSetting(f"{VARIABLE}={found}: expected {' or '.join(NODES)}.{near}")
-    return found
+def read_choice(environment: Mapping[str, str]) -> str:
+    """Return the node that the user requests: ``rclpy``, ``dds``, or ""."""
+    kind = environment.get(VARIABLE, "")
+    if kind not in ("", *NODES):
+        near = did_you_mean(kind, NODES)
+        raise BadSetting(f"{VARIABLE}={kind}: expected {' or '.join(NODES)}.{near}")
+    return kind
 
 
-def _dds(environment: Mapping[str, str], domain: int | None, log: Log) -> Ros2Node:
-    _find_dds()
+def _open_dds_node(environment: Mapping[str, str], domain: int | None, log: Log) -> Ros2Node:
+    _check_dds()
     from .dds_node import DdsNode
 
     settings = settings_from(environment, domain)
-    node = DdsNode(settings, log, more=environment.get("CYCLONEDDS_URI", ""))
-    reach = (
-        "for nodes on this computer" if node.is_closed else "its ports are open on all addresses"
-    )
-    log.report(f"a node on Cyclone DDS, without rclpy; {reach}")
+    node = DdsNode(settings, log, user_xml=environment.get("CYCLONEDDS_URI", ""))
+    log.report(f"a node on Cyclone DDS, without rclpy; {REACH[node.is_closed]}")
     return node
 
 
-def _find_dds() -> None:
+def _check_dds() -> None:
     if importlib.util.find_spec("cyclonedds") is None:
-        raise MissingExtra(MISSING)
+        raise MissingExtra(MISSING_EXTRA)

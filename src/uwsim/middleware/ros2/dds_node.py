@@ -1,6 +1,6 @@
 """A node of ROS 2 without an installation of ROS 2: on Cyclone DDS (the extra ``ros2``).
 
-`participant` and `presence` make a participant of a domain that ROS 2 knows as one of its own.
+`participant` and `presence` make a participant of a domain that ROS 2 recognizes as its own.
 """
 
 from __future__ import annotations
@@ -28,30 +28,30 @@ class DdsNode:
     """A node on Cyclone DDS.
 
     Args:
-        settings: which domain, and on which network.
-        log: where events are reported.
-        more: configuration of Cyclone DDS by the user, which overrides ours (``CYCLONEDDS_URI``).
+        settings: the domain and the network interfaces.
+        log: the log for events.
+        user_xml: the user's settings of Cyclone DDS (``CYCLONEDDS_URI``), which overrides ours.
 
     Raises:
         UwsimError: the domain cannot be joined.
     """
 
     lease: ClassVar[str] = "for 10 s"
-    """What Cyclone DDS has by default."""
+    """The default of Cyclone DDS."""
 
-    def __init__(self, settings: Ros2Settings, log: Log, *, more: str = "") -> None:
+    def __init__(self, settings: Ros2Settings, log: Log, *, user_xml: str = "") -> None:
         self._log = log
-        before = open_sockets()
-        self._participant = Participant(settings.domain, settings.configuration(more))
-        keeps_here = settings.is_local and not settings.static_peers and not more
-        self.is_closed = keeps_here and bind_to_loopback(before)
-        """Whether other computers cannot reach it."""
+        old_sockets = open_sockets()
+        self._participant = Participant(settings.domain, settings.configuration(user_xml))
+        keeps_here = settings.is_local and not settings.static_peers and not user_xml
+        self.is_closed = keeps_here and bind_to_loopback(old_sockets)
+        """A flag: other computers cannot reach the node."""
         self._presence = Presence(self._participant, NODE)
         self._types: dict[type, type[RawSample]] = {}
 
     @property
     def error(self) -> BaseException | None:
-        """What ended its thread, if anything did."""
+        """The error that ended its thread, if any."""
         return self._participant.error
 
     def writer(
@@ -59,15 +59,19 @@ class DdsNode:
     ) -> DdsWriter:
         """Make a writer."""
 
-        def look(entity: Any) -> None:
+        def count_readers(entity: Any) -> None:
             on_readers(len(entity.get_matched_subscriptions()))
 
-        raw, user_data = self._raw(type)
-        made = self._participant.writer(
-            topic_name(topic), raw, quality, user_data=user_data, events={READERS_CHANGED: look}
+        sample_type, user_data = self._sample_type(type)
+        writer = self._participant.writer(
+            topic_name(topic),
+            sample_type,
+            quality,
+            user_data=user_data,
+            events={READERS_CHANGED: count_readers},
         )
-        self._presence.add(writers=(made.entity,))
-        return DdsWriter(self, made)
+        self._presence.add(writers=(writer.entity,))
+        return DdsWriter(self, writer)
 
     def reader(
         self,
@@ -78,11 +82,11 @@ class DdsNode:
         on_refused: Callable[[], None],
     ) -> DdsReader:
         """Make a reader."""
-        raw, user_data = self._raw(type)
+        sample_type, user_data = self._sample_type(type)
         senders = Senders()
         entity = self._participant.reader(
             topic_name(topic),
-            raw,
+            sample_type,
             quality,
             lambda sample: receive(sample.data, senders.sender_of(entity, sample)),
             user_data=user_data,
@@ -93,16 +97,16 @@ class DdsNode:
 
     def server(self, name: str, kind: WireService, call: Call) -> DdsServer:
         """Offer a service to nodes of Cyclone DDS."""
-        made = ServiceServer(self._participant, name, kind, call, self._log)
-        self._presence.add(readers=(made.reader,), writers=(made.writer.entity,))
-        return DdsServer(self._presence, made)
+        server = ServiceServer(self._participant, name, kind, call, self._log)
+        self._presence.add(readers=(server.reader,), writers=(server.writer.entity,))
+        return DdsServer(self._presence, server)
 
-    def tell(self) -> None:
-        """Make known which endpoints there are."""
-        self._presence.tell()
+    def announce_endpoints(self) -> None:
+        """Announce the endpoints of the node."""
+        self._presence.announce_endpoints()
 
     def offers(self, name: str) -> bool:
-        """Services of others are not called: each vendor of DDS has a way of its own."""
+        """Return False: services of others are not called, as vendors of DDS differ in them."""
         return False
 
     def call(self, name: str, request: object) -> Future[object]:
@@ -110,7 +114,7 @@ class DdsNode:
         raise UwsimError(f"Service /{name}: without rclpy, services of nodes are not called.")
 
     def publishers(self, topic: str) -> list[str]:
-        """None: what other nodes say of themselves is not read."""
+        """Return an empty list: data of other nodes is not read."""
         return []
 
     def close(self) -> None:
@@ -118,12 +122,12 @@ class DdsNode:
         self._participant.close()
 
     def drop(self, entity: Any) -> None:
-        """Take an endpoint off the graph."""
+        """Remove an endpoint from the graph."""
         self._presence.remove(entity)
         self._participant.forget(entity)
 
-    def _raw(self, type: type) -> tuple[type[RawSample], bytes]:
-        """The type of the samples, and what tells its hash."""
+    def _sample_type(self, type: type) -> tuple[type[RawSample], bytes]:
+        """Return the type of the samples, and the USER_DATA with its hash."""
         wire = wire_type(type)
         assert wire is not None
         if type not in self._types:
@@ -139,11 +143,11 @@ class DdsReader:
 
     @property
     def n_writers(self) -> int:
-        """How many writers it reads."""
+        """The number of writers that match it."""
         return len(self._entity.get_matched_publications())
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove the reader from the graph."""
         self._node.drop(self._entity)
 
 
@@ -154,11 +158,11 @@ class DdsWriter:
         self._node, self._writer = node, writer
 
     def write(self, data: bytes) -> bool:
-        """Write a message; whether it was accepted."""
+        """Write a message; return whether it was accepted."""
         return self._writer.write(data)
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove the writer from the graph."""
         self._node.drop(self._writer.entity)
 
 
@@ -169,7 +173,7 @@ class DdsServer:
         self._presence, self._server = presence, server
 
     def close(self) -> None:
-        """Offer it no more."""
+        """Withdraw the service."""
         self._presence.remove(self._server.reader)
         self._presence.remove(self._server.writer.entity)
         self._server.close()

@@ -1,4 +1,4 @@
-"""What the adapter needs of a node of ROS 2: endpoints that take and give bytes, and services.
+"""The protocol of a node of ROS 2 for the adapter: endpoints for bytes, and services.
 
 There are two: `uwsim.middleware.ros2.rclpy_node`, with ROS 2, and `uwsim.middleware.ros2.dds_node`,
 without. Topics and services have no leading slash here.
@@ -15,24 +15,24 @@ from .quality import Quality
 
 
 class Receive(Protocol):
-    """Takes in an encoded message, its CDR header included."""
+    """A function that accepts an encoded message, its CDR header included."""
 
     def __call__(self, data: bytes, sender: str = "") -> None:
-        """``sender``: who sent it; empty where the node cannot tell."""
+        """Accept a message; ``sender`` is empty if the node cannot tell it."""
 
 
 class Call(Protocol):
-    """Hands a request to the simulation; returns the response to come."""
+    """A function that passes a request to the simulation; returns the future of the response."""
 
     def __call__(self, request: object, sender: str = "") -> Future[object]:
-        """``sender``: who calls; empty where the node cannot tell."""
+        """Pass on a request; ``sender`` is empty if the node cannot tell it."""
 
 
 class Endpoint(Protocol):
     """A reader, a writer or the server of a service."""
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove the endpoint from the graph."""
 
 
 class BytesReader(Endpoint, Protocol):
@@ -40,14 +40,14 @@ class BytesReader(Endpoint, Protocol):
 
     @property
     def n_writers(self) -> int:
-        """How many writers outside it reads."""
+        """The number of external writers that match it."""
 
 
 class BytesWriter(Endpoint, Protocol):
     """A writer of messages that are encoded already."""
 
     def write(self, data: bytes) -> bool:
-        """Write a message, its CDR header included; whether it was accepted.
+        """Write a message, its CDR header included; return whether it was accepted.
 
         Raises:
             UwsimError: it cannot be sent.
@@ -55,19 +55,19 @@ class BytesWriter(Endpoint, Protocol):
 
 
 class Ros2Node(Protocol):
-    """A node; its callbacks come in a thread of its own."""
+    """A node; its callbacks are called in a thread of its own."""
 
     lease: ClassVar[str]
-    """How long another node may be silent before it counts as gone, as ``for 10 s``."""
+    """The time after which a silent node counts as gone, as ``for 10 s``."""
 
     @property
     def error(self) -> BaseException | None:
-        """What ended its thread, if anything did."""
+        """The error that ended its thread, if any."""
 
     def writer(
         self, topic: str, type: type, quality: Quality, on_readers: Callable[[int], None]
     ) -> BytesWriter:
-        """Make a writer of a class of the bus; ``on_readers(n)``: so many outside read it now."""
+        """Make a writer of a class of the bus; ``on_readers(n)`` gets the number of readers."""
 
     def reader(
         self,
@@ -79,24 +79,24 @@ class Ros2Node(Protocol):
     ) -> BytesReader:
         """Make a reader of messages from outside.
 
-        ``receive(data)`` has each with its CDR header. ``on_refused()``: there is a writer whose
-        quality of service does not suffice.
+        ``receive(data)`` has each with its CDR header. ``on_refused()``: the quality of service of
+        a writer does not suffice.
         """
 
     def server(self, name: str, kind: WireService, call: Call) -> Endpoint:
         """Offer a service."""
 
-    def tell(self) -> None:
-        """Make known which endpoints there are; called after some have been made or closed."""
+    def announce_endpoints(self) -> None:
+        """Announce the endpoints; called after some have been made or closed."""
 
     def offers(self, name: str) -> bool:
-        """Whether another node offers a service that this one can call."""
+        """Return whether another node offers a service that this one can call."""
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service of another node; raises UwsimError."""
+        """Call a service of another node; raise UwsimError."""
 
     def publishers(self, topic: str) -> list[str]:
-        """Names of the other nodes that publish a topic, where they are known."""
+        """Return the names of the other nodes that publish a topic, if they are known."""
 
     def close(self) -> None:
         """Leave the graph, with all endpoints."""

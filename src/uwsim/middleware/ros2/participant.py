@@ -1,8 +1,8 @@
-"""A participant of a DDS domain that ROS 2 nodes see as a node of theirs.
+"""A participant of a DDS domain that ROS 2 nodes recognize as a node.
 
-One thread (``uwsim-ros2``) waits for what arrives and calls the callbacks of the readers; endpoints
-are made and written to from any thread. No listener of Cyclone DDS is used: its threads would wait
-for Python's lock while they hold their own.
+One thread (``uwsim-ros2``) waits for samples and calls the callbacks of the readers; any thread may
+make endpoints and write. No listener of Cyclone DDS is used: its threads would wait for Python's
+lock while they hold their own.
 """
 
 from __future__ import annotations
@@ -38,25 +38,25 @@ from .quality import Quality
 from .raw_types import RawSample
 
 Events = Mapping[int, Callable[[Any], None]]
-"""Status of an endpoint -> what is called with the endpoint when it changes."""
-ERRORS = 0b11
-"""Fatal errors and errors, among what Cyclone DDS prints."""
+"""The callbacks by status of an endpoint; they are called with the endpoint when it changes."""
+ERROR_MASK = 0b11
+"""The mask of log messages of Cyclone DDS: errors and fatal errors."""
 NO_EVENTS: Events = MappingProxyType({})
 READERS_CHANGED = DDSStatus.PublicationMatched
-"""Of a writer: readers came or left."""
+"""The status of a writer: readers came or left."""
 WRITERS_CHANGED = DDSStatus.SubscriptionMatched
-"""Of a reader: writers came or left."""
+"""The status of a reader: writers came or left."""
 WRITER_REFUSED = DDSStatus.RequestedIncompatibleQos
-"""Of a reader: there is a writer whose quality of service does not suffice."""
-TAKEN_AT_ONCE = 100
-"""Samples that are taken from a reader before the next one has its turn."""
+"""The status of a reader: a writer's quality of service does not suffice."""
+SAMPLES_AT_ONCE = 100
+"""The number of samples that are taken from a reader before the next reader's turn."""
 VARIABLE = "CYCLONEDDS_URI"
 WAKE_S = 1.0
-"""How long the thread sleeps at most [s]."""
+"""The longest sleep of the thread [s]."""
 
 
 class Writer:
-    """Writes ready-made samples to a topic.
+    """A writer of encoded samples to a topic.
 
     ``n_dropped`` counts samples that were dropped because a reliable reader was too far behind.
     """
@@ -67,10 +67,10 @@ class Writer:
         self.n_dropped = 0
 
     def write(self, data: bytes) -> bool:
-        """Write a sample, its CDR header included; whether it was accepted.
+        """Write a sample, its CDR header included; return whether it was accepted.
 
         Raises:
-            UwsimError: it is none of the type.
+            UwsimError: the sample is not one of the type.
         """
         try:
             self.entity.write(self._type(data))
@@ -83,23 +83,24 @@ class Writer:
 
     @property
     def n_readers(self) -> int:
-        """How many readers it has now, in other processes or this one."""
+        """The number of readers that match it, in other processes or this one."""
         return len(self.entity.get_matched_subscriptions())
 
 
 def _print_errors_only() -> None:
-    """Have Cyclone DDS print no warnings: a peer may cause one with each sample that it sends."""
+    """Suppress warnings of Cyclone DDS: a peer may cause one with each sample that it sends."""
     library: Any = getattr(DDS, "_dll_handle", None)
     if hasattr(library, "dds_set_log_mask"):
-        library.dds_set_log_mask(ERRORS)
+        library.dds_set_log_mask(ERROR_MASK)
 
 
 class Participant:
     """A participant; `close` ends it.
 
     Args:
-        domain: DDS domain.
-        configuration: of Cyclone DDS, in XML; the first in a process for a domain holds.
+        domain: the DDS domain.
+        configuration: the configuration of Cyclone DDS, in XML; the first one of a process for a
+            domain applies.
 
     Raises:
         UwsimError: there is no network interface, or no free port.
@@ -108,30 +109,30 @@ class Participant:
     def __init__(self, domain: int, configuration: str) -> None:
         quality = Qos(Policy.Userdata(b"enclave=/;"))
         try:
-            with _configured(configuration):
+            with _set_configuration(configuration):
                 self._entity: Any = DomainParticipant(domain, quality)
         except DDSException as error:
             raise UwsimError(
                 f"--ros2: Cyclone DDS cannot join domain {domain}: {error} (CYCLONEDDS_URI is "
-                "read too)"
+                "read, too)"
             ) from error
         _print_errors_only()
         self._topics: dict[str, Any] = {}
         self._lock = threading.Lock()
         self._readers: dict[Any, tuple[Any, Callable[[Any], None]]] = {}
-        self._watched: dict[Any, Events] = {}
+        self._events: dict[Any, Events] = {}
         self._waitset: Any = WaitSet(self._entity)
         self._wake: Any = GuardCondition(self._entity)
         self._waitset.attach(self._wake)
         self._is_open = True
         self.error: BaseException | None = None
-        """What ended the thread, if anything did."""
+        """The error that ended the thread, if any."""
         self._thread = threading.Thread(target=self._run, name="uwsim-ros2", daemon=True)
         self._thread.start()
 
     @property
     def guid(self) -> bytes:
-        """Its identity on the network, 16 bytes."""
+        """The identity of the participant on the network, 16 bytes."""
         return guid_of(self._entity)
 
     def writer(
@@ -146,7 +147,7 @@ class Participant:
         """Make a writer; ``events`` are called in the thread, as `READERS_CHANGED`."""
         with self._lock:
             entity = DataWriter(self._entity, self._topic(name, type), policies(quality, user_data))
-            self._watch(entity, events)
+            self._add_events(entity, events)
         return Writer(entity, type)
 
     def reader(
@@ -162,21 +163,21 @@ class Participant:
         """Make a reader; ``callback(sample)`` and ``events`` are called in the thread."""
         with self._lock:
             entity = DataReader(self._entity, self._topic(name, type), policies(quality, user_data))
-            fresh = ViewState.Any | SampleState.NotRead | InstanceState.Any
-            condition = ReadCondition(entity, fresh)
+            states = ViewState.Any | SampleState.NotRead | InstanceState.Any
+            condition = ReadCondition(entity, states)
             self._readers[condition] = (entity, callback)
             self._waitset.attach(condition)
-            self._watch(entity, events)
+            self._add_events(entity, events)
         return entity
 
     def forget(self, entity: Any) -> None:
-        """End a reader or writer that this participant made."""
+        """Delete a reader or writer of this participant."""
         with self._lock:
             for condition, (reader, _) in list(self._readers.items()):
                 if reader is entity:
                     self._waitset.detach(condition)
                     del self._readers[condition]
-            if self._watched.pop(entity, None) is not None:
+            if self._events.pop(entity, None) is not None:
                 self._waitset.detach(entity)
         _delete(entity)
 
@@ -194,13 +195,13 @@ class Participant:
             self._topics[name] = Topic(self._entity, name, type)
         return self._topics[name]
 
-    def _watch(self, entity: Any, events: Events) -> None:
+    def _add_events(self, entity: Any, events: Events) -> None:
         if events:
             mask = 0
             for status in events:
                 mask |= status
             entity.set_status_mask(mask)
-            self._watched[entity] = events
+            self._events[entity] = events
             self._waitset.attach(entity)
 
     def _run(self) -> None:
@@ -210,21 +211,21 @@ class Participant:
             while self._is_open:
                 self._waitset.wait(pause)
                 self._take()
-        except BaseException as error:  # reported by the owner; a thread has nobody to raise to
+        except BaseException as error:  # the owner reports it; a thread has no caller
             self.error = error
 
     def _take(self) -> None:
         with self._lock:
             readers = list(self._readers.values())
-            watched = list(self._watched.items())
-        for entity, events in watched:
+            event_items = list(self._events.items())
+        for entity, events in event_items:
             changes = entity.get_status_changes()
             for status, call in events.items():
                 if changes & status:
                     entity.take_status(status)
                     call(entity)
         for reader, callback in readers:
-            for sample in reader.take(TAKEN_AT_ONCE):
+            for sample in reader.take(SAMPLES_AT_ONCE):
                 if isinstance(sample, RawSample):
                     callback(sample)
 
@@ -235,19 +236,19 @@ def guid_of(entity: Any) -> bytes:
 
 
 def _delete(entity: Any) -> None:
-    """Delete an entity and all that belongs to it now, whoever holds the Python objects."""
+    """Delete an entity and its children now, even if Python objects refer to them."""
     entity._delete(entity._ref)
 
 
 @contextmanager
-def _configured(configuration: str) -> Iterator[None]:
-    """Have Cyclone DDS read this configuration: it looks into a variable when a domain begins."""
-    before = os.environ.get(VARIABLE)
+def _set_configuration(configuration: str) -> Iterator[None]:
+    """Set the variable that Cyclone DDS reads when a domain begins, in the context."""
+    old_value = os.environ.get(VARIABLE)
     os.environ[VARIABLE] = configuration
     try:
         yield
     finally:
-        if before is None:
+        if old_value is None:
             del os.environ[VARIABLE]
         else:
-            os.environ[VARIABLE] = before
+            os.environ[VARIABLE] = old_value

@@ -1,4 +1,4 @@
-"""The sample on ``ros_discovery_info`` by which ROS 2 nodes know which node owns which endpoint.
+"""The sample on ``ros_discovery_info`` that tells ROS 2 nodes which node owns which endpoint.
 
 Without it ``ros2 node list`` does not show the simulator.
 """
@@ -26,11 +26,11 @@ TEXTS = {
     ),
     PARTICIPANT: f"{GID} gid\n{NODE}[] node_entities_info_seq",
 }
-"""Message types of ROS 2's package rmw_dds_common, as of Iron and later."""
+"""The message types of ROS 2's package rmw_dds_common, as of Iron and later."""
 
 
 class Presence:
-    """One node in the graph, and its endpoints."""
+    """A node in the graph, and its endpoints."""
 
     def __init__(self, participant: Participant, name: str, namespace: str = "/") -> None:
         self._store = get_typestore(Stores.ROS2_JAZZY)
@@ -47,24 +47,24 @@ class Presence:
         self._readers: list[bytes] = []
         self._writers: list[bytes] = []
         self._lock = threading.Lock()
-        self.tell()
+        self.announce_endpoints()
 
     def add(self, *, readers: tuple[Any, ...] = (), writers: tuple[Any, ...] = ()) -> None:
-        """Add endpoints to the node; `tell` makes them known."""
+        """Add endpoints to the node; `announce_endpoints` makes them known."""
         with self._lock:
             self._readers += [guid_of(entity) for entity in readers]
             self._writers += [guid_of(entity) for entity in writers]
 
     def remove(self, entity: Any) -> None:
-        """Take an endpoint away from the node."""
+        """Remove an endpoint from the node."""
         guid = guid_of(entity)
         with self._lock:
-            for held in (self._readers, self._writers):
-                if guid in held:
-                    held.remove(guid)
+            for guids in (self._readers, self._writers):
+                if guid in guids:
+                    guids.remove(guid)
 
-    def tell(self) -> None:
-        """Make the node and its endpoints known."""
+    def announce_endpoints(self) -> None:
+        """Announce the node and its endpoints."""
         import numpy as np
 
         types = self._store.types
@@ -76,8 +76,8 @@ class Presence:
             node = types[NODE](
                 node_namespace=self._namespace,
                 node_name=self._name,
-                reader_gid_seq=[gid(each) for each in self._readers],
-                writer_gid_seq=[gid(each) for each in self._writers],
+                reader_gid_seq=[gid(endpoint_guid) for endpoint_guid in self._readers],
+                writer_gid_seq=[gid(endpoint_guid) for endpoint_guid in self._writers],
             )
             sample = types[PARTICIPANT](gid=gid(self._guid), node_entities_info_seq=[node])
             self._writer.write(bytes(self._store.serialize_cdr(sample, PARTICIPANT)))

@@ -1,7 +1,7 @@
 """Quality of service of the endpoints, as ROS 2 names it.
 
-Writers are reliable, so that a subscriber may ask for either reliability. Readers are reliable, as
-those of a ROS 2 node with default settings; a publisher of best effort does not match them.
+Writers are reliable, so that a subscriber may request either reliability. Readers are reliable, as
+those of a ROS 2 node with default settings; a best-effort publisher does not match them.
 """
 
 from __future__ import annotations
@@ -16,15 +16,15 @@ CLOCK = "clock"
 
 @dataclass(frozen=True, kw_only=True)
 class Quality:
-    """Of one endpoint."""
+    """The quality of service of an endpoint."""
 
     depth: int = DEPTH
-    """Messages kept for a reader that is behind (keep last); 0 keeps all."""
+    """The number of messages kept for a slow reader (keep last); 0 keeps all."""
     is_reliable: bool = True
     is_latched: bool = False
-    """Whether a late reader gets what was written before (transient local)."""
+    """A flag: a late reader receives earlier messages (transient local)."""
     ignores_own: bool = False
-    """Whether what the same participant writes is not read."""
+    """A flag: messages of the same participant are not read."""
 
 
 def quality_of(topic: str) -> Quality:

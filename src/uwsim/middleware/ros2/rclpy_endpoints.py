@@ -1,4 +1,4 @@
-"""Endpoints of a node of rclpy, and how its own messages are distinguished from others'."""
+"""Endpoints of a node of rclpy, and the recognition of its own messages."""
 
 from __future__ import annotations
 
@@ -16,74 +16,74 @@ from ...errors import UwsimError
 from ..queues import MAX_ITEMS
 from .quality import Quality
 
-Drop = Callable[[Any], None]
-"""Takes what an endpoint is made of off the graph."""
+Remove = Callable[[Any], None]
+"""The function that removes an endpoint from the graph."""
 
 
 class Echoes:
-    """What this node has sent on a topic that it reads as well: rclpy gives it back to it.
+    """The hashes of messages that this node has sent on a topic that it also reads.
 
-    Messages are compared by their bytes. Of two equal ones it does not matter which was whose.
+    rclpy returns them to the node. Two equal messages need not be distinguished.
     """
 
     def __init__(self) -> None:
         self.n_readers = 0
-        """Readers of this node."""
-        self._sent: deque[int] = deque(maxlen=MAX_ITEMS)
+        """The number of readers of this node."""
+        self._hashes: deque[int] = deque(maxlen=MAX_ITEMS)
         self._lock = threading.Lock()
 
     def count_reader(self, change: int) -> None:
-        """One more reader of this node (1), or one fewer (-1)."""
+        """Count one more reader of this node (1), or one fewer (-1)."""
         with self._lock:
             self.n_readers += change
 
     def add(self, data: bytes) -> None:
-        """Note what is being sent."""
+        """Store the hash of a message that is being sent."""
         with self._lock:
-            self._sent.append(hash(data))
+            self._hashes.append(hash(data))
 
     def is_own(self, data: bytes) -> bool:
-        """Whether a message that has come is one of ours, and forget it."""
-        if not self._sent:
+        """Return whether an arrived message is one of this node, and forget it."""
+        if not self._hashes:
             return False
         with self._lock:
             try:
-                self._sent.remove(hash(data))
+                self._hashes.remove(hash(data))
             except ValueError:
                 return False
             return True
 
 
-class Nowhere:
+class NullEndpoint:
     """An endpoint of a type that rclpy does not have."""
 
     n_writers = 0
 
     def write(self, data: bytes) -> bool:
-        """Nobody reads it."""
+        """Discard a message, which has no readers."""
         return True
 
     def close(self) -> None:
-        """There is nothing to close."""
+        """Do nothing."""
 
 
 class RclpyWriter:
-    """A publisher, and how many others read it."""
+    """A publisher, and the number of its external readers."""
 
     publisher: Any
 
-    def __init__(self, drop: Drop, echoes: Echoes, *, is_latched: bool) -> None:
+    def __init__(self, drop: Remove, echoes: Echoes, *, is_latched: bool) -> None:
         self._drop, self.echoes, self._is_latched = drop, echoes, is_latched
         self._on_readers: Callable[[int], None] = lambda n: None
         self._n, self._lock = 0, threading.Lock()
 
     def follow(self, on_readers: Callable[[int], None]) -> None:
-        """Have ``on_readers`` called with the number of readers outside, when it changes."""
+        """Call ``on_readers`` with the number of external readers, when it changes."""
         self._on_readers = on_readers
-        self.look()
+        self.count_readers()
 
-    def look(self) -> None:
-        """Count the readers outside."""
+    def count_readers(self) -> None:
+        """Count the external readers."""
         with self._lock:
             try:
                 n = max(0, self.publisher.get_subscription_count() - self.echoes.n_readers)
@@ -94,7 +94,7 @@ class RclpyWriter:
                 self._on_readers(n)
 
     def write(self, data: bytes) -> bool:
-        """Publish a message; the middleware keeps the newest for readers that are behind."""
+        """Publish a message; the middleware keeps the newest for slow readers."""
         if self._is_latched or self.echoes.n_readers:
             self.echoes.add(data)
         try:
@@ -106,12 +106,12 @@ class RclpyWriter:
         return True
 
     def wait(self, limit_s: float) -> None:
-        """Wait until readers have acknowledged what was sent, at most ``limit_s``."""
+        """Wait until readers have acknowledged all messages, at most ``limit_s``."""
         with suppress(RuntimeError):  # not every middleware can tell
             self.publisher.wait_for_all_acked(Duration(seconds=max(0.0, limit_s)))
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove the writer from the graph."""
         self._drop(self)
 
 
@@ -120,19 +120,19 @@ class RclpyReader:
 
     subscription: Any
 
-    def __init__(self, drop: Drop, n_own: Callable[[], int]) -> None:
+    def __init__(self, drop: Remove, n_own: Callable[[], int]) -> None:
         self._drop, self._n_own = drop, n_own
         self.is_open = True
-        """Whether it still takes messages."""
+        """A flag: the reader accepts messages."""
 
     @property
     def n_writers(self) -> int:
-        """How many writers outside it reads."""
-        found: int = self.subscription.get_publisher_count()
-        return max(0, found - self._n_own())
+        """The number of external writers that match it."""
+        n_publishers: int = self.subscription.get_publisher_count()
+        return max(0, n_publishers - self._n_own())
 
     def close(self) -> None:
-        """Take it off the graph."""
+        """Remove the reader from the graph."""
         self.is_open = False
         self._drop(self.subscription)
 
@@ -140,16 +140,16 @@ class RclpyReader:
 class RclpyServer:
     """A service."""
 
-    def __init__(self, drop: Drop, service: Any) -> None:
+    def __init__(self, drop: Remove, service: Any) -> None:
         self._drop, self._service = drop, service
 
     def close(self) -> None:
-        """Offer it no more."""
+        """Withdraw the service."""
         self._drop(self._service)
 
 
 def profile(quality: Quality) -> Any:
-    """Return a quality of service for rclpy."""
+    """Convert a quality of service for rclpy."""
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST if quality.depth else HistoryPolicy.KEEP_ALL,
         depth=quality.depth,

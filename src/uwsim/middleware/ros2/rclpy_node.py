@@ -1,8 +1,8 @@
-"""A node of rclpy: on whatever middleware the user's ROS 2 runs, services included.
+"""A node of rclpy, on the middleware of the user's ROS 2, with services.
 
-Messages go out and come in as CDR bytes; only requests and responses of services are objects of
-rclpy on their way. One thread (``uwsim-ros2``) spins the node. Endpoints are made in the thread of
-the simulation and destroyed in that of the node, so that none goes while it is waited for.
+Messages are sent and received as CDR bytes; only requests and responses of services are converted
+to objects of rclpy. One thread (``uwsim-ros2``) spins the node. Endpoints are made in the thread of
+the simulation and destroyed in that of the node, so that none is destroyed while it is waited for.
 """
 
 from __future__ import annotations
@@ -27,30 +27,30 @@ from ..log import Log
 from ..types import WireService
 from .node import BytesReader, BytesWriter, Call, Endpoint, Receive
 from .quality import Quality
-from .rclpy_endpoints import Echoes, Nowhere, RclpyReader, RclpyWriter, profile
-from .rclpy_services import RclpyServices, Unanswered
+from .rclpy_endpoints import Echoes, NullEndpoint, RclpyReader, RclpyWriter, profile
+from .rclpy_services import NoAnswer, RclpyServices
 from .rclpy_types import RclpyTypes
 from .settings import NODE, Ros2Settings
 
 LINGER_S = 1.0
-"""How long the last messages may take to be acknowledged at the end [s]."""
-UNKNOWN = "_NODE_NAME_UNKNOWN_"
-"""What rclpy calls a node whose endpoints it has found and whose name it has not."""
+"""The time limit for the acknowledgement of the last messages at the end [s]."""
+UNKNOWN_NAME = "_NODE_NAME_UNKNOWN_"
+"""The name in rclpy of a node whose endpoints it has discovered, and whose name it has not."""
 
 
 class RclpyNode:
     """A node of rclpy.
 
     Args:
-        settings: which domain, and on which network.
-        log: where events are reported.
+        settings: the domain and the network interfaces.
+        log: the log for events.
 
     Raises:
         UwsimError: the domain cannot be joined.
     """
 
     lease: ClassVar[str] = "for a while"
-    """Each middleware has its own; Fast DDS 20 s."""
+    """A text for all middlewares; the lease of Fast DDS is 20 s."""
 
     def __init__(self, settings: Ros2Settings, log: Log) -> None:
         self._log, self._types = log, RclpyTypes()
@@ -75,7 +75,7 @@ class RclpyNode:
         self._writers: list[RclpyWriter] = []
         self._is_open = True
         self.error: BaseException | None = None
-        """What ended the thread, if anything did."""
+        """The error that ended the thread, if any."""
         self._executor: Any = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._services = RclpyServices(self._node, self._executor, self._group, self._types, log)
@@ -86,22 +86,24 @@ class RclpyNode:
         self, topic: str, type: type, quality: Quality, on_readers: Callable[[int], None]
     ) -> BytesWriter:
         """Make a writer."""
-        found = self._types.message(type, topic)
-        if found is None:
-            return Nowhere()
+        message_type = self._types.message(type, topic)
+        if message_type is None:
+            return NullEndpoint()
         echoes = self._echoes_of(topic)
-        made = RclpyWriter(self._drop_writer, echoes, is_latched=quality.is_latched)
-        events = PublisherEventCallbacks(matched=lambda _: made.look(), use_default_callbacks=False)
-        made.publisher = self._node.create_publisher(
-            found,
+        writer = RclpyWriter(self._drop_writer, echoes, is_latched=quality.is_latched)
+        events = PublisherEventCallbacks(
+            matched=lambda _: writer.count_readers(), use_default_callbacks=False
+        )
+        writer.publisher = self._node.create_publisher(
+            message_type,
             f"/{topic}",
             profile(quality),
             callback_group=self._group,
             event_callbacks=events,
         )
-        self._writers.append(made)
-        made.follow(on_readers)
-        return made
+        self._writers.append(writer)
+        writer.follow(on_readers)
+        return writer
 
     def reader(
         self,
@@ -112,20 +114,20 @@ class RclpyNode:
         on_refused: Callable[[], None],
     ) -> BytesReader:
         """Make a reader."""
-        found = self._types.message(type, topic)
-        if found is None:
-            return Nowhere()
-        made = RclpyReader(partial(self._drop_reader, topic), partial(self._n_writers, topic))
+        message_type = self._types.message(type, topic)
+        if message_type is None:
+            return NullEndpoint()
+        reader = RclpyReader(partial(self._drop_reader, topic), partial(self._n_writers, topic))
 
         def take(data: bytes) -> None:
-            if made.is_open and not self._echoes_of(topic).is_own(data):
+            if reader.is_open and not self._echoes_of(topic).is_own(data):
                 receive(data)
 
         events = SubscriptionEventCallbacks(
             incompatible_qos=lambda _: on_refused(), use_default_callbacks=False
         )
-        made.subscription = self._node.create_subscription(
-            found,
+        reader.subscription = self._node.create_subscription(
+            message_type,
             f"/{topic}",
             take,
             profile(quality),
@@ -134,32 +136,32 @@ class RclpyNode:
             event_callbacks=events,
         )
         self._count_readers(topic, 1)
-        return made
+        return reader
 
     def server(self, name: str, kind: WireService, call: Call) -> Endpoint:
         """Offer a service."""
         return self._services.server(name, kind, call)
 
-    def tell(self) -> None:
-        """Report what is not on the graph, as rclpy has no type for it."""
+    def announce_endpoints(self) -> None:
+        """Report the topics and services for which rclpy has no type."""
         for line in self._types.faults():
             self._log.report(line)
 
     def offers(self, name: str) -> bool:
-        """Whether a service is offered on the graph."""
+        """Return whether a service is offered on the graph."""
         return self._services.offers(name)
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service of another node; raises UwsimError."""
+        """Call a service of another node; raise UwsimError."""
         return self._services.call(name, request)
 
     def publishers(self, topic: str) -> list[str]:
-        """Names of the other nodes that publish a topic."""
-        found = self._node.get_publishers_info_by_topic(f"/{topic}")
+        """Return the names of the other nodes that publish a topic."""
+        publishers = self._node.get_publishers_info_by_topic(f"/{topic}")
         names = {
-            f"{each.node_namespace.rstrip('/')}/{each.node_name}"
-            for each in found
-            if each.node_name != UNKNOWN  # its messages can come before its name
+            f"{publisher.node_namespace.rstrip('/')}/{publisher.node_name}"
+            for publisher in publishers
+            if publisher.node_name != UNKNOWN_NAME  # its messages can come before its name
         }
         return sorted(names - {f"/{NODE}"})
 
@@ -177,16 +179,16 @@ class RclpyNode:
         self._context.try_shutdown()
 
     def _n_writers(self, topic: str) -> int:
-        """How many of this node's own write a topic."""
+        """Return the number of this node's writers of a topic."""
         return sum(writer.echoes is self._echoes_of(topic) for writer in self._writers)
 
     def _drop_writer(self, writer: RclpyWriter) -> None:
-        """Take a writer off the graph."""
+        """Remove a writer from the graph."""
         self._writers.remove(writer)
         self._executor.create_task(self._node.destroy_publisher, writer.publisher)
 
     def _drop_reader(self, topic: str, subscription: Any) -> None:
-        """Take a reader off the graph."""
+        """Remove a reader from the graph."""
 
         def drop() -> None:
             self._node.destroy_subscription(subscription)
@@ -198,12 +200,12 @@ class RclpyNode:
         return self._echoes.setdefault(topic, Echoes())
 
     def _count_readers(self, topic: str, change: int) -> None:
-        """Have the writers of a topic count readers outside after one here has come or gone."""
+        """Update the counts of external readers after a reader of this node has come or gone."""
         echoes = self._echoes_of(topic)
         echoes.count_reader(change)
         for writer in list(self._writers):
             if writer.echoes is echoes:
-                writer.look()
+                writer.count_readers()
 
     def _stop(self) -> None:
         self._is_open = False
@@ -214,9 +216,9 @@ class RclpyNode:
             while self._is_open:
                 try:
                     self._executor.spin_once()
-                except (Unanswered, InvalidHandle):  # told already; gone meanwhile
+                except (NoAnswer, InvalidHandle):  # reported already; destroyed meanwhile
                     continue
         except ExternalShutdownException:
             return
-        except BaseException as error:  # reported by the owner; a thread has nobody to raise to
+        except BaseException as error:  # the owner reports it; a thread has no caller
             self.error = error

@@ -1,6 +1,6 @@
-"""Services of a node of rclpy: those it offers, and calls of others'.
+"""Services of a node of rclpy: those that it offers, and calls of others.
 
-Requests and responses are objects of rclpy on their way; they come from, and become, CDR bytes.
+Requests and responses are converted between CDR bytes and objects of rclpy.
 """
 
 from __future__ import annotations
@@ -19,28 +19,28 @@ from ..log import Log
 from ..stamps import to_ros_clock, to_simulation_time
 from ..types import WireService, service_of, wire_service
 from .node import Call, Endpoint
-from .rclpy_endpoints import Nowhere, RclpyServer
+from .rclpy_endpoints import NullEndpoint, RclpyServer
 from .rclpy_types import RclpyTypes
 
 DISCOVERY_S = 10.0
-"""How long a service that is called may take to be connected [s]."""
-GLANCE_S = 0.005
-"""How often it is looked whether it is [s]."""
+"""The time limit for connecting to a service [s]."""
+CHECK_INTERVAL_S = 0.005
+"""The interval of checks of the connection [s]."""
 
 
-class Unanswered(Exception):
-    """A call of a service has no answer; rclpy has no other way to send none."""
+class NoAnswer(Exception):
+    """An error of a call without an answer; rclpy has no other way to send none."""
 
 
 class RclpyServices:
-    """Services that a node offers and calls.
+    """The services that a node offers and calls.
 
     Args:
-        node: of rclpy.
-        executor: that spins it.
-        group: of callbacks that may wait.
-        types: that rclpy has.
-        log: where calls that have no answer are reported.
+        node: the node of rclpy.
+        executor: the executor of the node.
+        group: the group of callbacks that may wait.
+        types: the types that rclpy has.
+        log: the log for calls without an answer.
     """
 
     def __init__(self, node: Any, executor: Any, group: Any, types: RclpyTypes, log: Log) -> None:
@@ -50,86 +50,94 @@ class RclpyServices:
 
     def server(self, name: str, kind: WireService, call: Call) -> Endpoint:
         """Offer a service."""
-        found = self._types.service(kind, name)
-        if found is None:
-            return Nowhere()
+        service_type = self._types.service(kind, name)
+        if service_type is None:
+            return NullEndpoint()
         service = self._node.create_service(
-            found, f"/{name}", self._answering(name, kind, found, call), callback_group=self._group
+            service_type,
+            f"/{name}",
+            self._make_handler(name, kind, service_type, call),
+            callback_group=self._group,
         )
         return RclpyServer(self._drop, service)
 
-    def _answering(self, name: str, kind: WireService, found: Any, call: Call) -> Any:
-        """Return what answers a request of rclpy once the simulation has."""
+    def _make_handler(self, name: str, kind: WireService, service_type: Any, call: Call) -> Any:
+        """Return the coroutine function that answers a request of rclpy."""
 
-        async def answer(asked: Any, _: Any) -> Any:
+        async def answer(rclpy_request: Any, _: Any) -> Any:
             try:
                 request: object = to_simulation_time(
-                    from_cdr(kind.service.request, serialize_message(asked))
+                    from_cdr(kind.service.request, serialize_message(rclpy_request))
                 )
-                response = await self._answered(call(request))
+                response = await self._make_awaitable(call(request))
             except UwsimError as error:
                 self._log.report(f"service /{name}: no answer: {error}", kind=name)
-                raise Unanswered from error
-            return deserialize_message(bytes(to_cdr(to_ros_clock(response))), found.Response)
+                raise NoAnswer from error
+            return deserialize_message(bytes(to_cdr(to_ros_clock(response))), service_type.Response)
 
         return answer
 
-    def _answered(self, response: Future[object]) -> Any:
-        """Return what can be awaited in the node's thread for a response of the simulation."""
-        waiting: Any = rclpy.task.Future()
+    def _make_awaitable(self, response: Future[object]) -> Any:
+        """Return an awaitable of the node's thread for a response of the simulation."""
+        future: Any = rclpy.task.Future()
 
-        def pass_on(_: Future[object]) -> None:
+        def copy_result(_: Future[object]) -> None:
             if response.exception() is None:
-                waiting.set_result(response.result())
+                future.set_result(response.result())
             else:
-                waiting.set_exception(response.exception())
+                future.set_exception(response.exception())
             self._executor.wake()
 
-        response.add_done_callback(pass_on)
-        return waiting
+        response.add_done_callback(copy_result)
+        return future
 
     def offers(self, name: str) -> bool:
-        """Whether a service is offered on the graph, by this node or another."""
-        return any(found == f"/{name}" for found, _ in self._node.get_service_names_and_types())
+        """Return whether a service is offered on the graph, by this node or another."""
+        return any(
+            offered_name == f"/{name}"
+            for offered_name, _ in self._node.get_service_names_and_types()
+        )
 
     def call(self, name: str, request: object) -> Future[object]:
         """Call a service of another node.
 
         Raises:
-            UwsimError: rclpy has no such type, or nobody answers at the other end.
+            UwsimError: rclpy has no such type, or the server does not answer.
         """
         service = service_of(cast(Hashable, request.__class__))
         if service is None:
             raise UwsimError(f"Service /{name}: {type(request).__name__} has no definition.")
         kind = wire_service(service)
         client = self._client(name, kind)
-        asked = deserialize_message(bytes(to_cdr(to_ros_clock(request))), client.srv_type.Request)
+        rclpy_request = deserialize_message(
+            bytes(to_cdr(to_ros_clock(request))), client.srv_type.Request
+        )
         future: Future[object] = Future()
 
-        def pass_on(answered: Any) -> None:
+        def copy_result(rclpy_future: Any) -> None:
             try:
-                found = serialize_message(answered.result())
-                future.set_result(to_simulation_time(from_cdr(kind.service.response, found)))
+                data = serialize_message(rclpy_future.result())
+                future.set_result(to_simulation_time(from_cdr(kind.service.response, data)))
             except (BadMessage, RuntimeError) as error:
                 future.set_exception(UwsimError(f"Service /{name}: {error}"))
 
-        client.call_async(asked).add_done_callback(pass_on)
+        client.call_async(rclpy_request).add_done_callback(copy_result)
         return future
 
     def _client(self, name: str, kind: WireService) -> Any:
         if name not in self._clients:
-            found = self._types.service(kind, name)
-            if found is None:
+            service_type = self._types.service(kind, name)
+            if service_type is None:
                 raise UwsimError(f"Service /{name}: rclpy has no type {kind.ros2_name}.")
             self._clients[name] = self._node.create_client(
-                found, f"/{name}", callback_group=self._group
+                service_type, f"/{name}", callback_group=self._group
             )
         client = self._clients[name]
         end = time.monotonic() + DISCOVERY_S
         while not client.service_is_ready():
             if time.monotonic() > end:
                 raise UwsimError(f"Service /{name}: not connected within {DISCOVERY_S:g} s.")
-            time.sleep(GLANCE_S)
+            time.sleep(CHECK_INTERVAL_S)
         return client
 
     def _drop(self, service: Any) -> None:

@@ -1,7 +1,7 @@
-"""The types of the bus among those that rclpy has: packages that somebody compiled.
+"""The types of the bus among those of rclpy, which are compiled packages.
 
-A message goes to rclpy as CDR bytes, in the layout of uwsim's own definition. So a class of rclpy
-is taken only if it has the same fields. What is not there is collected, and told a package a line.
+A message is passed to rclpy as CDR bytes, in the layout of uwsim's own definition. A class of rclpy
+is therefore used only if it has the same fields. Missing types are reported, a line a package.
 """
 
 from __future__ import annotations
@@ -16,73 +16,75 @@ from ..types import FOLDER, PLACEHOLDER, WireService, ros2_store, wire_type
 
 BASES = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float"}
 BASES |= {"float64": "double"}
-"""Types of fields that rclpy names otherwise."""
-OURS = "underwater_sensor_msgs"
+"""The types of fields that have other names in rclpy."""
+OWN_PACKAGE = "underwater_sensor_msgs"
 """The package that comes with uwsim."""
 
 
 class RclpyTypes:
-    """Finds classes of rclpy, and keeps what is not to be found."""
+    """The classes of rclpy for types of the bus, and a list of those that it lacks."""
 
     def __init__(self) -> None:
-        self._absent: defaultdict[str, set[str]] = defaultdict(set)  # why -> topics and services
+        self._missing_types: defaultdict[str, set[str]] = defaultdict(
+            set
+        )  # why -> topics and services
 
     def message(self, type: type, place: str) -> Any | None:
         """Return the class of a message for a topic, ``place``; None if there is none."""
         wire = wire_type(type)
         assert wire is not None
-        return self._found(wire.ros2_name, (wire.ros2_name,), place)
+        return self._find(wire.ros2_name, (wire.ros2_name,), place)
 
     def service(self, kind: WireService, place: str) -> Any | None:
         """Return the class of a service type for a service, ``place``; None if there is none."""
         halves = (kind.request.ros2_name, kind.response.ros2_name)
-        return self._found(kind.ros2_name, halves, place)
+        return self._find(kind.ros2_name, halves, place)
 
     def faults(self) -> list[str]:
-        """Return a line for each package, or type, that is lacking since the last call."""
-        absent, self._absent = self._absent, defaultdict(set)
+        """Return a line for each package, or type, that was found missing since the last call."""
+        missing_types, self._missing_types = self._missing_types, defaultdict(set)
         return [
-            f"not on the graph: {', '.join(f'/{place}' for place in sorted(places))}. {why}; or "
-            "UWSIM_ROS2=dds, which does without rclpy"
-            for why, places in sorted(absent.items())
+            f"not on the graph: {', '.join(f'/{place}' for place in sorted(places))}. {reason}; or "
+            "set UWSIM_ROS2=dds, which does not need rclpy"
+            for reason, places in sorted(missing_types.items())
         ]
 
-    def _found(self, name: str, layouts: tuple[str, ...], place: str) -> Any | None:
+    def _find(self, name: str, layouts: tuple[str, ...], place: str) -> Any | None:
         package = name.partition("/")[0]
-        found = _class_of(name)
-        if found is not None and all(has_our_fields(each) for each in layouts):
-            return found
-        if found is not None:
-            why = f"{name} has other fields in rclpy's {package} than in uwsim"
+        cls = _class_of(name)
+        if cls is not None and all(has_same_fields(layout) for layout in layouts):
+            return cls
+        if cls is not None:
+            reason = f"{name} has other fields in rclpy's {package} than in uwsim"
         elif importlib.util.find_spec(package) is not None:
-            why = f"rclpy's {package} has no {name}"
+            reason = f"rclpy's {package} has no {name}"
         else:
-            why = f"rclpy has no {package}: {how_to_get(package)}"
-        self._absent[why].add(place)
+            reason = f"rclpy has no {package}: {install_command(package)}"
+        self._missing_types[reason].add(place)
         return None
 
 
-def how_to_get(package: str) -> str:
-    """Return what to do about a package that rclpy lacks."""
-    if package == OURS:
-        return f"colcon build --base-paths {FOLDER / OURS}"
+def install_command(package: str) -> str:
+    """Return the command that installs a package for rclpy."""
+    if package == OWN_PACKAGE:
+        return f"colcon build --base-paths {FOLDER / OWN_PACKAGE}"
     return f"apt install ros-$ROS_DISTRO-{package.replace('_', '-')}"
 
 
-def has_our_fields(name: str) -> bool:
-    """Whether the class of rclpy has the fields of uwsim's definition, those inside included."""
-    found = _class_of(name)
-    if found is None:
+def has_same_fields(name: str) -> bool:
+    """Return whether the class of rclpy has the fields of uwsim's definition, also nested."""
+    cls = _class_of(name)
+    if cls is None:
         return False
-    ours = [
+    fields = [
         (field, _type_text(description))
         for field, description in ros2_store().fielddefs[name][1]
         if field != PLACEHOLDER
     ]
-    if list(found.get_fields_and_field_types().items()) != ours:
+    if list(cls.get_fields_and_field_types().items()) != fields:
         return False
-    inside = [_inner(description) for _, description in ros2_store().fielddefs[name][1]]
-    return all(has_our_fields(each) for each in inside if each)
+    nested_types = [_nested_type(description) for _, description in ros2_store().fielddefs[name][1]]
+    return all(has_same_fields(nested_type) for nested_type in nested_types if nested_type)
 
 
 def _class_of(name: str) -> Any | None:
@@ -98,24 +100,24 @@ def _class_of(name: str) -> Any | None:
         return None
 
 
-def _inner(description: Any) -> str:
+def _nested_type(description: Any) -> str:
     """Return the message type inside a field; empty if it has none."""
-    kind, inner = description
+    kind, content = description
     if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
-        kind, inner = inner[0]
-    return str(inner) if kind == Nodetype.NAME else ""
+        kind, content = content[0]
+    return str(content) if kind == Nodetype.NAME else ""
 
 
 def _type_text(description: Any) -> str:
     """Return the type of a field as rclpy writes it."""
-    kind, inner = description
+    kind, content = description
     if kind == Nodetype.NAME:
-        package, _, base = inner.split("/")
+        package, _, base = content.split("/")
         return f"{package}/{base}"
     if kind == Nodetype.BASE:
-        base, bound = inner
+        base, bound = content
         return f"{base}<{bound}>" if bound else BASES.get(base, base)
-    item, length = _type_text(inner[0]), inner[1]
+    item, length = _type_text(content[0]), content[1]
     if kind == Nodetype.ARRAY:
         return f"{item}[{length}]"
     return f"sequence<{item}, {length}>" if length else f"sequence<{item}>"

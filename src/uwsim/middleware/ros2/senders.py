@@ -1,7 +1,7 @@
-"""Which participant has written a sample.
+"""The participant that has written a sample.
 
-All nodes of a process are one participant, as a rule. Its identity is a claim: a program that makes
-packets of its own can send any.
+All nodes of a process are one participant, as a rule. Its identity is not verified: a program that
+makes its own packets can send any.
 """
 
 from __future__ import annotations
@@ -9,26 +9,26 @@ from __future__ import annotations
 from typing import Any
 
 MAX_WRITERS = 1000
-"""Writers whose participant is remembered."""
-PREFIX = 12
-"""Bytes of a writer's identity that are those of its participant."""
+"""The maximum number of writers whose participant is stored."""
+PREFIX_LENGTH = 12
+"""The number of bytes of a writer's identity that identify its participant."""
 
 
 class Senders:
-    """Names the participants whose samples a reader gets."""
+    """The names of the participants whose samples a reader receives."""
 
     def __init__(self) -> None:
         self._names: dict[int, str] = {}
 
     def sender_of(self, reader: Any, sample: Any) -> str:
-        """Return how messages and calls name the participant that has written a sample."""
+        """Return the name of the participant that has written a sample."""
         handle = sample.sample_info.publication_handle
         name = self._names.get(handle)
         if name is None:
-            found = reader.get_matched_publication_data(handle)
-            if found is None:
+            publication = reader.get_matched_publication_data(handle)
+            if publication is None:
                 return "participant unknown"
-            name = f"participant {bytes(found.key.bytes[:PREFIX]).hex()}"
+            name = f"participant {bytes(publication.key.bytes[:PREFIX_LENGTH]).hex()}"
             if len(self._names) < MAX_WRITERS:
                 self._names[handle] = name
         return name

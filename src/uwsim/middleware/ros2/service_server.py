@@ -1,7 +1,7 @@
 """Services on DDS, as ROS 2 with Cyclone DDS calls them: 16 bytes before request and reply.
 
-They hold the client's number and that of its request. Other vendors send them outside the sample,
-where cyclonedds for Python does not show them: calls by nodes of Fast DDS arrive, and cannot be
+They are the client's number and that of its request. Other vendors send them outside the sample,
+where cyclonedds for Python does not read them: calls by nodes of Fast DDS arrive, but cannot be
 answered. Such a call is reported, once for each service.
 """
 
@@ -26,23 +26,23 @@ from .quality import Quality
 from .raw_types import CDR_HEADER, RawSample, raw_type
 from .senders import Senders
 
-CALL = struct.Struct("<Qq")
-"""Number of the client, number of its request."""
+CALL_HEADER = struct.Struct("<Qq")
+"""The number of the client, and that of its request."""
 CALL_FIELDS = {"client": types.uint64, "sequence": types.int64}
-CYCLONE = b"\x01\x10"
-"""First two bytes of the identity of every endpoint of Cyclone DDS."""
+CYCLONE_VENDOR = b"\x01\x10"
+"""The first two bytes of the identity of every endpoint of Cyclone DDS."""
 VENDORS = {b"\x01\x0f": "Fast DDS", b"\x01\x01": "Connext", b"\x01\x03": "OpenDDS"}
 
 
 class ServiceServer:
-    """Answers the calls of one service.
+    """The server of one service.
 
     Args:
-        participant: where it is offered.
-        name: of the service, without a leading slash.
-        kind: its type.
-        call: hands a request to the simulation and returns the response to come.
-        log: where calls that cannot be answered are reported.
+        participant: the participant that offers it.
+        name: the name of the service, without a leading slash.
+        kind: the type of the service.
+        call: passes a request to the simulation and returns the future of the response.
+        log: the log for calls that cannot be answered.
     """
 
     def __init__(
@@ -51,33 +51,33 @@ class ServiceServer:
         self._participant, self._name, self._kind = participant, name, kind
         self._call, self._log, self._senders = call, log, Senders()
         hash_data = type_hash_data(kind.type_hash)
-        store, reliable = ros2_store(), Quality()
+        store, quality = ros2_store(), Quality()
         self.writer = participant.writer(
             reply_name(name),
-            raw_type(store, kind.response.ros2_name, before=CALL_FIELDS),
-            reliable,
+            raw_type(store, kind.response.ros2_name, first_fields=CALL_FIELDS),
+            quality,
             user_data=hash_data,
         )
         self.reader = participant.reader(
             request_name(name),
-            raw_type(store, kind.request.ros2_name, before=CALL_FIELDS),
-            reliable,
+            raw_type(store, kind.request.ros2_name, first_fields=CALL_FIELDS),
+            quality,
             self._receive,
             user_data=hash_data,
-            events={WRITERS_CHANGED: self._look_at_clients},
+            events={WRITERS_CHANGED: self._check_clients},
         )
 
     def close(self) -> None:
-        """Offer it no more."""
+        """Withdraw the service."""
         self._participant.forget(self.reader)
         self._participant.forget(self.writer.entity)
 
-    def _look_at_clients(self, reader: Any) -> None:
+    def _check_clients(self, reader: Any) -> None:
         """Report clients that cannot be answered."""
         for handle in reader.get_matched_publications():
-            found = reader.get_matched_publication_data(handle)
-            vendor = CYCLONE if found is None else bytes(found.key.bytes[:2])
-            if vendor != CYCLONE:
+            publication = reader.get_matched_publication_data(handle)
+            vendor = CYCLONE_VENDOR if publication is None else bytes(publication.key.bytes[:2])
+            if vendor != CYCLONE_VENDOR:
                 name = VENDORS.get(vendor, "another DDS")
                 self._log.report(
                     f"service /{self._name} cannot answer a client that uses {name}; its node "
@@ -99,8 +99,8 @@ class ServiceServer:
 
     def _is_of_cyclone(self, sample: RawSample) -> bool:
         handle = sample.sample_info.publication_handle
-        found = self.reader.get_matched_publication_data(handle)
-        return found is not None and bytes(found.key.bytes[:2]) == CYCLONE
+        publication = self.reader.get_matched_publication_data(handle)
+        return publication is not None and bytes(publication.key.bytes[:2]) == CYCLONE_VENDOR
 
     def _reply(self, call: bytes, response: Future[object]) -> None:
         try:
@@ -113,11 +113,11 @@ class ServiceServer:
 
 def split_call(data: bytes) -> tuple[bytes, bytes]:
     """Return the 16 bytes of the call, little-endian, and the request as CDR."""
-    start = CDR_HEADER + CALL.size
+    start = CDR_HEADER + CALL_HEADER.size
     call = data[CDR_HEADER:start]
     is_little = bool(data[1] & 1)
     if not is_little:
-        call = CALL.pack(*struct.unpack(">Qq", call))
-    if len(call) < CALL.size:
-        raise BadMessage(f"{len(data)} bytes are no call.")
+        call = CALL_HEADER.pack(*struct.unpack(">Qq", call))
+    if len(call) < CALL_HEADER.size:
+        raise BadMessage(f"{len(data)} bytes are not a call.")
     return call, data[:CDR_HEADER] + data[start:]
