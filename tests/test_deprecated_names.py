@@ -12,7 +12,7 @@ import pytest
 
 import uwsim
 from tests.results.test_result import make
-from uwsim.base.deprecation import deprecated, renamed_parameter
+from uwsim.base.deprecation import deprecated_name, renamed_parameter
 from uwsim.messages import CameraInfo
 from uwsim.results.result import RefusedMessages
 from uwsim.runs.own_process.child import ChildNode
@@ -26,12 +26,12 @@ class Vehicle:
     def pose(self) -> int:
         return 3
 
-    @deprecated("pose")
+    @deprecated_name("pose")
     def place(self) -> int:
         return self.pose()
 
     @property
-    @deprecated("pose")
+    @deprecated_name("pose")
     def site(self) -> int:
         return self.pose()
 

@@ -4,7 +4,7 @@
 
     UwsimError
       SeveralErrors        ... several errors of one call
-      FileError            a file is wrong; carries every error, each with its line
+      FileError            an invalid file; contains every error, each with its line
         SceneError         ... a scene or robot file
         BenchmarkError     ... a benchmark file
         PluginError        ... a plugin
@@ -12,16 +12,16 @@
       AssetNotFound        a file that was not found; the message lists the folders searched
       AssetError           a file that was found and cannot be used
       BadSetting           a command-line setting or a parameter that cannot be used
-      BadMessage           a message or request that does not fit its topic or service
+      BadMessage           an invalid message or request for its topic or service
       NotAllowed           a use of the node that is forbidden to algorithms under test
-      MissingExtra         an optional dependency is missing; the message names it
-      NoGraphics           no OpenGL context; the message names what to install
+      MissingExtra         an optional dependency that is missing; the message names it
+      NoGraphics           no OpenGL context; the message names the package to install
       RunFailed            a run that failed
         ClientLost         ... because a client in lock-step did not answer
-        SimulationFailed   ... because a body moves as none can, or the engine has given up
-      NeverStarted         the start trigger of a benchmark never switched on
+        SimulationFailed   ... because a motion is impossible, or the engine stopped
+      NeverStarted         a start trigger of a benchmark that never switched on
       ResultError          a result that cannot be read or resumed, or is inconsistent
-        ReplayDiffers      ... a replay whose rows differ from the stored ones
+        ReplayDiffers      ... a replay whose rows differ from the stored rows
 """
 
 from __future__ import annotations
@@ -33,23 +33,23 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 MAX_LISTED_NAMES = 16
-"""Greatest number of names listed; of more, the nearest `N_NEAREST` are."""
+"""The greatest number of names that an error lists; of more, it lists the nearest `N_NEAREST`."""
 MAX_NAME_LENGTH = 200
-"""The longest text for which a name is looked for [characters]: peers send longer ones."""
+"""The longest name that is compared with valid names [characters]; peers send longer ones."""
 N_NEAREST = 3
 MAX_REPR_LENGTH = 80
-"""The longest text of a value of foreign code in a message [characters]."""
+"""The longest text of a value of third-party code in an error [characters]."""
 
 
 class UwsimError(Exception):
-    """Base of all errors of uwsim; its message is for the user.
+    """The base of all errors of uwsim; its message is for the user.
 
-    Can be pickled whatever its ``__init__`` takes, because workers send it to their parent.
+    Workers send errors to their parent, so pickle does not call the ``__init__`` of a subclass.
     """
 
     def __init__(self, message: str = "", *, name: str = "") -> None:
         self.name = name
-        """The name in a file that it concerns, by which its line is found; may be empty."""
+        """The name in a file that the error concerns, which gives its line; may be empty."""
         super().__init__(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -63,11 +63,11 @@ class Diagnostic:
     file: str
     """The file as the user named it."""
     line: int | None
-    """Line number from 1; None for the whole file."""
+    """The line number from 1; None for the whole file."""
     message: str
-    """What was found, what was expected, and the nearest valid value."""
+    """The text: what was found, what was expected, and the nearest valid value."""
     severity: Literal["error", "warning"] = "error"
-    """A warning does not make the file wrong ("read, not simulated yet")."""
+    """The severity; a file with warnings is valid ("read, not simulated yet")."""
 
     def __str__(self) -> str:
         place = self.file if self.line is None else f"{self.file}:{self.line}"
@@ -76,7 +76,7 @@ class Diagnostic:
 
 
 class FileError(UwsimError):
-    """A file is wrong; carries every error found, not only the first."""
+    """An invalid file, with all of its errors."""
 
     def __init__(self, diagnostics: Sequence[Diagnostic]) -> None:
         self.diagnostics = tuple(diagnostics)
@@ -92,15 +92,15 @@ class SeveralErrors(UwsimError):
 
 
 class SceneError(FileError):
-    """A scene or robot file is wrong."""
+    """An invalid scene or robot file."""
 
 
 class BenchmarkError(FileError):
-    """A benchmark file is wrong."""
+    """An invalid benchmark file."""
 
 
 class PluginError(FileError):
-    """A plugin is wrong, or raised an exception."""
+    """An invalid plugin, or one that raised an exception."""
 
 
 class UnknownName(UwsimError):
@@ -126,11 +126,11 @@ class BadSetting(UwsimError):
 
 
 class BadMessage(UwsimError):
-    """A message or request that does not fit its topic or service: the sender's error."""
+    """An invalid message or request for its topic or service: an error of the sender."""
 
 
 class NotAllowed(UwsimError):
-    """Forbidden to an algorithm under test: flooding a topic, threads, reading results."""
+    """A use of the node that algorithms may not make: floods, threads, reading results."""
 
 
 class MissingExtra(UwsimError):
@@ -138,11 +138,11 @@ class MissingExtra(UwsimError):
 
 
 class NoGraphics(UwsimError):
-    """No OpenGL context could be made."""
+    """A missing OpenGL context."""
 
 
 class NeverStarted(UwsimError):
-    """The start trigger of a benchmark never switched on."""
+    """A start trigger of a benchmark that never switched on."""
 
 
 class RunFailed(UwsimError):
@@ -150,11 +150,11 @@ class RunFailed(UwsimError):
 
 
 class ClientLost(RunFailed):
-    """A client in lock-step did not answer, or left: the run is invalid from there on."""
+    """A client in lock-step that did not answer or left; the run is invalid from then on."""
 
 
 class SimulationFailed(RunFailed):
-    """A body moves as none can, or the engine has given up: what would follow is not true."""
+    """An impossible motion of a body, or an engine that stopped; later states are invalid."""
 
 
 class ResultError(UwsimError):
@@ -162,16 +162,16 @@ class ResultError(UwsimError):
 
 
 class ReplayDiffers(ResultError):
-    """The rows of a replay differ from the stored ones; found only by running."""
+    """A replay whose rows differ from the stored rows; only a run detects it."""
 
 
 @contextmanager
 def name_file_in_errors(path: object, draft: object = None) -> Iterator[None]:
-    """Let errors of the system in this block, as a full disk, name the file that was written.
+    """Make system errors in this block, such as a full disk, name the file that is written.
 
     Args:
-        path: of the file.
-        draft: what is written in its place, and is not to be named.
+        path: the path of the file.
+        draft: the path of its draft, which is written first and is not named.
     """
     try:
         yield
@@ -184,18 +184,18 @@ def name_file_in_errors(path: object, draft: object = None) -> Iterator[None]:
 
 
 RUN_ERRORS = (NeverStarted, ReplayDiffers, RunFailed)
-"""Errors found only by running; every other `UwsimError` is invalid input."""
+"""The errors that only a run detects; every other `UwsimError` is invalid input."""
 
 
 class ErrorCollector:
-    """Collects the errors of one call, so that all of them are reported at once."""
+    """A collector of the errors of one call, which reports all of them at once."""
 
     def __init__(self) -> None:
         self._errors: list[UwsimError] = []
 
     @contextmanager
     def collect(self) -> Iterator[None]:
-        """Keep an error raised within the block, and continue after it."""
+        """Collect an error that the block raises, and continue after the block."""
         try:
             yield
         except SeveralErrors as error:
@@ -204,7 +204,7 @@ class ErrorCollector:
             self._errors.append(error)
 
     def raise_errors(self) -> None:
-        """Raise the kept errors, if any: one as it is, several as `SeveralErrors`."""
+        """Raise the collected errors, if any: one as it is, several as `SeveralErrors`."""
         errors_by_text: dict[str, UwsimError] = {}
         for error in self._errors:
             errors_by_text.setdefault(str(error), error)
@@ -226,21 +226,21 @@ def choices(name: str, valid_names: Iterable[str], *, heading: str = "Known") ->
 
 
 def type_and_text(error: BaseException) -> str:
-    """Return the type and the text of an exception of foreign code as one line."""
+    """Return the type and the text of an exception of third-party code as one line."""
     return " ".join(f"{type(error).__name__}: {error}".split()).removesuffix(":")
 
 
 def short_repr(value: object) -> str:
-    """Return the text of a value of foreign code as one line, cut where it is long."""
+    """Return the text of a value of third-party code as one line, shortened if it is long."""
     try:
         text = " ".join(repr(value).split())
-    except Exception:  # its own repr raises, or it is a whole number of too many digits
+    except Exception:  # its repr raises, or it is an integer of too many digits
         return f"a {type(value).__name__}"
     return text if len(text) <= MAX_REPR_LENGTH else text[: MAX_REPR_LENGTH - 3] + "..."
 
 
 def did_you_mean(name: str, valid_names: Iterable[str]) -> str:
-    """Return " Did you mean 'x'?" for the nearest known name, or nothing, as for a long text."""
+    """Return " Did you mean 'x'?" for the nearest valid name, or "" if none is near."""
     if len(name) > MAX_NAME_LENGTH:
         return ""
     names = list(valid_names)

@@ -86,7 +86,7 @@ def test_a_damaged_file_is_made_anew_and_that_is_reported_once(
     assert file.read_bytes() == whole
     assert_equal(fresh("objects/hook"), first)
     assert [record.getMessage() for record in caplog.records] == [
-        f"uwsim: warning: {file} in the cache is damaged; what it held is made anew."
+        f"uwsim: warning: {file} in the cache is damaged; its content is computed again."
     ]
 
 

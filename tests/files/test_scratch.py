@@ -47,7 +47,7 @@ def test_it_is_there_while_it_is_used_and_gone_afterwards(tmp_path: Path) -> Non
 
 def test_where_none_can_be_made_the_run_fails_in_one_line(tmp_path: Path) -> None:
     with (
-        pytest.raises(RunFailed, match=r"No temporary folder can be made: .*No such file"),
+        pytest.raises(RunFailed, match=r"No temporary folder can be created: .*No such file"),
         scratch_folder("uwsim-test-", tmp_path / "nowhere"),
     ):
         pass

@@ -93,7 +93,7 @@ def test_a_damaged_file_is_compiled_anew_and_that_is_reported_once(
     module = fresh(cache)
     assert module.twice(1.5) == 3.0
     assert sum(module.twice.stats.cache_hits.values()) == 1
-    assert [" is damaged; what it held" in entry.getMessage() for entry in caplog.records] == [True]
+    assert [" is damaged; its content" in entry.getMessage() for entry in caplog.records] == [True]
 
 
 def test_what_calls_a_module_that_was_moved_is_compiled_anew(

@@ -27,7 +27,7 @@ def test_a_sample_that_is_not_needed_is_neither_taken_nor_published() -> None:
     values, is_read, calls = np.array([3.0]), [False], []
     prepare, is_alone = (lambda _: None), (lambda _: True)
     sampler = gather_sampler(number_addresses(values), prepare=prepare, is_alone=is_alone)
-    sample, schedule = Sample.before_first(sampler), Schedule(Bus(), 0.002)
+    sample, schedule = Sample.create(sampler), Schedule(Bus(), 0.002)
     schedule.every(100.0, lambda: is_read.__setitem__(0, True))
     sampling = Sampling(sampler, sample, lambda: is_read[0])
     schedule.every(100.0, lambda: calls.append(sample.numbers.tolist()), sampling=sampling)

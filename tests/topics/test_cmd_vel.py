@@ -113,7 +113,7 @@ def test_the_cloud_has_the_points_of_the_scan_that_hit(tmp_path: Path) -> None:
         scans = simulation.bus.inbox("/scan", LaserScan)
         clouds = simulation.bus.inbox("/points", PointCloud2)
         simulation.advance(0.3)
-        scan, cloud = scans.last, clouds.last
+        scan, cloud = scans.last_message, clouds.last_message
         assert scan is not None
         assert cloud is not None
         assert cloud.header == scan.header

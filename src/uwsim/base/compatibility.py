@@ -1,8 +1,8 @@
 """Compatibility quirks of the original, restored by name: one table for files and ``--compat``.
 
-By default every one of these is repaired. ``u:compatibility="thresholds rows"`` on ``<benchmark>``
-or ``--compat thresholds,rows`` brings the named ones back; ``uwsim`` brings back all but those of
-`OLDER_QUIRKS`, which the original itself no longer had.
+By default all of these are corrected. ``u:compatibility="thresholds rows"`` on ``<benchmark>``
+or ``--compat thresholds,rows`` restores the named quirks. ``uwsim`` restores all but those of
+`OLDER_QUIRKS`, which the last version of the original no longer has.
 """
 
 from __future__ import annotations
@@ -47,10 +47,10 @@ COMPATIBILITY: dict[str, str] = {
     "whole-rates": "a rate is a whole number: 33.3 is 33",
     "y0": "camera parameters x0, y0 count from the left and bottom edge, published as they are",
 }
-"""Name -> what the original does. In alphabetical order."""
+"""The behaviour of the original by the name of the quirk, in alphabetical order."""
 
 OLDER_QUIRKS = frozenset({"visual-frames"})
-"""What files of an older original mean and those of the last one do not: not part of ``uwsim``."""
+"""The quirks of older versions of the original, which ``uwsim`` does not restore."""
 
 
 def compatibility(names: Iterable[str]) -> frozenset[str]:

@@ -14,7 +14,7 @@ from typing import Any, TypeVar, cast
 F = TypeVar("F", bound=Callable[..., Any])
 
 
-def deprecated(new_name: str) -> Callable[[F], F]:
+def deprecated_name(new_name: str) -> Callable[[F], F]:
     """Return the decorator of a method, or of a property's getter, that has an old name."""
 
     def decorate(function: F) -> F:

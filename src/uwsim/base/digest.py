@@ -10,7 +10,7 @@ import numpy as np
 
 
 def digest_of(spec: object) -> str:
-    """Return a hash of what a spec says, wherever its file lies."""
+    """Return a hash of the values of a spec, which does not depend on the place of its file."""
     return hashlib.sha256(repr(_plain_value(spec)).encode()).hexdigest()
 
 

@@ -1,7 +1,7 @@
 """The physics engine's library, imported so that it starts no process.
 
-To look for the library of its windows, which are not used here, MuJoCo would start one, which shows
-a traceback when the run is ended. Whoever wants them in the same program imports mujoco first.
+MuJoCo starts a process to find the library of its windows, which uwsim does not use. That process
+prints a traceback when the run ends. A program that uses the windows imports mujoco first.
 """
 
 from __future__ import annotations

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 
 WEB_TOKEN = "UWSIM_WEB_TOKEN"
-"""Variable with the token of web clients."""
+"""The environment variable with the token of web clients."""
 CLIENT_SECRET = "UWSIM_CLIENT_SECRET"
-"""Variable with the secret that the join of a client in lock-step has to have."""
+"""The environment variable with the secret that a client in lock-step sends when it joins."""
 
 
 def remove_secrets(variables: Mapping[str, str]) -> dict[str, str]:
@@ -20,13 +20,13 @@ def remove_secrets(variables: Mapping[str, str]) -> dict[str, str]:
 
 
 def select_unset(variables: Mapping[str, str]) -> dict[str, str]:
-    """Return those of the variables that the user has not set."""
+    """Return the variables that the user has not set."""
     return {name: value for name, value in variables.items() if name not in os.environ}
 
 
 @contextmanager
 def set_environment(variables: Mapping[str, str]) -> Iterator[None]:
-    """Set the variables, where the user has not, for as long as the block lasts."""
+    """Set the variables that the user has not set, for the duration of the block."""
     unset_variables = select_unset(variables)
     os.environ.update(unset_variables)
     try:

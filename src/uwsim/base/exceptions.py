@@ -43,7 +43,7 @@ def _text(error: BaseException) -> str:
 
 
 def system_error_text(error: OSError) -> str:
-    """Return what happened, and to which file."""
+    """Return the text of a system error, with its file."""
     if error.filename is None:
         return error.strerror or str(error)
     return f"{error.strerror}: {error.filename}"
@@ -51,10 +51,10 @@ def system_error_text(error: OSError) -> str:
 
 @contextmanager
 def convert_to_run_failed() -> Iterator[None]:
-    """Turn system errors in this block into `RunFailed`, because the inputs were checked before."""
+    """Convert system errors in this block to `RunFailed`: the inputs were checked before."""
     try:
         yield
     except BrokenPipeError:
-        raise  # the reader of the output has closed it
+        raise  # the reader of the output closed it
     except OSError as error:
         raise RunFailed(system_error_text(error)) from error

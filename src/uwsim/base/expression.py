@@ -18,13 +18,13 @@ From the loosest binding to the tightest:
 =====================  ==========================================================
 
 Functions: those of `FUNCTIONS`; constants ``_pi`` and ``_e``. ``log`` is to base **10**, as in the
-muParser of UWSim's time (newer ones: natural); ``log10`` and ``ln`` say which is meant. ``rint``
-rounds halves up. Angles are in radians. Numbers are float64. Where anything that is used on the way
-is not a finite number, there is no value: ``max(1, 0/0)``, ``1 || 1/0`` and ``1/(1/0)`` have none.
-Of ``? :`` and ``if`` the side that is not chosen is not used.
+muParser of UWSim's time (newer versions: natural); ``log10`` and ``ln`` are unambiguous. ``rint``
+rounds halves up. Angles are in radians. Numbers are float64. If an intermediate value is not a
+finite number, there is no value: ``max(1, 0/0)``, ``1 || 1/0`` and ``1/(1/0)`` have none. Of
+``? :`` and ``if`` the branch that is not chosen does not count.
 
-Nothing is ever given to Python's ``eval``: a parsed expression is a list of the steps below. Not
-in the language: assignments, strings, muParser's words ``and``, ``or``, ``xor``.
+Python's ``eval`` is never called: a parsed expression is a list of the steps below. Not in the
+language: assignments, strings, muParser's words ``and``, ``or``, ``xor``.
 """
 
 from __future__ import annotations
@@ -44,7 +44,9 @@ if TYPE_CHECKING:
     import lark
 
 MAX_LENGTH = 4096
+"""The greatest length of an expression [characters]."""
 MAX_DEPTH = 100
+"""The greatest depth of nested brackets."""
 CONSTANTS = {"_pi": math.pi, "_e": math.e}
 GRAMMAR = r"""
     start: choice
@@ -52,9 +54,11 @@ GRAMMAR = r"""
     ?or_: and_ | or_ OR and_        -> binary
     ?and_: compared | and_ AND compared  -> binary
     ?compared: sum | compared COMPARE sum -> binary
+
     ?sum: product | sum SIGN product -> binary
     ?product: signed | product TIMES signed -> binary
     ?signed: power | SIGN signed -> signed
+
     ?power: atom | atom POWER exponent -> binary
     ?exponent: power | SIGN exponent -> signed
     ?atom: NUMBER -> number
@@ -73,21 +77,21 @@ GRAMMAR = r"""
 """
 
 CONTEXT_LENGTH = 60
-"""How much of an expression is shown on either side of what is wrong with it [characters]."""
+"""The length of the text that an error shows on either side of the error [characters]."""
 
 Function = Callable[..., Any]
 
 
 class ScoreError(UwsimError):
-    """An expression that cannot be parsed; shows where."""
+    """An expression that cannot be parsed, with the column of the error."""
 
     def __init__(self, text: str, column: int, message: str) -> None:
         self.text, self.column, self.message = text, column, message
-        """Column from 0."""
+        """The column from 0."""
         super().__init__(f"{message}\n{self.marked_text()}")
 
     def marked_text(self) -> str:
-        """The text, and on the next line a caret under the wrong character; long ones are cut."""
+        """Return the text, shortened, and on the next line a caret under the error."""
         start = max(0, self.column - CONTEXT_LENGTH)
         prefix = "..." if start else ""
         suffix = "..." if len(self.text) > self.column + CONTEXT_LENGTH else ""
@@ -97,17 +101,17 @@ class ScoreError(UwsimError):
 
 @dataclass(frozen=True)
 class Score:
-    """What an expression gave."""
+    """The value of an expression, or the reason why it has none."""
 
     value: float | None
-    """The number; None when there is none."""
+    """The number; None if there is none."""
     reason: str | None = None
-    """Why there is none."""
+    """The reason why there is no number."""
 
 
 @dataclass(frozen=True)
 class _Step:
-    """Take the topmost numbers off the stack, put one on it."""
+    """A step that replaces the topmost numbers of the stack by one number."""
 
     column: int
     n_operands: int
@@ -121,22 +125,22 @@ class Expression:
     """A parsed expression over named numbers."""
 
     text: str
-    """As it was written."""
+    """The text as written."""
     names: tuple[str, ...]
-    """The names in it, in the order of appearance."""
+    """The names in the text, in the order of appearance."""
     steps: tuple[_Step, ...]
-    """What is done, in postfix order."""
+    """The steps in postfix order."""
 
     def evaluate(self, values: Mapping[str, float | None]) -> float | None:
-        """Return the value; None where a measure in it has none, or it is not a finite number."""
+        """Return the value; None if a named number has none, or the value is not finite."""
         return self.score(values).value
 
     def score(self, values: Mapping[str, float | None]) -> Score:
-        """Return the value, or why there is none."""
+        """Return the value, or the reason why there is none."""
         missing_names = [name for name in self.names if values[name] is None]
         if missing_names:
             return Score(None, f"no value for {', '.join(missing_names)}")
-        stack: list[tuple[float, _Step | None]] = []  # a number; which step made it not finite
+        stack: list[tuple[float, _Step | None]] = []  # a number; the step that made it not finite
         with np.errstate(all="ignore"):
             for step in self.steps:
                 operands = stack[len(stack) - step.n_operands :]
@@ -154,7 +158,7 @@ class Expression:
         operands: list[tuple[float, _Step | None]],
         values: Mapping[str, float | None],
     ) -> tuple[float, _Step | None]:
-        """What a step makes of the numbers it takes; the first that is not finite is passed on."""
+        """Return the result of a step, or its first operand that is not finite."""
         if step.function is _choose and operands[0][1] is None:
             return operands[1] if operands[0][0] != 0.0 else operands[2]
         for number, faulty_step in operands:
@@ -181,8 +185,8 @@ def parse(text: str, names: Collection[str], *, kind: str = "measure") -> Expres
 
     Args:
         text: the expression.
-        names: of the numbers.
-        kind: what has these names, for error messages.
+        names: the names of the numbers.
+        kind: the noun for the named numbers in error messages.
 
     Raises:
         ScoreError: a syntax error, an unknown name or function, a wrong number of arguments, or
@@ -219,7 +223,7 @@ def _one_line(text: str) -> str:
 
 
 def _check_depth(text: str) -> None:
-    """Refuse brackets nested deeper than the language's limit."""
+    """Raise ScoreError for brackets that are nested deeper than `MAX_DEPTH`."""
     depth = 0
     for column, letter in enumerate(text):
         depth += (letter == "(") - (letter == ")")
@@ -237,7 +241,7 @@ def _parser() -> lark.Lark:
 def _compile(
     tree: lark.Tree[Any], text: str, names: tuple[str, ...], kind: str
 ) -> tuple[list[_Step], dict[str, None]]:
-    """Turn a syntax tree into steps, without recursion: chains may be thousands long."""
+    """Convert a syntax tree to steps, without recursion: chains may have thousands of operands."""
     steps: list[_Step] = []
     names_used: dict[str, None] = {}
     stack: list[lark.Tree[Any] | _Step] = [tree]
@@ -373,4 +377,4 @@ FUNCTIONS: dict[str, tuple[int | None, Function]] = {
     "tan": (1, elementwise.tan),
     "tanh": (1, elementwise.tanh),
 }
-"""Name -> number of arguments (None: one or more), and what it does."""
+"""The functions by name: the number of arguments (None: one or more), and the function."""

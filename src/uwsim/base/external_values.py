@@ -14,13 +14,13 @@ import numpy as np
 from .geometry import Array, Pose
 
 MAX_COMMAND = 1e6
-"""Commands are clipped to this number, which no vehicle reaches [m, m/s, rad/s, N, N m]."""
+"""The limit to which commands are clipped; no vehicle reaches it [m, m/s, rad/s, N, N m]."""
 MAX_COORDINATE = MAX_COMMAND
 """The largest coordinate of a position that is accepted [m]."""
 EXPECTED_POSE = (
     f"finite coordinates of at most {MAX_COORDINATE:g} m, and a quaternion that is not zero"
 )
-"""What `read_pose` accepts, for messages to the user."""
+"""A description of the poses that `read_pose` accepts, for messages to the user."""
 
 
 class Triple(Protocol):
@@ -53,8 +53,8 @@ def read_number(value: object) -> float | None:
     """Return a number of a decoded message as a float.
 
     Returns:
-        None for everything that is no finite number: text, true and false, not-a-number,
-        infinities, and integers beyond the range of a float.
+        None for every value that is not a finite number: text, true and false, NaN, infinities,
+        and integers beyond the range of a float.
     """
     if isinstance(value, bool) or not isinstance(value, int | float):
         return None

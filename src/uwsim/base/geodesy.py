@@ -1,4 +1,4 @@
-r"""Latitude, longitude and altitude on the ellipsoid of WGS84, and the local north, east and down.
+r"""Latitude, longitude and altitude on the ellipsoid of WGS84, and local NED coordinates.
 
 National Imagery and Mapping Agency, TR8350.2, 1997: with the semi-major axis a, the square of the
 eccentricity :math:`e^2 = f (2 - f)` and the radius of curvature :math:`N = a / \sqrt{1 - e^2
@@ -10,8 +10,8 @@ eccentricity :math:`e^2 = f (2 - f)` and the radius of curvature :math:`N = a / 
     y &= (N + h) \cos\varphi \sin\lambda \\
     z &= ((1 - e^2) N + h) \sin\varphi .
 
-The local frame is a plane that touches the ellipsoid at its origin: at 10 km from there it is 8 m
-above it.
+The local frame is the plane tangent to the ellipsoid at its origin; at a distance of 10 km the
+plane is 8 m above the ellipsoid.
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ from .geometry import Array
 from .numerics.linear import rotate, rotate_back
 
 SEMI_MAJOR_AXIS = 6378137.0
-"""Of the ellipsoid [m]."""
+"""The semi-major axis of the ellipsoid [m]."""
 FLATTENING = 1.0 / 298.257223563
-"""Of the ellipsoid [1]."""
+"""The flattening of the ellipsoid [1]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Geodetic:
-    """A place on Earth."""
+    """A position on Earth."""
 
     latitude: float
-    """[rad]."""
+    """The geodetic latitude [rad]."""
     longitude: float
-    """[rad]."""
+    """The longitude [rad]."""
     altitude: float = 0.0
-    """Above the ellipsoid [m]."""
+    """The altitude above the ellipsoid [m]."""
 
     @property
     def earth_centred(self) -> Array:
-        """Its coordinates in the frame that turns with the Earth, (3,) [m]."""
+        """The earth-centred, earth-fixed coordinates, (3,) [m]."""
         sine, cosine = math.sin(self.latitude), math.cos(self.latitude)
         e2 = FLATTENING * (2.0 - FLATTENING)
         curvature = SEMI_MAJOR_AXIS / math.sqrt(1.0 - e2 * sine * sine)
@@ -58,7 +58,7 @@ class Geodetic:
 
     @property
     def axes(self) -> Array:
-        """North, east and down as columns in the Earth's frame, (3, 3)."""
+        """The north, east and down axes as columns in the earth-fixed frame, (3, 3)."""
         sine, cosine = math.sin(self.latitude), math.cos(self.latitude)
         east, north = math.sin(self.longitude), math.cos(self.longitude)
         return np.array(
@@ -69,15 +69,15 @@ class Geodetic:
             ]
         )
 
-    def north_east_down(self, place: Geodetic) -> Array:
-        """Return where another place is in the local frame of this one, (3,) [m]."""
-        return rotate_back(self.axes, place.earth_centred - self.earth_centred)
+    def north_east_down(self, position: Geodetic) -> Array:
+        """Return the local coordinates of a position in the NED frame of this one, (3,) [m]."""
+        return rotate_back(self.axes, position.earth_centred - self.earth_centred)
 
     def place(self, north_east_down: Array) -> Geodetic:
-        """Return the place at these local coordinates (3,) [m]: the inverse of the above.
+        """Return the position at local coordinates (3,) [m]: the inverse of `north_east_down`.
 
-        By iterating over the latitude; altitudes as Bowring's, Survey Review 28, 1985. Exact to
-        1e-8 m near the ellipsoid.
+        The latitude is iterated; the altitude is that of Bowring, Survey Review 28, 1985. The
+        error near the ellipsoid is 1e-8 m.
         """
         x, y, z = (self.earth_centred + rotate(self.axes, north_east_down)).tolist()
         e2 = FLATTENING * (2.0 - FLATTENING)

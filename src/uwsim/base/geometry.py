@@ -22,25 +22,25 @@ UNIT_SCALE: Triple = (1.0, 1.0, 1.0)
 
 
 def rotation_x(angle: float) -> Array:
-    """Right-handed rotation about x by ``angle`` [rad], (3, 3)."""
+    """Return the right-handed rotation about x by ``angle`` [rad], (3, 3)."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
 
 
 def rotation_y(angle: float) -> Array:
-    """Right-handed rotation about y by ``angle`` [rad], (3, 3)."""
+    """Return the right-handed rotation about y by ``angle`` [rad], (3, 3)."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
 
 
 def rotation_z(angle: float) -> Array:
-    """Right-handed rotation about z by ``angle`` [rad], (3, 3)."""
+    """Return the right-handed rotation about z by ``angle`` [rad], (3, 3)."""
     c, s = math.cos(angle), math.sin(angle)
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Array:
-    """``Rz(yaw) Ry(pitch) Rx(roll)``: about fixed axes, as in ROS and URDF [rad], (3, 3)."""
+    """Return ``Rz(yaw) Ry(pitch) Rx(roll)``: fixed axes, as in ROS and URDF [rad], (3, 3)."""
     rotation = np.empty((3, 3))
     write_rotation(roll, pitch, yaw, rotation)
     return rotation
@@ -48,7 +48,7 @@ def rotation_from_rpy(roll: float, pitch: float, yaw: float) -> Array:
 
 @njit
 def write_rotation(roll: float, pitch: float, yaw: float, rotation: Array) -> None:
-    """Write what `rotation_from_rpy` returns into (3, 3)."""
+    """Write the result of `rotation_from_rpy` into (3, 3)."""
     a, b, c = math.cos(roll), math.cos(pitch), math.cos(yaw)
     u, v, w = math.sin(roll), math.sin(pitch), math.sin(yaw)
     cos_yaw_sin_pitch, sin_yaw_sin_pitch = c * v, w * v
@@ -67,12 +67,12 @@ def write_rotation(roll: float, pitch: float, yaw: float, rotation: Array) -> No
 
 
 def rotation_from_xyz(x: float, y: float, z: float) -> Array:
-    """``Rx(x) Ry(y) Rz(z)``: UWSim's other order (vehicles, offsetr, twists) [rad], (3, 3)."""
+    """Return ``Rx(x) Ry(y) Rz(z)``: UWSim's order of vehicles, offsetr, twists [rad], (3, 3)."""
     return product(product(rotation_x(x), rotation_y(y)), rotation_z(z))
 
 
 def rpy_from_rotation(rotation: Array) -> tuple[float, float, float]:
-    """Roll, pitch, yaw of ``Rz(yaw) Ry(pitch) Rx(roll)`` (3, 3) [rad]; pitch within +-pi/2."""
+    """Return roll, pitch, yaw of ``Rz(yaw) Ry(pitch) Rx(roll)`` (3, 3) [rad]; |pitch| <= pi/2."""
     r = rotation
     pitch = math.atan2(-r[2, 0], math.hypot(r[0, 0], r[1, 0]))
     if math.hypot(r[0, 0], r[1, 0]) < 1e-9:  # roll and yaw turn about one axis: all is yaw
@@ -81,13 +81,13 @@ def rpy_from_rotation(rotation: Array) -> tuple[float, float, float]:
 
 
 def xyz_from_rotation(rotation: Array) -> tuple[float, float, float]:
-    """The angles of ``Rx(x) Ry(y) Rz(z)`` (3, 3) [rad]; y within +-pi/2."""
+    """Return the angles of ``Rx(x) Ry(y) Rz(z)`` (3, 3) [rad]; y within +-pi/2."""
     x, y, z = rpy_from_rotation(rotation.T)  # the inverse has the other order and other signs
     return -x, -y, -z
 
 
 def rotation_about(axis: Array, angle: float) -> Array:
-    """Rotation by ``angle`` [rad] about the (not necessarily unit) ``axis`` (3,), Rodrigues."""
+    """Return the rotation by ``angle`` [rad] about an axis (3,) of any length (Rodrigues)."""
     unit = np.asarray(axis, dtype=np.float64) / length(axis)
     k = np.array([[0.0, -unit[2], unit[1]], [unit[2], 0.0, -unit[0]], [-unit[1], unit[0], 0.0]])
     rotation: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * product(k, k)
@@ -95,7 +95,7 @@ def rotation_about(axis: Array, angle: float) -> Array:
 
 
 def quaternion_from_rotation(rotation: Array) -> Array:
-    """Unit quaternion wxyz, w >= 0, of a rotation matrix (3, 3) (Shepperd's method), (4,)."""
+    """Return the unit quaternion wxyz, w >= 0, of a rotation (3, 3) (Shepperd's method), (4,)."""
     quaternion = np.empty(4)
     write_quaternion(np.ascontiguousarray(rotation, dtype=np.float64), quaternion)
     return quaternion
@@ -103,7 +103,7 @@ def quaternion_from_rotation(rotation: Array) -> Array:
 
 @njit
 def write_quaternion(rotation: Array, quaternion: Array) -> None:
-    """Write what `quaternion_from_rotation` returns into (4,)."""
+    """Write the result of `quaternion_from_rotation` into (4,)."""
     xx, xy, xz = rotation[0]
     yx, yy, yz = rotation[1]
     zx, zy, zz = rotation[2]
@@ -125,7 +125,7 @@ def write_quaternion(rotation: Array, quaternion: Array) -> None:
 
 
 def rotation_from_quaternion(wxyz: Array) -> Array:
-    """Rotation matrix (3, 3) of a quaternion wxyz (4,), normalised first."""
+    """Return the rotation matrix (3, 3) of a quaternion wxyz (4,), normalised first."""
     w, x, y, z = np.asarray(wxyz, dtype=np.float64).tolist()
     size = math.sqrt(w * w + x * x + y * y + z * z)
     w, x, y, z = w / size, x / size, y / size, z / size
@@ -143,28 +143,28 @@ class Pose:
     """A rigid transform ``a_from_b``: position and orientation of frame b in frame a."""
 
     position: Array
-    """Origin of b in a, (3,) [m]."""
+    """The origin of b in a, (3,) [m]."""
     rotation: Array
-    """Axes of b in a as columns, (3, 3)."""
+    """The axes of b in a as columns, (3, 3)."""
 
     @staticmethod
     def identity() -> Pose:
-        """The pose of a frame in itself."""
+        """Return the pose of a frame in itself."""
         return Pose(np.zeros(3), np.eye(3))
 
     @staticmethod
     def from_rpy(position: tuple[float, float, float], rpy: tuple[float, float, float]) -> Pose:
-        """From a position [m] and fixed-axis angles, ``Rz Ry Rx`` [rad]."""
+        """Return the pose with a position [m] and fixed-axis angles, ``Rz Ry Rx`` [rad]."""
         return Pose(np.array(position, dtype=np.float64), rotation_from_rpy(*rpy))
 
     @staticmethod
     def from_xyz(position: tuple[float, float, float], xyz: tuple[float, float, float]) -> Pose:
-        """From a position [m] and UWSim's vehicle order, ``Rx Ry Rz`` [rad]."""
+        """Return the pose with a position [m] and angles in UWSim's order, ``Rx Ry Rz`` [rad]."""
         return Pose(np.array(position, dtype=np.float64), rotation_from_xyz(*xyz))
 
     @staticmethod
     def from_quaternion(position: Array, wxyz: Array) -> Pose:
-        """From a position (3,) [m] and a quaternion wxyz (4,)."""
+        """Return the pose with a position (3,) [m] and a quaternion wxyz (4,)."""
         return Pose(np.array(position, dtype=np.float64), rotation_from_quaternion(wxyz))
 
     @property
@@ -174,7 +174,7 @@ class Pose:
 
     @property
     def matrix(self) -> Array:
-        """Homogeneous matrix, (4, 4)."""
+        """The homogeneous matrix, (4, 4)."""
         matrix = np.zeros((4, 4))
         matrix[:3, :3], matrix[:3, 3], matrix[3, 3] = self.rotation, self.position, 1.0
         return matrix
@@ -185,15 +185,15 @@ class Pose:
         )
 
     def copy(self) -> Pose:
-        """The same, in arrays of its own."""
+        """Return a copy with copied arrays."""
         return Pose(self.position.copy(), self.rotation.copy())
 
     def inverse(self) -> Pose:
-        """``b_from_a``."""
+        """Return ``b_from_a``."""
         return Pose(-rotate_back(self.rotation, self.position), self.rotation.T)
 
     def transform(self, points: Array) -> Array:
-        """Points in b, (n, 3) or one (3,), as points in a, of the same shape [m]."""
+        """Return the coordinates in a of points in b, (n, 3) or one (3,), same shape [m]."""
         rows = np.asarray(points, dtype=np.float64)
         return transform_points(np.atleast_2d(rows), self.rotation, self.position).reshape(
             rows.shape
@@ -201,12 +201,12 @@ class Pose:
 
 
 def image_centre(width: int, height: int) -> tuple[float, float]:
-    """The middle of an image in image coordinates (see `Intrinsics`) [px]."""
+    """Return the centre of an image in image coordinates (see `Intrinsics`) [px]."""
     return (width - 1) / 2.0, (height - 1) / 2.0
 
 
 def is_in_image(u: float, v: float, width: int, height: int) -> bool:
-    """Whether a point lies on a pixel of an image, its edge included (see `Intrinsics`)."""
+    """Return whether a point is on a pixel of an image, edges included (see `Intrinsics`)."""
     return -0.5 <= u <= width - 0.5 and -0.5 <= v <= height - 0.5
 
 
@@ -223,29 +223,29 @@ class Intrinsics:
     """
 
     width: int
-    """Columns [px]."""
+    """The number of columns [px]."""
     height: int
-    """Rows [px]."""
+    """The number of rows [px]."""
     fx: float
-    """Focal length along u [px]."""
+    """The focal length along u [px]."""
     fy: float
-    """Focal length along v [px]."""
+    """The focal length along v [px]."""
     cx: float
-    """Principal point from the centre of the first column [px]."""
+    """The column of the principal point, from the centre of the first column [px]."""
     cy: float
-    """Principal point from the centre of the first row [px]."""
+    """The row of the principal point, from the centre of the first row [px]."""
     skew: float = 0.0
-    """Skew k [px]."""
+    """The skew k [px]."""
     near: float = 0.18
-    """Nearest planar depth drawn [m]."""
+    """The planar depth of the near plane [m]."""
     far: float = 2000.0
-    """Farthest planar depth drawn [m]."""
+    """The planar depth of the far plane [m]."""
 
     @staticmethod
     def from_fovy(
         width: int, height: int, fovy: float, *, near: float = 0.18, far: float = 2000.0
     ) -> Intrinsics:
-        """Square pixels and a centred axis from a vertical field of view [rad]."""
+        """Return square pixels and a centred axis for a vertical field of view [rad]."""
         focal = height / (2.0 * math.tan(fovy / 2.0))
         cx, cy = image_centre(width, height)
         return Intrinsics(
@@ -260,9 +260,9 @@ class Intrinsics:
         )
 
     def with_size(self, width: int, height: int) -> Intrinsics:
-        """The same pinhole on an image of another size: as high a field of view, wider or narrower.
+        """Return the pinhole of an image of another size, with the same vertical field of view.
 
-        What is in the centre of the image stays there.
+        The point at the centre of the image is the same.
         """
         factor = height / self.height
         cx, cy = image_centre(width, height)
@@ -279,7 +279,7 @@ class Intrinsics:
         )
 
     def project(self, points: Array, *, includes_behind: bool = False) -> Array:
-        """Image coordinates (n, 2) [px] of points in the camera frame (n, 3) [m].
+        """Return the image coordinates (n, 2) [px] of points in the camera frame (n, 3) [m].
 
         Points at or behind the camera plane give NaN. With ``includes_behind`` only those in the
         plane do; those behind it are projected through the camera's centre, upside down.
@@ -292,12 +292,12 @@ class Intrinsics:
     def pixel(
         self, x: float, y: float, z: float, *, includes_behind: bool = False
     ) -> tuple[float, float]:
-        """Image coordinates u, v [px] of one point, as `project` has them: cheap for a few."""
+        """Return the image coordinates u, v [px] of one point, as `project`; fast for a few."""
         depth = -z if z < 0.0 or (includes_behind and z != 0.0) else math.nan
         return self.cx + (self.fx * x + self.skew * y) / depth, self.cy - self.fy * y / depth
 
     def rays(self) -> Array:
-        """Direction of the ray of each pixel centre, camera frame, with -z = 1, (h, w, 3)."""
+        """Return the ray through each pixel centre, in the camera frame, -z = 1, (h, w, 3)."""
         u = np.arange(self.width, dtype=np.float64)
         v = np.arange(self.height, dtype=np.float64)
         y = (self.cy - v) / self.fy
@@ -306,9 +306,9 @@ class Intrinsics:
 
     @cached_property
     def ray_lengths(self) -> Array:
-        """Lengths of `rays`: distance along a ray over planar depth, (h, w) [1]; read-only.
+        """The lengths of `rays`: distance along a ray over planar depth, (h, w) [1]; read-only.
 
-        Computed once: to find them takes longer than to draw a small image.
+        They are cached, because their computation takes longer than to render a small image.
         """
         rays = self.rays()
         lengths: Array = np.sqrt((rays * rays).sum(axis=2))

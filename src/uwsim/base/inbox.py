@@ -10,17 +10,18 @@ from .message_fields import size_of
 
 M = TypeVar("M")
 MAX_MESSAGES = 10_000
-"""Number of messages that an unread inbox keeps."""
+"""The greatest number of messages in an inbox that is not read."""
 MAX_BYTES = 256 * 2**20
+"""The greatest size of all messages in an inbox [bytes]; the newest is kept at any size."""
 
 
 class Inbox(Generic[M]):
     """The messages of one topic that one reader has not taken yet, and the last one.
 
-    One that is not looked into keeps the newest, of `MAX_BYTES` together at most.
+    An inbox that is full discards its oldest messages.
 
     Args:
-        max_messages: at most so many; `MAX_MESSAGES` if it is not given.
+        max_messages: the greatest number of messages; None: `MAX_MESSAGES`.
     """
 
     def __init__(self, max_messages: int | None = None) -> None:
@@ -30,12 +31,12 @@ class Inbox(Generic[M]):
         self._n_bytes = 0
         self._stop: Callable[[], None] | None = None
         self.last_message: M | None = None
-        """The newest message ever received."""
+        """The newest message, taken or not."""
         self.last_step: int | None = None
         """The step at which it was delivered."""
 
     def receive(self, message: M, step: int) -> None:
-        """Put a message in; called by the bus."""
+        """Add a message; called by the bus."""
         self._messages.append(message)
         self._sizes.append(size_of(message))
         self._n_bytes += self._sizes[-1]
@@ -47,7 +48,7 @@ class Inbox(Generic[M]):
         self.last_message, self.last_step = message, step
 
     def take(self) -> list[M]:
-        """Take out all messages that came since the last call, oldest first."""
+        """Remove and return all messages that came since the last call, oldest first."""
         if not self._messages:
             return []
         messages = list(self._messages)
@@ -55,12 +56,12 @@ class Inbox(Generic[M]):
         return messages
 
     def clear(self) -> None:
-        """Forget everything."""
+        """Remove all messages."""
         self._empty()
         self.last_message, self.last_step = None, None
 
     def close(self) -> None:
-        """Receive nothing more."""
+        """End the subscription."""
         if self._stop is not None:
             self._stop()
             self._stop = None
@@ -71,5 +72,5 @@ class Inbox(Generic[M]):
         self._n_bytes = 0
 
     def set_stop(self, stop: Callable[[], None]) -> None:
-        """Have ``stop`` called by `close`; used by the bus."""
+        """Set the function that `close` calls; used by the bus."""
         self._stop = stop

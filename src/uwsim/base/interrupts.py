@@ -1,14 +1,14 @@
 """Interruption of a command by Ctrl-C and signals: at once until there are results to keep.
 
-Python answers Ctrl-C by raising KeyboardInterrupt wherever it happens to be, and while libraries
-are loaded that is inside them: some turn it into another error, some print it and go on. So a
-command begins with `exit_on_interrupt`, and calls `raise_on_interrupt` before it writes its first
-file. From then on SIGTERM, and the SIGHUP of a closed terminal, have the effect of Ctrl-C.
+Python raises KeyboardInterrupt at the line that it executes. While libraries are loaded that is a
+line of theirs: some convert it to another error, some print it and continue. So a command begins
+with `exit_on_interrupt`, and calls `raise_on_interrupt` before it writes its first file. From then
+on SIGTERM, and the SIGHUP of a closed terminal, have the effect of Ctrl-C.
 
-Some libraries call Python from compiled code and do not look for an error: moderngl's crashes the
-process when it makes a program's uniforms, numba's goes on with a named tuple that is not there.
-While one of them is at work an interrupt waits. One that something has swallowed all the same is
-raised again by `raise_if_interrupted`, before a row is kept that it has spoiled.
+Some libraries call Python from compiled code and do not check for an error: moderngl crashes the
+process when it makes a program's uniforms, numba continues with a named tuple that does not exist.
+An interrupt is delayed while one of them runs. If a library suppresses an interrupt all the same,
+`raise_if_interrupted` raises it again before an invalid row is stored.
 """
 
 from __future__ import annotations
@@ -21,25 +21,25 @@ from threading import Event, Timer, current_thread, get_ident, main_thread
 from types import FrameType
 
 INTERRUPTED_STATUS = 130
-"""Exit status of what was interrupted: that of shells."""
+"""The exit status of an interrupted command, as shells define it."""
 UNSAFE_PACKAGES = ("moderngl", "_moderngl", "glcontext", "numba", "llvmlite")
-"""Packages that an exception from nowhere may break; and the named tuples that numba makes."""
+"""The packages that an asynchronous exception may break; also the named tuples of numba."""
 RETRY_DELAY = 0.02
-"""How long an interrupt waits before it tries again [s]."""
+"""The time after which a delayed interrupt is sent again [s]."""
 _was_raised = Event()
 _is_pending = Event()
 _is_blocked = Event()
 
 
 def exit_on_interrupt() -> None:
-    """From now on Ctrl-C ends this process with one line, unless SIGINT is ignored."""
+    """Make Ctrl-C end this process with one line, unless SIGINT is ignored."""
     if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:
         signal.signal(signal.SIGINT, _end)
 
 
 def raise_on_interrupt() -> None:
-    """From now on the signals that ended the process at once raise KeyboardInterrupt."""
-    _was_raised.clear()  # one that waits goes on waiting
+    """Make the signals that end the process raise KeyboardInterrupt instead."""
+    _was_raised.clear()  # a pending interrupt stays pending
     if signal.getsignal(signal.SIGINT) is _end:
         signal.signal(signal.SIGINT, _raise)
     for number in (signal.SIGTERM, signal.SIGHUP):
@@ -48,7 +48,7 @@ def raise_on_interrupt() -> None:
 
 
 def raise_if_interrupted() -> None:
-    """Raise KeyboardInterrupt if one waits, or was raised here and something has caught it."""
+    """Raise KeyboardInterrupt if one is pending, or was raised and suppressed."""
     raise_pending_interrupt()
     if _was_raised.is_set():
         _was_raised.clear()
@@ -56,36 +56,36 @@ def raise_if_interrupted() -> None:
 
 
 def raise_pending_interrupt() -> None:
-    """Raise KeyboardInterrupt if one waits until a library may be interrupted: now it may be."""
+    """Raise a delayed KeyboardInterrupt; called where no library runs."""
     if _is_pending.is_set() and current_thread() is main_thread():
         _interrupt()
 
 
 def ignore_interrupts() -> None:
-    """From now on Ctrl-C does nothing: the work is done and the exit status is known.
+    """Ignore Ctrl-C in the last milliseconds of a process, whose exit status is decided.
 
-    For the last milliseconds of a process: Python gives SIGINT its default action back before it
-    leaves, and would die of the signal where everything was written and 0 is the answer.
+    Python restores the default action of SIGINT before it exits. The signal would then end a
+    process that has written all of its files.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 def are_interrupts_unblocked() -> bool:
-    """Whether Ctrl-C reaches this process, so that a KeyboardInterrupt may be the user's."""
+    """Return whether Ctrl-C reaches this process, so that a KeyboardInterrupt may be the user's."""
     return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
 
 def is_user_interrupt(error: BaseException) -> bool:
-    """Whether an exception may be the user's Ctrl-C."""
+    """Return whether an exception may be the user's Ctrl-C."""
     return isinstance(error, KeyboardInterrupt) and are_interrupts_unblocked()
 
 
 @contextmanager
 def block_interrupts() -> Iterator[None]:
-    """Start processes in this block that ignore Ctrl-C for as long as they run.
+    """Block Ctrl-C during the block; processes that it starts ignore Ctrl-C all the time.
 
-    For this process it waits until the block is left. The system may hand it to another thread,
-    which does not block it, and Python would raise it in the main one: that one waits, too.
+    This process is interrupted after the block. The system may deliver the signal to another
+    thread, for which Python raises in the main thread: the main thread delays it, too.
     """
     previous_mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     is_outermost = current_thread() is main_thread() and not _is_blocked.is_set()
@@ -121,7 +121,7 @@ def _interrupt() -> None:
 
 
 def _is_unsafe(frame: FrameType | None) -> bool:
-    """Whether one of the packages that may break is at work."""
+    """Return whether code of one of the unsafe packages runs."""
     while frame is not None:
         package = str(frame.f_globals.get("__name__")).partition(".")[0]
         if package in UNSAFE_PACKAGES or package.startswith("namedtuple_"):
@@ -131,7 +131,7 @@ def _is_unsafe(frame: FrameType | None) -> bool:
 
 
 def _try_again(number: int) -> None:
-    """Send this thread, the main one, the signal in a moment, unless it was raised until then."""
+    """Send the signal to the main thread again after a delay, unless it was raised by then."""
     _is_pending.set()
     timer = Timer(RETRY_DELAY, _send, (get_ident(), number))
     timer.daemon = True

@@ -1,7 +1,7 @@
 """Checks and copies of messages before they are published: each field has its defined type.
 
-The definition is the message's dataclass, whose annotations are ROS's own: ``float``, ``str``,
-``np.ndarray[..., np.dtype[np.float64]]``, ``list[...]`` and other messages.
+The definition is the dataclass of the message, with annotations that correspond to ROS types:
+``float``, ``str``, ``np.ndarray[..., np.dtype[np.float64]]``, ``list[...]`` and other messages.
 """
 
 from __future__ import annotations
@@ -33,26 +33,26 @@ _EXPECTED_TEXTS = {
     "bool": "True or False",
     "str": "text",
     "array": "an array of numbers",
-    "list": "a list of what is defined there",
+    "list": "a list of the defined type",
     "message": "a message",
 }
 MAX_LOOP_LENGTH = 32
-"""Numbers that are looked at one by one."""
+"""The greatest number of numbers that a Python loop checks."""
 _ARRAY = re.compile(r"np\.ndarray\[.*np\.dtype\[np\.(\w+)\]\]")
 _LIST = re.compile(r"list\[(.*)\]")
 
 
 def find_invalid_field(message: object, prefix: str = "", *, converts: bool = True) -> str | None:
-    """Report the first field of a message that does not fit its definition, or None.
+    """Describe the first field of a message that violates its definition; None if there is none.
 
-    Lists and tuples given for arrays become arrays, or do not fit (``converts``). ``prefix`` is the
-    path to a message in another, with a dot behind it.
+    With ``converts`` lists and tuples in fields of arrays become arrays; without it they are
+    invalid. ``prefix`` is the path of a message in another, with a dot at its end.
     """
     return None if _is_valid_quickly(message) else _check_fields(message, prefix, converts)
 
 
 def _check_fields(message: object, prefix: str, converts: bool) -> str | None:
-    """Report as `find_invalid_field` does, field by field."""
+    """Do the work of `find_invalid_field`, field by field."""
     for name, kind, element_type in _definition(cast(Hashable, message.__class__)):
         value = getattr(message, name)
         error: str | None = None
@@ -86,7 +86,7 @@ def _check_fields(message: object, prefix: str, converts: bool) -> str | None:
 
 
 def check_and_freeze(message: object) -> str | None:
-    """Report as `find_invalid_field` does; make the arrays of a valid message read-only."""
+    """Do the same as `find_invalid_field`; make the arrays of a valid message read-only."""
     if _is_valid_quickly(message, freezes=True):
         return None
     error = _check_fields(message, "", converts=True)
@@ -96,9 +96,9 @@ def check_and_freeze(message: object) -> str | None:
 
 
 def _is_valid_quickly(message: object, *, freezes: bool = False) -> bool:
-    """Whether each field has exactly its type, in one look; False for messages in lists and doubts.
+    """Return True only if each field has exactly its type; False also for messages in lists.
 
-    With ``freezes`` the arrays of one that has are read-only from now on.
+    With ``freezes`` the arrays of a valid message become read-only.
     """
     parts = _make_getters(cast(Hashable, message.__class__))
     if parts is None:
@@ -124,15 +124,15 @@ def _is_valid_quickly(message: object, *, freezes: bool = False) -> bool:
 def find_invalid_number(
     message: object, paths: Sequence[str], limit: float
 ) -> tuple[str, str] | None:
-    """Report the first number of a command that is not finite, or else beyond a limit.
+    """Describe the first number of a command that is not finite, or else beyond a limit.
 
     Args:
         message: the command.
-        paths: of its fields, as ``twist.linear.x``; numbers, or arrays of them.
-        limit: greatest size of one that is followed.
+        paths: the paths of its fields, such as ``twist.linear.x``; numbers or arrays of numbers.
+        limit: the greatest absolute value.
 
     Returns:
-        What was found, and what was expected, with what becomes of it; None: all is well.
+        The number found, and the number expected with the consequence; None if all are valid.
     """
     values = _getter(tuple(paths))(message)
     for value in values if len(paths) > 1 else (values,):
@@ -146,7 +146,7 @@ def find_invalid_number(
 
 
 def are_within(values: np.ndarray[Any, Any], limit: float) -> bool:
-    """Whether no number of an array is NaN, or greater than a limit."""
+    """Return whether no number of an array is NaN or beyond a limit."""
     if values.size <= MAX_LOOP_LENGTH:  # numpy's functions take longer than those numbers
         return all(-limit <= value <= limit for value in values.ravel().tolist())
     return bool(np.abs(values).max() <= limit)
@@ -155,7 +155,7 @@ def are_within(values: np.ndarray[Any, Any], limit: float) -> bool:
 def _describe_invalid_number(
     message: object, paths: Sequence[str], limit: float
 ) -> tuple[str, str] | None:
-    """The same, where there is one."""
+    """Do the work of `find_invalid_number` for a command with an invalid number."""
     excess: tuple[str, str] | None = None
     for path in paths:
         value = operator.attrgetter(path)(message)
@@ -177,7 +177,7 @@ def _describe_invalid_number(
 
 @functools.cache
 def _getter(paths: tuple[str, ...]) -> Callable[[object], Any]:
-    """What reads the values at some paths; of one path, the value itself."""
+    """Return a function that reads the values at some paths; of one path, the value itself."""
     return operator.attrgetter(*paths)
 
 
@@ -199,7 +199,7 @@ def _freeze_value(value: object) -> None:
 
 
 def copy_message(message: M) -> M:
-    """Return the same message with arrays, lists and messages of its own."""
+    """Return a copy of a message that shares no array, list or message with it."""
     if hasattr(message, "__dict__"):
         copied_message: M = object.__new__(message.__class__)
         vars(copied_message).update(vars(message))
@@ -222,7 +222,7 @@ def _copy_value(value: object) -> object:
 
 
 def size_of(value: object) -> int:
-    """Return about how much memory a message takes [bytes]."""
+    """Return an estimate of the memory of a message [bytes]."""
     if isinstance(value, np.ndarray):
         return value.nbytes
     if isinstance(value, str):
@@ -247,7 +247,7 @@ def _field_names(cls: Hashable) -> tuple[str, ...]:
 
 @functools.cache
 def _array_fields(cls: Hashable) -> tuple[str, ...]:
-    """Fields that are, or may hold, arrays; those of a message that none of its fields has not."""
+    """Return the names of the fields that are, or may contain, arrays."""
     assert isinstance(cls, type)
     kinds = {name: kind for name, kind, _ in _definition(cls)}
     names = []
@@ -264,23 +264,23 @@ def _array_fields(cls: Hashable) -> tuple[str, ...]:
 
 
 class _Getters(NamedTuple):
-    """What reads the fields of a message, and those of messages in it, by their kinds."""
+    """Functions that read the fields of a message and of the messages in it, by kind."""
 
     values: Callable[[object], tuple[Any, ...]]
-    """Numbers, texts and messages."""
+    """The getter of numbers, texts, messages and lists of messages."""
     types: tuple[type, ...]
-    """The type of each of these, and of every list."""
+    """The types of these values."""
     arrays: Callable[[object], tuple[Any, ...]]
-    """Arrays of numbers."""
+    """The getter of arrays of numbers."""
     texts: Callable[[object], tuple[Any, ...]]
-    """Lists of texts."""
+    """The getter of lists of texts."""
     lists: Callable[[object], tuple[Any, ...]]
-    """Lists of messages."""
+    """The getter of lists of messages."""
 
 
 @functools.cache
 def _make_getters(cls: Hashable) -> _Getters | None:
-    """Return what reads the fields of a message class; None if the class of a part is unknown."""
+    """Return the getters of a message class; None if the class of a message in it is unknown."""
     paths = _paths(cls)
     if paths is None:
         return None
@@ -300,7 +300,7 @@ def _make_getters(cls: Hashable) -> _Getters | None:
 
 
 def _tuple_getter(paths: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
-    """Return what reads the values at some paths."""
+    """Return a function that reads the values at some paths as a tuple."""
     if len(paths) > 1:
         return operator.attrgetter(*paths)
     if not paths:
@@ -310,7 +310,7 @@ def _tuple_getter(paths: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
 
 
 def _paths(cls: Hashable) -> list[tuple[str, str, type]] | None:
-    """Path, kind and type of each field, and of those of messages in it; None of a part unknown.
+    """Return path, kind and type of each field, also of messages in it; None if one is unknown.
 
     The kind is ``array``, ``texts`` or ``list`` (of messages), else empty.
     """
@@ -336,9 +336,10 @@ def _paths(cls: Hashable) -> list[tuple[str, str, type]] | None:
 
 @functools.cache
 def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
-    """Field, kind (a key of `_EXPECTED_TEXTS`), and what is in it.
+    """Return the name, kind (a key of `_EXPECTED_TEXTS`) and content of each field.
 
-    That is the dtype of an array, ``str`` or the message type of a list, the type of a message.
+    The content is the dtype of an array, ``str`` or the message type of a list, or the type of a
+    message.
     """
     assert isinstance(cls, type)
     definition = []
@@ -356,14 +357,14 @@ def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
 
 
 def _message_type(cls: type, annotation: str) -> str:
-    """ROS's name of a message that a definition mentions; ``str`` stays."""
+    """Return ROS's name of a message in an annotation, and ``str`` for itself."""
     name = annotation.rpartition(".")[2]
     message_class = _class_in(cls, annotation)
     return str(getattr(message_class, "__msgtype__", name.replace("__", "/")))
 
 
 def _class_in(cls: type, annotation: str) -> type | None:
-    """The class of a message that a definition mentions; None if its module does not have it."""
+    """Return the class of a message in an annotation; None if its module does not define it."""
     attribute = getattr(sys.modules[cls.__module__], annotation.rpartition(".")[2], None)
     return (
         attribute if dataclasses.is_dataclass(attribute) and isinstance(attribute, type) else None

@@ -1,4 +1,4 @@
-"""JSON of peers: read within bounds, so that it can be compared, shown and sent on."""
+"""JSON of peers: read within limits, so that it can be compared, displayed and forwarded."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from itertools import accumulate
 from typing import Any
 
 MAX_DEPTH = 64
-"""The greatest depth of lists and objects in each other."""
+"""The greatest depth of nested lists and objects."""
 ESCAPED_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
-"""Half of a character beyond the 16-bit ones, as JSON escapes it."""
+"""A surrogate: half of a character beyond 16 bits, as JSON escapes it."""
 BRACKET = re.compile(r'[\[\]{}]|"[^"\\]*(?:\\.[^"\\]*)*(?:"|\\?\Z)', re.S)
-"""A bracket, or a string, whose brackets do not count. One without an end goes on to the end of the
-text: otherwise each of its quotes would be tried, in a time that grows with the square."""
+"""A bracket, or a string, whose brackets do not count. A string without an end extends to the end
+of the text: otherwise the time would grow with the square of its quotes."""
 DEPTH_STEPS = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 
@@ -21,8 +21,8 @@ def read_peer_json(text: str) -> Any:
     """Read JSON that a peer has sent.
 
     Raises:
-        ValueError: it is none, is nested more deeply than `MAX_DEPTH`, or has half of a surrogate
-            pair, which is no character.
+        ValueError: it is not JSON, is nested more deeply than `MAX_DEPTH`, or has half of a
+            surrogate pair, which is no character.
     """
     if text.count("[") + text.count("{") > MAX_DEPTH and _depth(text) > MAX_DEPTH:
         raise ValueError(f"it is nested more than {MAX_DEPTH} deep")

@@ -1,14 +1,14 @@
-"""Records: all that changes of a part while a simulation runs.
+"""Records: the state of a part of a simulation.
 
-A part of a running scene keeps what changes in one record, its ``state``, and sets no other
-attribute after it was made. The records lie in each other as the parts do; the outermost is the
-state of a whole simulation. In a running one they hold what runs: arrays that compiled code writes,
-random generators, the engine's memory. `copy_value` returns a record of values alone, and `assign`
-writes such values back into what runs.
+A part of a running scene has its state in one record, ``state``, and sets no other attribute after
+its creation. Records are nested as the parts are; the outermost is the state of a whole
+simulation. The records of a running simulation refer to live objects: arrays that compiled code
+writes, random generators, the engine's memory. `copy_value` returns a record of values alone, and
+`assign` writes such values back to the live objects.
 
-A record is a dataclass with slots. Its fields hold numbers, texts, tuples and frozen dataclasses,
-which are never changed but replaced; arrays, lists, dictionaries and queues of them; generators;
-`ExternalValue` parts; and records, alone or in lists and dictionaries.
+A record is a dataclass with slots. Its fields contain numbers, texts, tuples and frozen
+dataclasses, which are replaced, never changed; arrays, lists, dictionaries and queues of these;
+generators; `ExternalValue` objects; and records, alone or in lists and dictionaries.
 """
 
 from __future__ import annotations
@@ -35,36 +35,36 @@ class Record:
 
 @dataclasses.dataclass(slots=True)
 class NoState(Record):
-    """The record of a part that does not change."""
+    """The record of a part without a state."""
 
 
 @dataclasses.dataclass(slots=True)
 class RandomState(Record):
-    """The record of a part that changes by what it draws alone."""
+    """The record of a part whose only state is its random generator."""
 
     rng: np.random.Generator
-    """The generator that it draws from."""
+    """The generator from which the part draws."""
 
 
 class Item(Record):
-    """The base of what lies in the queues and tables of records.
+    """The base of the elements of queues and tables in records.
 
-    No part has it as its ``state``, so `assign` replaces it, and what it lies in, as a whole.
+    No part has it as its ``state``, so `assign` replaces the whole queue or table.
     """
 
     __slots__ = ()
 
 
 class ExternalValue(abc.ABC):
-    """Something that runs outside Python's objects, and whose values can be read and set."""
+    """A value outside of Python's objects, such as the engine's memory, that is read and set."""
 
     @abc.abstractmethod
     def value(self) -> object:
-        """Return its present value, which does not change any more."""
+        """Return a copy of the present value."""
 
     @abc.abstractmethod
     def set(self, value: object) -> None:
-        """Set the value; raises UwsimError where it is none of this part."""
+        """Set the value; raises UwsimError if it is the value of another part."""
 
 
 class Part(Protocol):
@@ -72,36 +72,36 @@ class Part(Protocol):
 
     @property
     def state(self) -> Record:
-        """All that changes of it."""
+        """The state of the part."""
 
 
 P = TypeVar("P", bound=Part)
 
 
 class LazyPart(ExternalValue, Generic[P]):
-    """A part that is made when it is first needed, and with it its record.
+    """A part that is created, with its record, when it is first needed.
 
     Args:
-        make: makes it.
+        make: a function that creates the part.
     """
 
     def __init__(self, make: Callable[[], P]) -> None:
         self._make = make
         self.part: P | None = None
-        """The part; None before it was needed."""
+        """The part; None before its creation."""
 
     def get_or_make(self) -> P:
-        """Return the part; make it if it is not there."""
+        """Return the part; create it if it does not exist."""
         if self.part is None:
             self.part = self._make()
         return self.part
 
     def value(self) -> Record | None:
-        """Return the record of the part; None before it was needed."""
+        """Return the record of the part; None before its creation."""
         return None if self.part is None else copy_record(self.part.state)
 
     def set(self, value: object) -> None:
-        """Set the record of the part, which is made or given up as needed."""
+        """Set the record of the part; create or remove the part as the record requires."""
         if value is None:
             self.part = None
             return
@@ -110,18 +110,18 @@ class LazyPart(ExternalValue, Generic[P]):
 
 @dataclasses.dataclass(slots=True)
 class GeneratorState(Item):
-    """How far a random generator has drawn."""
+    """The state of a random generator."""
 
     words: bytes
-    """Its counter, key and buffer, little-endian words of 64 bits."""
+    """The counter, key and buffer: little-endian words of 64 bits."""
     position: int
-    """How many words of the buffer are drawn."""
+    """The number of words drawn from the buffer."""
     half_word: int | None
-    """The half of a word that is left."""
+    """The unused half of a word, if any."""
 
     @staticmethod
     def from_generator(generator: np.random.Generator) -> GeneratorState:
-        """Read it from a generator of `uwsim.base.rng.stream`."""
+        """Read the state of a generator of `uwsim.base.rng.stream`."""
         state: Any = generator.bit_generator.state
         counter, key = state["state"].values()
         words = counter.tobytes() + key.tobytes() + state["buffer"].tobytes()
@@ -129,7 +129,7 @@ class GeneratorState(Item):
         return GeneratorState(words, state["buffer_pos"], half)
 
     def set(self, generator: np.random.Generator) -> None:
-        """Let a generator go on from here."""
+        """Set the state of a generator."""
         words = np.frombuffer(self.words, np.uint64)
         generator.bit_generator.state = {
             "bit_generator": "Philox",
@@ -142,18 +142,18 @@ class GeneratorState(Item):
 
 
 def copy_value(value: Any) -> Any:
-    """Return a value that shares nothing that changes with this one."""
+    """Return a copy that shares no mutable object with the value."""
     return _COPIERS[type(value)](value)
 
 
 def copy_record(record: R) -> R:
-    """Return a record of values alone."""
+    """Return a copy of a record, of values alone."""
     copy: R = _COPIERS[type(record)](record)
     return copy
 
 
 def changing_fields(kind: type) -> tuple[int, ...]:
-    """Return the places of the fields of a dataclass that may hold more than a number or a text."""
+    """Return the indices of the fields of a dataclass that may be more than a number or a text."""
     return tuple(
         index
         for index, field in enumerate(dataclasses.fields(kind))
@@ -162,13 +162,13 @@ def changing_fields(kind: type) -> tuple[int, ...]:
 
 
 def field_values(record: object) -> tuple[Any, ...]:
-    """Return the values of the fields of a dataclass with slots, as they are."""
+    """Return the values of the fields of a dataclass with slots, not copied."""
     values: tuple[Any, ...] = _FIELD_GETTERS[type(record)](record)
     return values
 
 
 class _FieldGetters(dict[type, Callable[[Any], Any]]):
-    """What returns the values of the fields, by the type of dataclass."""
+    """The functions that return the values of the fields, by the type of dataclass."""
 
     def __missing__(self, record_type: type) -> Callable[[Any], Any]:
         names = [field.name for field in dataclasses.fields(record_type)]
@@ -179,7 +179,7 @@ class _FieldGetters(dict[type, Callable[[Any], Any]]):
 
 
 class _Copiers(dict[type, Callable[[Any], Any]]):
-    """What copies a value, by its type."""
+    """The functions that copy a value, by its type."""
 
     def __missing__(self, value_type: type) -> Callable[[Any], Any]:
         self[value_type] = _return_unchanged
@@ -191,7 +191,7 @@ class _Copiers(dict[type, Callable[[Any], Any]]):
 
 
 def _record_copier(kind: type[Any]) -> Callable[[Any], Any]:
-    """Return what copies the records of a class: of most fields there is nothing to copy."""
+    """Return the function that copies the records of a class; most fields need no copy."""
     fields, indices, copiers = _FIELD_GETTERS[kind], changing_fields(kind), _COPIERS
     if not indices:
         return lambda record: kind(*fields(record))
@@ -221,18 +221,18 @@ _COPIERS: _Copiers = _Copiers(
         NoState: _return_unchanged,
         np.ndarray: _copy_array,
         np.random.Generator: GeneratorState.from_generator,
-        list: lambda value: [_COPIERS[type(each)](each) for each in value],
-        dict: lambda value: {key: _COPIERS[type(each)](each) for key, each in value.items()},
-        deque: lambda value: deque(map(copy_value, value), value.maxlen),
+        list: lambda values: [_COPIERS[type(value)](value) for value in values],
+        dict: lambda values: {key: _COPIERS[type(value)](value) for key, value in values.items()},
+        deque: lambda values: deque(map(copy_value, values), values.maxlen),
     }
 )
 
 
 def assign(record: Record, values: Record) -> None:
-    """Write the values of a copied record into one that runs.
+    """Write the values of a copied record into the record of a running part.
 
     Raises:
-        UwsimError: they are those of another part.
+        UwsimError: the record is that of another part.
     """
     if type(record) is not type(values):
         raise wrong_scene_error()
@@ -245,10 +245,10 @@ def copy_fields(record: Record, names: Collection[str]) -> dict[str, Any]:
 
 
 def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
-    """Write the copied values of some fields into a record that runs.
+    """Write the copied values of some fields into the record of a running part.
 
     Raises:
-        UwsimError: they are those of another part.
+        UwsimError: the values are those of another part.
     """
     for name, new_value in values.items():
         if not _assign_in_place(getattr(record, name), new_value):
@@ -256,7 +256,7 @@ def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
 
 
 def _assign_in_place(old_value: Any, new_value: Any) -> bool:
-    """Write a value into what holds it; False where the field must be set instead."""
+    """Write a value into a live object; return False if the field must be set instead."""
     if _is_part_record(old_value):
         assign(old_value, new_value)
     elif isinstance(old_value, np.random.Generator):
@@ -286,12 +286,12 @@ def _assign_in_place(old_value: Any, new_value: Any) -> bool:
 
 
 def _is_part_record(value: object) -> bool:
-    """Whether it is the record of a part."""
+    """Return whether a value is the record of a part."""
     return isinstance(value, Record) and not isinstance(value, Item)
 
 
 def are_equal(value: Any, other: Any) -> bool:
-    """Whether two copied values are the same to the bit; nan is the same as nan."""
+    """Return whether two copied values are equal to the bit; NaN equals NaN."""
     if type(value) is not type(other):
         return False
     if isinstance(value, np.ndarray):
@@ -310,7 +310,7 @@ def are_equal(value: Any, other: Any) -> bool:
 
 
 def wrong_scene_error() -> UwsimError:
-    """Return the error of a state that belongs to other parts."""
+    """Return the error of a state that belongs to another scene."""
     return UwsimError("The saved simulation is not of this scene.")
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 
 def stream(seed: int, name: str) -> np.random.Generator:
-    """Return the random generator that belongs to ``name`` under ``seed``.
+    """Return the random generator of a name and a seed.
 
     ``Generator(Philox(SeedSequence([seed, *words])))`` with ``words`` the 16-byte BLAKE2b digest
     of the name as four little-endian uint32. A name is a path such as ``girona500/bowtech1/noise``;

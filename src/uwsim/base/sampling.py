@@ -1,8 +1,8 @@
 """Sampling times, and samples that compiled code takes.
 
-A sample is due at the first step at or after its time. Timers stand in a table of records that
-compiled code walks (`take_due`) at the steps at which one is due. A timer may have a sampler: a
-compiled function that writes the numbers of a sample (`uwsim.base.numerics.calls`).
+A sample is due at the first step at or after its time. Timers are rows of a table that compiled
+code reads (`take_due`) at the steps at which one is due. A timer may have a sampler: a compiled
+function that writes the numbers of a sample (`uwsim.base.numerics.calls`).
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from .numerics.memory import Ints64, carray, pointer, read_double, view_doubles,
 from .record import Record
 
 START, N_SAMPLES, DUE = range(3)
-"""Of the counts of a timer: the step of its first sample, the samples taken, the next step."""
+"""The indices of a timer's counts: step of the first sample, samples taken, step of the next."""
 NO_STEP = 2**62
-"""The step of what is never due."""
+"""The due step of a table without a timer."""
 
 TIMER = np.dtype(
     [
@@ -59,7 +59,7 @@ def sample_step(n: int, rate: float, timestep: float) -> int:
 
 @njit
 def count_sample(counts: Ints64, rate: float, timestep: float) -> None:
-    """Count a sample of a timer, and find the step of the next."""
+    """Count a sample of a timer, and compute the step of the next."""
     counts[N_SAMPLES] += 1
     counts[DUE] = counts[START] + sample_step(counts[N_SAMPLES], rate, timestep)
 
@@ -87,28 +87,28 @@ def take_due(tables: Records, step: int) -> None:
 
 @dataclass(slots=True)
 class TimerState(Record):
-    """How far a timer is."""
+    """The state of a timer."""
 
     counts: npt.NDArray[np.int64]
     """The step of the first sample, the number of samples taken, and the step of the next, (3,)."""
 
     @staticmethod
     def starting_at(step: int) -> TimerState:
-        """Return that of a timer whose first sample is due at a step."""
+        """Return the state of a timer whose first sample is due at a step."""
         return TimerState(np.array([step, 0, step], np.int64))
 
 
 class SampleTimer:
-    """Calls a function at the samples of a rate."""
+    """A timer that calls a function at a rate."""
 
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
         self._rate, self._timestep, self._call = rate, timestep, call
         self.state = TimerState.starting_at(start)
-        """How far it is."""
+        """The state of the timer."""
 
     @property
     def due(self) -> int:
-        """Step of the next sample."""
+        """The step of the next sample."""
         return int(self.state.counts[DUE])
 
     def tick(self, step: int) -> None:
@@ -128,25 +128,24 @@ def _prepare_nothing(time: float) -> None:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sampler:
-    """What takes the samples of a sensor in compiled code."""
+    """A function that takes the samples of a sensor in compiled code."""
 
     function: int
     """The address of the function that writes a sample; see `uwsim.base.numerics.calls`."""
     parameters: npt.NDArray[Any]
     """The array that the function reads at its address."""
     n_values: int
-    """How many numbers it writes."""
+    """The number of numbers that the function writes."""
     prepare: Callable[[float], None] = _prepare_nothing
-    """Brings up to date, in Python, what the function reads; called with the time [s] of samples in
-    Python, before these."""
+    """A function that updates, in Python, the inputs of the sampler at a time [s]; it is called
+    before each sample in Python."""
     is_alone: Callable[[float], bool] = _needs_no_preparation
-    """Says whether the function needs no preparation in steps that compiled code takes until a time
-    [s]."""
+    """A function that returns whether compiled steps until a time [s] need no preparation."""
     memory_owners: tuple[object, ...] = field(default=())
-    """What the parameters have the addresses of."""
+    """The objects to whose memory the addresses in the parameters refer."""
 
     def take(self, time: float) -> Array:
-        """Take a sample at ``time`` [s]: its numbers, (n,)."""
+        """Take a sample at ``time`` [s] and return its numbers, (n,)."""
         self.prepare(time)
         return evaluate(self.function, address_of(self.parameters), self.n_values, time)
 
@@ -156,38 +155,38 @@ class Sample(Record):
     """The last sample that was taken for a topic."""
 
     numbers: Array
-    """Its time [s], NaN before the first, and the numbers of its `Sampler`, (1 + n,)."""
+    """The time [s], NaN before the first sample, and the numbers of its `Sampler`, (1 + n,)."""
 
     @staticmethod
-    def before_first(sampler: Sampler) -> Sample:
-        """Return that of a sampler that has not taken one."""
+    def create(sampler: Sampler) -> Sample:
+        """Return the sample of a sampler that has not taken one."""
         return Sample(np.full(1 + sampler.n_values, math.nan))
 
 
 @dataclass(frozen=True, eq=False)
 class Sampling:
-    """A sampler, and where its samples are written."""
+    """A sampler with its last sample."""
 
     sampler: Sampler
-    """What takes them."""
+    """The sampler that takes the samples."""
     sample: Sample
-    """The last one."""
+    """The last sample."""
     is_needed: Callable[[], bool] | None = None
     """A check whether a sample is needed now; None where each sample changes the sensor."""
 
 
 ADDRESSES = np.dtype([("addresses", np.int64), ("n", np.int64)])
-"""The address of the addresses of some doubles, and how many these are."""
+"""The address of the addresses of some doubles, and their number."""
 Addresses = npt.NDArray[np.int64]
 
 
 def number_addresses(
     array: npt.NDArray[np.float64], numbers: npt.ArrayLike | None = None
 ) -> Addresses:
-    """Return the addresses of numbers of a contiguous array, which has to live on, (n,).
+    """Return the addresses of numbers of a contiguous array, which must not be freed, (n,).
 
     Args:
-        array: whose numbers these are.
+        array: the array.
         numbers: which, counted through the array by rows; None: all.
     """
     indices = np.arange(array.size) if numbers is None else np.asarray(numbers, dtype=np.int64)
@@ -200,10 +199,10 @@ def gather_sampler(
     prepare: Callable[[float], None],
     is_alone: Callable[[float], bool],
 ) -> Sampler:
-    """Return what takes the numbers at some addresses, in their order, as a sample.
+    """Return a sampler of the numbers at some addresses, in their order.
 
     Args:
-        addresses: of doubles, (n,); they may be changed by ``prepare``.
+        addresses: addresses of doubles, (n,); ``prepare`` may change them.
         prepare: as in `Sampler`.
         is_alone: as in `Sampler`.
     """

@@ -10,11 +10,9 @@ from collections.abc import Iterable
 from ..errors import Diagnostic
 
 MAX_QUOTE_LENGTH = 300
-"""Greatest number of letters shown of a long word or of a quoted text."""
-
-
+"""The greatest number of letters of a long word or of a quoted text."""
 MAX_LINE_LENGTH = 4000
-"""Greatest number of letters in a line."""
+"""The greatest number of letters of a line."""
 
 
 def warn(message: str) -> None:
@@ -29,16 +27,16 @@ def print_warnings(diagnostics: Iterable[Diagnostic]) -> None:
 
 
 def ignore_casts() -> None:
-    """Print nothing where a number does not fit its type; it becomes infinite, which is checked.
+    """Suppress warnings of numbers beyond their type; these become infinite, which is checked.
 
-    For the processes of the commands, all their threads.
+    The processes of the commands call it, for all of their threads.
     """
     pattern = "(overflow|invalid value) encountered in cast"
     warnings.filterwarnings("ignore", pattern, RuntimeWarning)
 
 
 def clean_text(text: str) -> str:
-    """Return a text from an untrusted file without control characters, cut to a readable length."""
+    """Return a text of an untrusted file without control characters and of readable length."""
     return "\n".join(_clean_line(line) for line in text.split("\n"))
 
 
@@ -65,7 +63,7 @@ def escape_to_one_line(text: str) -> str:
 LONG_WORD = re.compile(
     rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{MAX_QUOTE_LENGTH + 1},}}"""
 )
-"""Quoted texts, and long words."""
+"""A quoted text, or a long word."""
 
 
 def _shorten(match: re.Match[str]) -> str:

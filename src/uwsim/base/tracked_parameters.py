@@ -1,4 +1,4 @@
-"""The parameters of an algorithm, which remember what was asked of them."""
+"""The parameters of an algorithm, which record the names that it reads."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ Value = float | str
 
 
 class TrackedParameters(dict[str, Value]):
-    """A dict that remembers the names that were asked for; whoever goes through it asks for all."""
+    """A dict that records the names that are read; an iteration reads all of them."""
 
     def __init__(self, values: Mapping[str, Value]) -> None:
         super().__init__(values)
         self.plain_copy = dict(values)
-        """The parameters, to be looked at without asking."""
+        """The parameters as a dict that records nothing."""
         self.names_read: dict[str, None] = {}
-        """The names that were asked for, in this order, whether or not they were given."""
+        """The names that were read, in this order, whether or not they have a value."""
 
     def _record_all(self) -> None:
         self.names_read.update(dict.fromkeys(self.plain_copy))
@@ -38,12 +38,12 @@ class TrackedParameters(dict[str, Value]):
         return super().get(name, default)
 
     def pop(self, name: str, *default: Any) -> Any:
-        """Take a value out, or the default."""
+        """Remove a value and return it, or the default."""
         self.names_read[name] = None
         return super().pop(name, *default)
 
     def setdefault(self, name: str, default: Any = None) -> Any:
-        """Return a value; where there is none, the default, which is put in."""
+        """Return a value; where there is none, store and return the default."""
         self.names_read[name] = None
         return super().setdefault(name, default)
 
@@ -52,22 +52,22 @@ class TrackedParameters(dict[str, Value]):
         return super().__iter__()
 
     def keys(self) -> Any:
-        """Names."""
+        """Return the names."""
         self._record_all()
         return super().keys()
 
     def values(self) -> Any:
-        """Values."""
+        """Return the values."""
         self._record_all()
         return super().values()
 
     def items(self) -> Any:
-        """Names and values."""
+        """Return the names and values."""
         self._record_all()
         return super().items()
 
     def copy(self) -> dict[str, Value]:
-        """Return a plain dict of them."""
+        """Return the parameters as a dict."""
         self._record_all()
         return dict(super().items())
 
@@ -79,12 +79,12 @@ class TrackedParameters(dict[str, Value]):
 
 
 def describe_unread_parameters(name: str, names: Iterable[str], names_read: Iterable[str]) -> str:
-    """Say which parameters an algorithm never asked for; empty if it asked for all.
+    """Return a note on the parameters that an algorithm never read; empty if it read all.
 
     Args:
-        name: of the algorithm.
-        names: names of its parameters.
-        names_read: the names that it asked for.
+        name: the name of the algorithm.
+        names: the names of its parameters.
+        names_read: the names that it read.
     """
     valid_names = list(names_read)
     unread_names = [parameter for parameter in names if parameter not in valid_names]
@@ -98,5 +98,5 @@ def describe_unread_parameters(name: str, names: Iterable[str], names_read: Iter
 
 
 def untracked_parameters(parameters: object) -> object:
-    """Return parameters that may be gone through without asking for them."""
+    """Return parameters as a dict that records nothing."""
     return parameters.plain_copy if isinstance(parameters, TrackedParameters) else parameters

@@ -153,7 +153,7 @@ class Battery(Device):
             memory_owners=(powers, numbers),
         )
         """The sampler that integrates the current."""
-        self.state: BatteryRecord = BatteryRecord(numbers, Sample.before_first(self.sampler))
+        self.state: BatteryRecord = BatteryRecord(numbers, Sample.create(self.sampler))
         max_power = 0.0 if actuators is None else actuators.greatest_power
         self._can_overload = bool(set_losses) and spec.hotel_load + max_power > spec.max_load
 

@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Literal, get_args
 
-from ..base.deprecation import deprecated
+from ..base.deprecation import deprecated_name
 from ..errors import ResultError, UnknownName
 from .inputs import Inputs
 from .run_info import RunInfo
@@ -60,7 +60,7 @@ class MissingValue:
     """The reason with its time, for people; ``why`` in the file."""
 
     @property
-    @deprecated("reason")
+    @deprecated_name("reason")
     def why(self) -> str:
         """The old name of `reason`."""
         return self.reason
@@ -131,13 +131,13 @@ class RefusedMessages:
     """The number of messages, calls or answers."""
 
     @property
-    @deprecated("sender")
+    @deprecated_name("sender")
     def by(self) -> str:
         """The old name of `sender`."""
         return self.sender
 
     @property
-    @deprecated("topic_or_service")
+    @deprecated_name("topic_or_service")
     def what(self) -> str:
         """The old name of `topic_or_service`."""
         return self.topic_or_service
@@ -239,23 +239,23 @@ class Result:
         return reasons
 
     @property
-    @deprecated("missing_values")
+    @deprecated_name("missing_values")
     def missing(self) -> tuple[MissingValue, ...]:
         """The old name of `missing_values`."""
         return self.missing_values
 
     @property
-    @deprecated("refused_messages")
+    @deprecated_name("refused_messages")
     def refused(self) -> tuple[RefusedMessages, ...]:
         """The old name of `refused_messages`."""
         return self.refused_messages
 
-    @deprecated("columns_of_kind")
+    @deprecated_name("columns_of_kind")
     def of_kind(self, *kinds: Kind) -> tuple[Column, ...]:
         """Return `columns_of_kind`, whose old name this is."""
         return self.columns_of_kind(*kinds)
 
-    @deprecated("reason")
+    @deprecated_name("reason")
     def why(self, row: int, column: str) -> str | None:
         """Return `reason`, whose old name this is."""
         return self.reason(row, column)

@@ -8,7 +8,7 @@ from functools import partial
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
-from ..base.deprecation import deprecated, renamed_parameter
+from ..base.deprecation import deprecated_name, renamed_parameter
 from ..base.geometry import Array, Pose
 from ..base.record import assign
 from ..bus import Algorithm, Bus
@@ -203,7 +203,7 @@ class Simulation:
         """
         return self._access.latest_message(topic)
 
-    @deprecated("latest_message")
+    @deprecated_name("latest_message")
     def latest(self, topic: str) -> Any:
         """Return `latest_message`, whose old name this is."""
         return self.latest_message(topic)

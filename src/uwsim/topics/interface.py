@@ -218,7 +218,7 @@ class SampledTopic(Interface):
         publish: Callable[[Any], None],
     ) -> None:
         self._topic, self._sampler, self._make, self._publish = topic, sampler, make, publish
-        self.state: Sample = Sample.before_first(sampler)
+        self.state: Sample = Sample.create(sampler)
         """The last sample."""
 
     def begin(

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..base.deprecation import deprecated
+from ..base.deprecation import deprecated_name
 from ..errors import ResultError
 from ..results import journal
 from ..results.atomic_file import write_text
@@ -72,7 +72,7 @@ class Replay:
             self.title = f"{self.title.rpartition(', ')[0]}, {n_seeds} seeds"
 
     @property
-    @deprecated("trials_without_motion")
+    @deprecated_name("trials_without_motion")
     def unseen(self) -> tuple[int, ...]:
         """The old name of `trials_without_motion`."""
         return self.trials_without_motion

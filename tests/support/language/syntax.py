@@ -19,7 +19,7 @@ NEUTRAL_BASES = ENUMERATIONS | word_set(
 PROPERTIES = word_set("property cached_property fixture getter setter")
 """The decorators of functions whose docstring is a noun phrase."""
 
-DEPRECATION = "deprecated"
+DEPRECATION = "deprecated_name"
 """The decorator of a function with an old public name, which no rule concerns."""
 
 

@@ -1,1 +1,1 @@
-"""Files: what was read and its hash, names, sources of Python code, caches on disk."""
+"""Files: input files with their hashes, names, sources of Python code, caches on disk."""

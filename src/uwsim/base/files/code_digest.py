@@ -1,4 +1,4 @@
-"""Hashes of the code that results of a cache on disk follow from."""
+"""Hashes of the code that computes the contents of a cache on disk."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from pathlib import Path
 
 
 def code_digest(sources: Iterable[str | Path], packages: Iterable[str]) -> bytes:
-    """Hash source files, versions of installed packages, and the kind of processor, (32 bytes).
+    """Hash source files, versions of installed packages, and the machine type, (32 bytes).
 
     Args:
-        sources: Python files; a folder is all below it.
+        sources: Python files, or folders with all Python files below them.
         packages: names of installed distributions.
     """
     return _digest(tuple(map(Path, sources)), tuple(packages))

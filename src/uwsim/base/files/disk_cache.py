@@ -1,8 +1,8 @@
-"""Files of the caches on disk, which heal: each begins with the hash of what is in it.
+"""Files of the caches on disk, each of which begins with the hash of its content.
 
-One that does not match is taken away, so that what it held is made anew. A cache is a convenience,
-never a need: what cannot be read is as if it were not there, what cannot be written is not kept.
-The files of a kind take `MAX_BYTES` at most: those that nobody has read for longest are removed.
+A file whose hash does not match is removed, so that its content is computed again. Caches are
+optional: a file that cannot be read is treated as missing, and a failure to write is ignored. The
+files of a kind take `MAX_BYTES` at most: the least recently read files are removed.
 """
 
 from __future__ import annotations
@@ -15,24 +15,24 @@ from pathlib import Path
 from tempfile import NamedTemporaryFile
 
 DIGEST_LENGTH = 32
-"""Length of a hash, SHA-256 [bytes]."""
+"""The length of a hash, SHA-256 [bytes]."""
 DRAFT_SUFFIX = ".part"
-"""How the name of a file ends that is still being written, and begins with its process."""
+"""The suffix of a file that is being written; its name begins with the process identifier."""
 
 MAX_BYTES = 512 * 2**20
-"""Size of all files of a kind [bytes]."""
+"""The greatest size of all files of a kind [bytes]."""
 
 
 def cache_folder(kind: str) -> Path:
-    """Where files of a kind are kept: in the user's cache (XDG Base Directory Specification)."""
+    """Return the folder of a kind in the user's cache (XDG Base Directory Specification)."""
     home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     return Path(home) / "uwsim" / kind
 
 
 def read(file: Path) -> bytes | None:
-    """What is kept in a file; None where there is none, or none that is as it was written.
+    """Return the content of a file; None if it is missing or damaged.
 
-    A damaged file is taken away, which is logged: the next reader finds a new one.
+    A damaged file is removed, which is logged.
     """
     try:
         data = file.read_bytes()
@@ -40,10 +40,10 @@ def read(file: Path) -> bytes | None:
         return None
     if data[:DIGEST_LENGTH] == _digest(file, data[DIGEST_LENGTH:]):
         with suppress(OSError):
-            os.utime(file)  # read now: it is removed last
+            os.utime(file)  # as the time of the last read
         return data[DIGEST_LENGTH:]
     logging.getLogger(__name__).warning(
-        "uwsim: warning: %s in the cache is damaged; what it held is made anew.", file
+        "uwsim: warning: %s in the cache is damaged; its content is computed again.", file
     )
     with suppress(OSError):
         file.unlink()
@@ -51,9 +51,9 @@ def read(file: Path) -> bytes | None:
 
 
 def write(file: Path, data: bytes) -> None:
-    """Keep ``data`` in a file, whole or not at all; where that cannot be, nothing is kept.
+    """Write ``data`` to a file, whole or not at all; a failure is ignored.
 
-    What a process was writing there when it was killed is taken away.
+    Drafts of killed processes are removed.
     """
     with suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -73,7 +73,7 @@ def write(file: Path, data: bytes) -> None:
 
 
 def _discard_drafts(folder: Path) -> None:
-    """Remove drafts of processes that are gone; on another machine one lives, and loses no more."""
+    """Remove the drafts of ended processes; a process on another machine loses only its draft."""
     for draft in folder.glob(f"*-*{DRAFT_SUFFIX}"):
         number = draft.name.partition("-")[0]
         try:
@@ -81,11 +81,11 @@ def _discard_drafts(folder: Path) -> None:
         except (ProcessLookupError, OverflowError):
             draft.unlink(missing_ok=True)
         except (OSError, ValueError):
-            pass  # it lives, and is another user's; or no draft of ours
+            pass  # the process of another user, or not a draft of uwsim
 
 
 def _remove_oldest(limit: int, new_file: Path) -> None:
-    """Remove the files of a kind that were not read for longest until all are within a limit."""
+    """Remove the least recently read files of a kind until their size is within a limit."""
     root = cache_folder("")
     if not new_file.is_relative_to(root):
         return
@@ -100,5 +100,5 @@ def _remove_oldest(limit: int, new_file: Path) -> None:
 
 
 def _digest(file: Path, data: bytes) -> bytes:
-    """The hash of a file's name and what is in it: neither may change alone."""
+    """Return the hash of a file's name and content: a renamed file is damaged, too."""
     return hashlib.sha256(file.name.encode() + b"\0" + data).digest()

@@ -1,7 +1,7 @@
-"""Names of files made of names that a user gave: of cameras, measures, algorithms.
+"""Names of files for names that a user chose: of cameras, measures, algorithms.
 
-Such a name may hold anything. Every file of a result that is called after one gets its name here,
-so that two names are two files on every system, also where upper and lower case are the same.
+Such a name may contain any character. The files of a result get their names here, so that two
+names have two files on every system, also where upper and lower case are the same.
 """
 
 from __future__ import annotations
@@ -12,23 +12,23 @@ from collections import Counter
 from collections.abc import Iterable
 
 MAX_NAME_LENGTH = 80
-"""So many letters of a name stand in that of a file."""
+"""The greatest length of the name of a file [characters]."""
 RESERVED_NAMES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
-"""Names that no file on Windows may have."""
+"""The names that no file on Windows may have."""
 DIGEST_LENGTHS = (8, 16, 32, 64)
-"""Digits of a hash that tell two names apart: the first of these that is enough."""
+"""The numbers of digits of a hash; the first that distinguishes all names is used."""
 
 
 def file_names(names: Iterable[str], *, existing_names: Iterable[str] = ()) -> dict[str, str]:
-    """Return name -> name of its file, without suffix; different names have different files.
+    """Return the names of files, without suffix, by name; different names have different files.
 
-    A name that is fit for a file is its own. Of others, what is no letter of ASCII, digit, ``_``,
-    ``.`` or ``-`` becomes ``_``, and ``:`` a ``.``; what is then not told apart, or was cut, ends
-    in digits of its hash. The order of the names makes no difference.
+    A valid name of a file stays. In other names ``:`` becomes ``.``, and every character that is
+    not an ASCII letter, digit, ``_``, ``.`` or ``-`` becomes ``_``. Names that are then equal or
+    too long end in digits of their hash. The order of the names has no effect.
 
     Args:
-        names: All that are to be files of one folder.
-        existing_names: Names of files that are there already.
+        names: the names of all files of one folder.
+        existing_names: the names of existing files.
     """
     clean_names = {name: _clean(name) for name in names}
     existing_lower = {name.casefold() for name in existing_names}
@@ -51,7 +51,7 @@ def file_names(names: Iterable[str], *, existing_names: Iterable[str] = ()) -> d
 
 
 def file_name(name: str) -> str:
-    """Return the name of the file of a name that stands alone in its folder."""
+    """Return the name of the file of a name that is the only one in its folder."""
     return file_names([name])[name]
 
 

@@ -1,4 +1,4 @@
-"""Input files: the one place where what a scene, a benchmark or a model names is opened.
+"""Input files: the only module that opens the files that scenes, benchmarks and models name.
 
 Every byte that goes into a result is read by `read_bytes`. Inside `record_inputs` nothing is read
 without its hash:
@@ -23,8 +23,9 @@ from pathlib import Path, PurePosixPath, PureWindowsPath
 from ...errors import AssetError
 
 MAX_BYTES = 512 * 2**20
-"""Files above this size [bytes] are refused, unless the reader knows a smaller limit."""
+"""The greatest size of a file [bytes], unless the reader has a smaller limit."""
 CHUNK_SIZE = 1 << 20
+"""The size of the parts in which a file is hashed [bytes]."""
 
 
 @dataclass(frozen=True, order=True)
@@ -32,11 +33,11 @@ class InputFile:
     """A file as it was when it was read."""
 
     name: str
-    """What the file that names it calls it; never a folder of this machine."""
+    """The name in the file that refers to it; never a folder of this machine."""
     sha256: str
     """``sha256:`` and the digest of its bytes, in hexadecimal."""
     path: Path = field(default=Path(), compare=False)
-    """Where it is here and now."""
+    """The present path."""
 
 
 _records: ContextVar[tuple[list[InputFile], ...]] = ContextVar("records", default=())
@@ -44,7 +45,7 @@ _records: ContextVar[tuple[list[InputFile], ...]] = ContextVar("records", defaul
 
 @contextmanager
 def record_inputs() -> Iterator[list[InputFile]]:
-    """Give the list of the input files that are read inside, each once; may be nested."""
+    """Yield the list of the input files that are read in this block, each once; may be nested."""
     files: list[InputFile] = []
     token = _records.set((*_records.get(), files))
     try:
@@ -54,7 +55,7 @@ def record_inputs() -> Iterator[list[InputFile]]:
 
 
 def record(files: Iterable[InputFile]) -> None:
-    """Say that these files were read: what is kept in memory tells anew what it is made of."""
+    """Record that files were read; cached objects record the files from which they were made."""
     for file in files:
         for recorded_files in _records.get():
             if file not in recorded_files:
@@ -65,13 +66,13 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
     """Read a whole input file, and record its hash.
 
     Args:
-        path: The file.
-        name: What it is called by whatever names it; the name of the file by default.
-        at_most: The largest size [bytes].
+        path: the path of the file.
+        name: the name in the file that refers to it; by default the name of the file itself.
+        at_most: the greatest size [bytes].
 
     Raises:
-        OSError: It cannot be read.
-        AssetError: It is larger, or no regular file: a folder, a pipe, a device.
+        OSError: the file cannot be read.
+        AssetError: the file is larger, or is not a regular file (a folder, a pipe, a device).
     """
     file_stat = path.stat()
     if not stat.S_ISREG(file_stat.st_mode):
@@ -88,13 +89,13 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
 
 
 def is_inside(path: Path, folders: Iterable[Path]) -> bool:
-    """Whether a file lies under one of the folders, links followed."""
+    """Return whether a file is in or below one of the folders; links are followed."""
     resolved_path = path.resolve()
     return any(resolved_path.is_relative_to(folder.resolve()) for folder in folders)
 
 
 def compute_hash(path: Path) -> str:
-    """Hash a file; or a folder, by the names and the bytes of its files."""
+    """Return the hash of a file, or of the names and bytes of the files of a folder."""
     digest = hashlib.sha256()
     for file in sorted(path.rglob("*")) if path.is_dir() else [path]:
         if path.is_dir():
@@ -107,14 +108,14 @@ def compute_hash(path: Path) -> str:
 
 
 def portable_name(name: str | Path) -> str:
-    """Return a file's name as a result may say it: of an absolute path the last part alone."""
+    """Return the name of a file for a result: of an absolute path only the last part."""
     text = str(name).strip().replace("\\", "/")
     is_local = text.startswith(("/", "~")) or bool(PureWindowsPath(text).drive)
     return PurePosixPath(text).name if is_local else str(PurePosixPath(text))
 
 
 def hashes_by_name(files: Iterable[InputFile]) -> dict[str, str]:
-    """Return name -> hash, sorted; of several files of one name the second is ``NAME (2)``."""
+    """Return the hashes by name, sorted; the second file of a name is ``NAME (2)``."""
     hashes: dict[str, str] = {}
     for file in sorted(set(files)):
         name, n = file.name, 1

@@ -1,4 +1,4 @@
-"""Where the code of a Python module lies, found without running any of it."""
+"""The file of a Python module, found without running its code."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from importlib.machinery import PathFinder
 
 
 def find_module_file(module: str) -> str:
-    """The file of a module on Python's path; empty for one that has none, as a package without.
+    """Return the file of a module on Python's path; empty if it has none, as some packages.
 
     Raises:
-        ModuleNotFoundError: it is not there; its ``name`` says which part.
+        ModuleNotFoundError: the module does not exist; ``name`` is the missing part.
     """
     parts = module.split(".")
     path: Sequence[str] | None = None
@@ -23,7 +23,7 @@ def find_module_file(module: str) -> str:
             path = getattr(loaded_module, "__path__", None)
             origin = getattr(loaded_module, "__file__", None) or ""
             continue
-        is_in_none = i > 0 and path is None  # what it should be in is no package
+        is_in_none = i > 0 and path is None  # the parent is not a package
         spec = None if is_in_none else PathFinder.find_spec(name, path)
         if spec is None:
             raise ModuleNotFoundError(f"No module named {name!r}", name=name)

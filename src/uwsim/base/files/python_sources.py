@@ -1,7 +1,7 @@
-"""The source files of a module: its own, and those of everything of the user's that it imports.
+"""The source files of a module: its own, and those of the user's modules that it imports.
 
-What is installed (Python's library, ``site-packages``) and this package do not count: a result says
-their versions. What a module opens or imports by other means than an ``import`` is not seen.
+Installed packages, Python's library and this package do not count: a result has their versions.
+Files that a module opens or imports by other means than an ``import`` are not found.
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from pathlib import Path
 OWN_PACKAGE = "uwsim"
 INSTALL_FOLDERS = ("site-packages", "dist-packages")
 MAX_MODULES = 2000
-"""So many modules are followed."""
+"""The greatest number of modules that are read."""
 
 
 def find_sources(module: str) -> dict[str, Path]:
-    """Return name -> file of a module that is imported, and of what it imports, sorted by name.
+    """Return the files of an imported module and of its imports by name, sorted by name.
 
-    A name is that of the module as a path, ``package/module.py``. Of what is installed only the
-    package that the module is in counts.
+    A name is that of the module as a path, ``package/module.py``. Of installed packages only the
+    package of the module counts.
     """
     top = module.partition(".")[0]
     sources: dict[str, Path] = {}
@@ -48,7 +48,7 @@ def find_sources(module: str) -> dict[str, Path]:
 
 
 def _file_of(module: str) -> Path | None:
-    """The file of a module; None of one that has none, or is not there."""
+    """Return the file of a module; None if it has none, or does not exist."""
     loaded_module = sys.modules.get(module)
     file = getattr(loaded_module, "__file__", None)
     if loaded_module is None:
@@ -56,7 +56,7 @@ def _file_of(module: str) -> Path | None:
         places: Sequence[str] | None = getattr(sys.modules.get(parent), "__path__", None)
         if parent and places is None:
             return None
-        with suppress(Exception):  # a finder of somebody else's fails as it likes
+        with suppress(Exception):  # a third-party finder may raise any exception
             spec = PathFinder.find_spec(module, places)
             file = None if spec is None or not spec.has_location else spec.origin
     path = Path(str(file)) if file else None
@@ -64,7 +64,7 @@ def _file_of(module: str) -> Path | None:
 
 
 def _is_user_file(path: Path) -> bool:
-    """Whether a file is the user's: neither Python's nor installed."""
+    """Return whether a file is the user's: neither of Python nor installed."""
     resolved_path = path.resolve()
     places = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
     places.add(site.getusersitepackages())
@@ -74,7 +74,7 @@ def _is_user_file(path: Path) -> bool:
 
 
 def _imported_names(path: Path, module: str) -> Iterator[str]:
-    """Names that may be modules which the file of a module imports, wherever in it."""
+    """Yield the names of possible modules in all imports of the file of a module."""
     package = module if path.stem == "__init__" else module.rpartition(".")[0]
     try:
         tree = ast.parse(path.read_bytes())

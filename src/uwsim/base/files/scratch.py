@@ -1,8 +1,7 @@
-"""A temporary folder that is gone with its process, however that comes to its end.
+"""A temporary folder that is removed when its process ends, in whatever way.
 
-A process that is killed cannot clear up after itself. So another one, which does nothing else,
-makes the folder and reads from a pipe: when nobody holds the other end any more, it removes the
-folder.
+A killed process cannot remove its files. So another process creates the folder and reads from a
+pipe. It removes the folder when the other end of the pipe is closed.
 """
 
 from __future__ import annotations
@@ -16,7 +15,7 @@ from pathlib import Path
 from ...errors import RunFailed
 
 SCRATCH_VARIABLE = "UWSIM_SCRATCH"
-"""Environment variable with a folder's name: who has it is ended with the folder's process."""
+"""The environment variable with a folder's name; its processes end with the folder's owner."""
 REMOVER = """
 import contextlib, os, shutil, sys, tempfile, time
 folder = tempfile.mkdtemp(prefix=sys.argv[1], dir=sys.argv[2] or None)
@@ -38,16 +37,16 @@ for _ in range(1 if is_over else 30):  # what a killed process has started may s
 
 @contextmanager
 def scratch_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
-    """Lend an empty folder, and remove it with all that is in it.
+    """Yield an empty folder, and remove it with its content.
 
     If this process is killed, those with `SCRATCH_VARIABLE` in their environment are killed, too.
 
     Args:
-        prefix: how its name begins.
-        parent: the folder that it is made in; without one, the system's for temporary files.
+        prefix: the first letters of its name.
+        parent: the folder in which it is created; None: the system's for temporary files.
 
     Raises:
-        RunFailed: it cannot be made.
+        RunFailed: the folder cannot be created.
     """
     command = [
         sys.executable,
@@ -65,7 +64,7 @@ def scratch_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-        start_new_session=True,  # what a terminal sends to the process is not for it
+        start_new_session=True,  # it gets no signals of the terminal
     ) as remover:
         assert remover.stdin is not None
         assert remover.stdout is not None
@@ -75,7 +74,7 @@ def scratch_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
             error_lines = remover.stderr.read().strip().splitlines()[-1:] or [
                 "its process was killed"
             ]
-            raise RunFailed(f"No temporary folder can be made: {error_lines[0]}.")
+            raise RunFailed(f"No temporary folder can be created: {error_lines[0]}.")
         try:
             yield Path(folder)
         finally:

@@ -1,4 +1,4 @@
-"""Modules made of a source that was read before: nothing is looked for on a disk."""
+"""Modules made of a source that was read before, without access to a disk."""
 
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from types import CodeType, ModuleType
 
 
 def source_module(name: str, path: str, source: bytes) -> ModuleType:
-    """Return the module ``name``, made of a source unless it is loaded already.
+    """Return the module ``name``; create it from a source unless it is loaded already.
 
     Args:
-        name: under which it is kept in ``sys.modules``.
-        path: of the file, as messages name it.
-        source: its content.
+        name: the name in ``sys.modules``.
+        path: the path of the file in messages.
+        source: the content of the file.
 
     Raises:
-        BaseException: whatever the code raises; the module is not kept then.
+        BaseException: any exception of the code; the module is then not in ``sys.modules``.
     """
     if name in sys.modules:
         return sys.modules[name]
@@ -36,7 +36,7 @@ def source_module(name: str, path: str, source: bytes) -> ModuleType:
 
 
 class _Loader(importlib.abc.InspectLoader):
-    """Loads a module from its source."""
+    """A loader of a module from its source."""
 
     def __init__(self, path: str, source: bytes) -> None:
         self._path, self._source = path, source

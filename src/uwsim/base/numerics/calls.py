@@ -1,8 +1,8 @@
-"""Compiled functions that are called by their address, so that each layer may bring its own.
+"""Compiled functions that are called by their address, so that each layer may define its own.
 
-A function of this kind is ``void(parameters, values, time)``: it reads what never changes from a
-record at the address ``parameters``, writes numbers at the address ``values``, and gets the time
-[s]. `compile_c_function` of `uwsim.base.numerics.jit` compiles one with the signature `SIGNATURE`.
+A function of this kind is ``void(parameters, values, time)``. It reads constants from a record at
+the address ``parameters``, writes numbers at the address ``values``, and receives the time [s].
+`compile_c_function` of `uwsim.base.numerics.jit` compiles one with the signature `SIGNATURE`.
 """
 
 from __future__ import annotations
@@ -24,11 +24,10 @@ from .memory import Floats
 ir: Any = importlib.import_module("llvmlite.ir")  # of numba; it has no types
 
 SIGNATURE = types.void(types.intp, types.intp, types.float64)
-"""Addresses of parameters and values, and the time [s]."""
-
+"""The types of the addresses of parameters and values, and of the time [s]."""
 
 FUNCTION = np.dtype([("function", np.int64), ("parameters", np.int64)])
-"""The addresses of a function and of what it reads; the function is 0 where there is none."""
+"""The addresses of a function and of its parameters; the first is 0 if there is no function."""
 
 
 def _prepare_nothing(end: float) -> None:
@@ -42,9 +41,9 @@ class CompiledFunction:
     addresses: tuple[int, int]
     """The numbers of `FUNCTION`."""
     prepare: Callable[[float], None] = _prepare_nothing
-    """Makes ready what it needs up to a time [s]."""
+    """A function that updates the inputs of the function up to a time [s]."""
     memory_owners: tuple[object, ...] = field(default=())
-    """What the addresses are of."""
+    """The objects to whose memory the addresses refer."""
 
 
 def _call(
@@ -113,7 +112,7 @@ call_word: Any = intrinsic(_call_word)
 
 @njit
 def evaluate(function: int, parameters: int, n: int, time: float) -> Floats:
-    """Call a function by its address, for Python: return its ``n`` values at ``time`` [s]."""
+    """Call a function by its address from Python; return its ``n`` values at ``time`` [s]."""
     values = np.empty(n)
     call(function, parameters, values.ctypes.data, time)
     return values
@@ -125,10 +124,10 @@ def _compile(function: Callable[[int, int, float], None]) -> Any:
 
 
 def function_address(function: Callable[[int, int, float], None]) -> int:
-    """Compile a function of the module's level of this kind, once, and return its address."""
+    """Compile a function of a module, once, and return its address."""
     return int(_compile(function).address)
 
 
 def address_of(array: npt.NDArray[Any]) -> int:
-    """Return the address of an array's first number; the array has to live on."""
+    """Return the address of the first number of an array, which must not be freed."""
     return int(array.ctypes.data)

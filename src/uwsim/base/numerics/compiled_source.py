@@ -1,7 +1,7 @@
 """A digest of the source of a compiled function: its code, the functions it calls, its constants.
 
-numba's own cache on disk watches only the file of the function. A constant from another module, or
-a function that is compiled in, may change without it.
+numba's own cache on disk checks only the file of the function. A constant of another module, or a
+function that it calls, may change without a change of this file.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 def source_digest(function: FunctionType) -> str:
     """Return a digest of a function, of the functions that it calls and of its constants.
 
-    What numba does not compile from Python (functions of numpy, intrinsics) counts by its name.
+    A function that numba does not compile from Python (of numpy, intrinsics) counts by its name.
     """
     digest = hashlib.sha256()
     functions_left, functions_seen = [function], {function}
@@ -36,7 +36,7 @@ def source_digest(function: FunctionType) -> str:
 
 
 def _named_values(function: FunctionType) -> Iterator[tuple[str, Any]]:
-    """The values of the global names in a function's code, and of attributes of modules."""
+    """Yield the global names in a function's code, and attributes of modules, with their values."""
     code, names = function.__code__, function.__globals__
     modules = []
     for name in code.co_names:
@@ -67,7 +67,7 @@ def _code_bytes(code: CodeType) -> bytes:
     for constant in code.co_consts:
         if isinstance(constant, CodeType):
             constants.append(_code_bytes(constant).hex())
-        else:  # the order of a set is that of its hashes
+        else:  # the order of a set depends on hashes
             constants.append(
                 repr(sorted(map(repr, constant)) if isinstance(constant, frozenset) else constant)
             )

@@ -1,4 +1,4 @@
-"""Word of functions that are compiled: the first start on a machine takes long, others do not."""
+"""The count of functions that a process compiles: the first start on a machine is slow."""
 
 from __future__ import annotations
 
@@ -7,20 +7,20 @@ from collections.abc import Callable
 from ..interrupts import raise_pending_interrupt
 
 SLOW_START_COUNT = 3
-"""So many functions make a start a slow one; a single one takes less than a second or two."""
+"""The number of compiled functions from which a start is slow; one takes up to two seconds."""
 _listeners: list[Callable[[], None]] = []
 _n_compiled = 0
 
 
 def on_slow_start(callback: Callable[[], None]) -> None:
-    """Have ``callback`` called once if this process compiles `SLOW_START_COUNT` functions."""
+    """Call ``callback`` once if this process compiles `SLOW_START_COUNT` functions."""
     _listeners[:] = [callback]
 
 
 def count_compilation() -> None:
-    """Count a function that is not on the disk: what follows compiles it.
+    """Count a function that is compiled next, because it is not on the disk.
 
-    Between two functions is where an interrupt can come in: numba works for seconds at each.
+    A pending interrupt is raised here, between two functions; each takes numba seconds.
     """
     raise_pending_interrupt()
     global _n_compiled

@@ -1,8 +1,8 @@
 """Random numbers in compiled code, bit for bit those of the same generator in Python.
 
-A compiled function draws from the generator object itself, by the addresses that numpy gives out:
-afterwards the generator goes on in Python where the compiled code has stopped. Normal numbers are
-numpy's by the ziggurat method (Marsaglia and Tsang 2000), with the tables that numba keeps.
+A compiled function draws from the generator object itself, by the addresses that numpy provides.
+The generator then continues in Python after the last number of the compiled code. Normal numbers
+are those of numpy by the ziggurat method (Marsaglia and Tsang 2000), with the tables of numba.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Stream = Any
 
 
 def stream_of(generator: np.random.Generator) -> tuple[int, int]:
-    """Return the numbers of `STREAM` of a generator, which has to live on."""
+    """Return the numbers of `STREAM` of a generator, which must not be freed."""
     interface: Any = generator.bit_generator.ctypes
     next_word = ctypes.cast(interface.next_uint64, ctypes.c_void_p).value
     return int(interface.state_address), int(next_word or 0)
@@ -37,14 +37,14 @@ def stream_of(generator: np.random.Generator) -> tuple[int, int]:
 
 @njit
 def uniform(stream: Stream) -> float:
-    """Draw a number from 0 to 1, as ``Generator.random``."""
+    """Draw a uniform number from 0 to 1, as ``Generator.random``."""
     number: float = float(call_word(stream.next, stream.state) >> np.uint64(11)) * _UNIT_SCALE
     return number
 
 
 @njit
 def normal(stream: Stream) -> float:
-    """Draw a normal number of the standard deviation 1, as ``Generator.standard_normal``."""
+    """Draw a standard normal number, as ``Generator.standard_normal``."""
     while True:
         word = call_word(stream.next, stream.state)
         layer = np.int64(word & np.uint64(0xFF))
@@ -66,7 +66,7 @@ def normal(stream: Stream) -> float:
 
 @njit
 def _tail(stream: Stream, place: int) -> float:
-    """Draw a number beyond the lowest layer."""
+    """Draw a normal number beyond the lowest layer."""
     while True:
         distance = -_INVERSE_TAIL * math.log1p(-uniform(stream))
         exponential = -math.log1p(-uniform(stream))

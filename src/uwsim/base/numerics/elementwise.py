@@ -1,10 +1,10 @@
 """Elementwise functions of arrays with identical results on every processor.
 
-numpy has several codes for each of these and chooses by the processor; they differ in the last bit
-(those that do not, such as the sine, the cosine and the square root, are not here). These call the
-C library's for each element, which are the same on every processor since 2015: only older ones lack
-the fused multiply-add that they use. Beyond where a function is defined they give NaN or infinity,
-as numpy's do.
+numpy has several implementations of each of these and chooses by the processor; they differ in the
+last bit. (The sine, the cosine and the square root do not, and are not here.) These functions call
+the C library for each element. It gives the same results on every processor since 2015; older ones
+lack the fused multiply-add that it uses. Outside of its domain a function gives NaN or infinity, as
+in numpy.
 """
 
 from __future__ import annotations
@@ -16,95 +16,95 @@ from .jit import elementwise
 
 @elementwise
 def arccos(x: float) -> float:
-    """Arc cosine [rad]."""
+    """Return the arc cosine [rad]."""
     return math.acos(x)
 
 
 @elementwise
 def arccosh(x: float) -> float:
-    """Inverse hyperbolic cosine."""
+    """Return the inverse hyperbolic cosine."""
     return math.acosh(x)
 
 
 @elementwise
 def arcsin(x: float) -> float:
-    """Arc sine [rad]."""
+    """Return the arc sine [rad]."""
     return math.asin(x)
 
 
 @elementwise
 def arcsinh(x: float) -> float:
-    """Inverse hyperbolic sine."""
+    """Return the inverse hyperbolic sine."""
     return math.asinh(x)
 
 
 @elementwise
 def arctan(x: float) -> float:
-    """Arc tangent [rad]."""
+    """Return the arc tangent [rad]."""
     return math.atan(x)
 
 
 @elementwise
 def arctanh(x: float) -> float:
-    """Inverse hyperbolic tangent."""
+    """Return the inverse hyperbolic tangent."""
     return math.atanh(x)
 
 
 @elementwise
 def cosh(x: float) -> float:
-    """Hyperbolic cosine."""
+    """Return the hyperbolic cosine."""
     return math.cosh(x)
 
 
 @elementwise
 def exp(x: float) -> float:
-    """Exponential function."""
+    """Return the exponential function."""
     return math.exp(x)
 
 
 @elementwise
 def log(x: float) -> float:
-    """Natural logarithm."""
+    """Return the natural logarithm."""
     return math.log(x)
 
 
 @elementwise
 def log10(x: float) -> float:
-    """Decimal logarithm."""
+    """Return the decimal logarithm."""
     return math.log10(x)
 
 
 @elementwise
 def log2(x: float) -> float:
-    """Binary logarithm."""
+    """Return the binary logarithm."""
     return math.log2(x)
 
 
 @elementwise
 def sinh(x: float) -> float:
-    """Hyperbolic sine."""
+    """Return the hyperbolic sine."""
     return math.sinh(x)
 
 
 @elementwise
 def tan(x: float) -> float:
-    """Tangent of an angle [rad]."""
+    """Return the tangent of an angle [rad]."""
     return math.tan(x)
 
 
 @elementwise
 def tanh(x: float) -> float:
-    """Hyperbolic tangent."""
+    """Return the hyperbolic tangent."""
     return math.tanh(x)
 
 
 @elementwise
 def arctan2(y: float, x: float) -> float:
-    """Angle of the point (x, y) [rad]."""
+    """Return the angle of the point (x, y) [rad]."""
     return math.atan2(y, x)
 
 
 @elementwise
 def power(x: float, y: float) -> float:
-    """``x`` to the power ``y``."""
+    """Return ``x`` to the power ``y``."""
     return math.pow(x, y)

@@ -12,9 +12,9 @@ from .linear import Array
 def exact_sum(values: Array) -> float:
     """Return the sum of finite numbers, (n,), as if it were computed exactly and then rounded.
 
-    Partial sums that do not overlap hold it (J. R. Shewchuk, *Adaptive Precision Floating-Point
-    Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational Geometry 18, 1997).
-    Sums beyond the greatest float are not provided for.
+    The sum is stored in partial sums that do not overlap (J. R. Shewchuk, *Adaptive Precision
+    Floating-Point Arithmetic and Fast Robust Geometric Predicates*, Discrete & Computational
+    Geometry 18, 1997). Sums beyond the greatest float are not supported.
     """
     partials, n = np.empty(len(values)), 0
     for number in values:
@@ -44,7 +44,7 @@ def exact_sum(values: Array) -> float:
         low = y - (total - x)
         if low != 0.0:
             break
-    if n > 0 and low * partials[n - 1] > 0.0:  # half of a last digit, and more of the same sign
+    if n > 0 and low * partials[n - 1] > 0.0:  # half of the last digit and a rest of that sign
         double_low = 2.0 * low
         rounded_sum = total + double_low
         if double_low == rounded_sum - total:

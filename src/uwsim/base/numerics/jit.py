@@ -1,9 +1,9 @@
 """Typed decorators for numba, with a cache on disk.
 
-numba's own cache hands whatever lies on the disk to pickle and the linker: a file that was cut off
-ends every command, one with a changed byte may compute something else. Here each signature has a
-file of its own, which begins with its hash, and what was compiled from other code or with other
-constants (`compiled_source`) is not used.
+numba's own cache passes any file on the disk to pickle and the linker: a truncated file ends every
+command, a file with a changed byte may give other results. Here each signature has its own file,
+which begins with its hash. Code that was compiled from another source or with other constants
+(`compiled_source`) is not used.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from pathlib import Path
 from types import FunctionType
 from typing import Any, ParamSpec, TypeVar, cast
 
-# Intel's functions, if they are installed, would be other code on other processors.
+# Intel's functions, if they are installed, differ from processor to processor.
 os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
 
 import numba
@@ -43,18 +43,18 @@ Elementwise = Callable[..., npt.NDArray[np.float64]]
 def njit(function: Callable[P, R]) -> Callable[P, R]:
     """Compile with numba: cached on disk, GIL released, no fast-math, one thread.
 
-    A division by zero gives an infinity or NaN, as numpy's.
+    A division by zero gives infinity or NaN, as in numpy.
     """
     dispatcher: Any = numba.njit(nogil=True, error_model="numpy")(function)
-    if dispatcher is not function:  # as it is with NUMBA_DISABLE_JIT
+    if dispatcher is not function:  # it is the function with NUMBA_DISABLE_JIT
         dispatcher._cache = CacheOnUse(function)
     return cast("Callable[P, R]", dispatcher)
 
 
 def elementwise(function: Callable[..., float]) -> Elementwise:
-    """Compile a function of numbers as one of arrays, element by element, as numpy's own are.
+    """Compile a function of numbers as a function of arrays, element by element, as in numpy.
 
-    That takes numba's tables of all that it can compile, so it waits for the first call.
+    The compilation needs all tables of numba, so it is delayed until the first call.
     """
 
     @functools.cache
@@ -71,13 +71,13 @@ def elementwise(function: Callable[..., float]) -> Elementwise:
 
 
 def link_library(path: str) -> None:
-    """Let compiled code call the functions of a shared library by their names."""
+    """Load a shared library, so that compiled code can call its functions by name."""
     binding: Any = importlib.import_module("llvmlite.binding")  # of numba; it has no types
     binding.load_library_permanently(path)
 
 
 def compile_c_function(function: Callable[..., object], signature: Any) -> Any:
-    """Compile a function of the module's level as a C function, with ``address``; cached alike."""
+    """Compile a function of a module as a C function, with ``address``; cached on disk."""
     arguments = (signature.args, signature.return_type)
     compiled_function: Any = CFunc(function, arguments, {}, {"error_model": "numpy"})
     compiled_function._cache = CacheOnUse(function)
@@ -86,7 +86,7 @@ def compile_c_function(function: Callable[..., object], signature: Any) -> Any:
 
 
 class HashedCache(FunctionCache):
-    """numba's cache of a function, with files that are checked by their hash."""
+    """The cache of numba for a function, with files that are checked by their hash."""
 
     def __init__(self, function: FunctionType) -> None:
         super().__init__(function)  # type: ignore[no-untyped-call]
@@ -98,10 +98,10 @@ class HashedCache(FunctionCache):
         )
 
     def load_overload(self, sig: object, target_context: Any) -> object | None:
-        """Load compiled code; None if there is none.
+        """Load compiled code; return None if there is none.
 
-        numba's own would first fill the tables of all that it can compile: 0.2 s and 20 MB of a
-        start. Code that is compiled already needs only the functions that count references.
+        numba's method would first fill all of its tables, which takes 0.2 s and 20 MB. Compiled
+        code needs only the functions that count references.
         """
         rtsys.initialize(target_context)
         return cast("object | None", super()._load_overload(sig, target_context))  # type: ignore[no-untyped-call]
@@ -115,12 +115,13 @@ class HashedCache(FunctionCache):
 
 
 class CompiledFiles:
-    """The files of one function: one for each signature and kind of processor.
+    """The files of one function: one for each signature and type of processor.
 
     Args:
-        folder: where they are.
-        base: how their names begin.
-        stamp: returns what tells the code apart; asked when all that it calls is defined.
+        folder: the folder of the files.
+        base: the beginning of their names.
+        stamp: a function that returns the digest of the source; it is called when all functions
+            of the source are defined.
     """
 
     def __init__(self, *, folder: Path, base: str, stamp: Callable[[], str]) -> None:
@@ -140,7 +141,7 @@ class CompiledFiles:
             return None
         try:
             stamp, stored_key, code = pickle.loads(data)
-        except (ImportError, AttributeError):  # it calls what was moved since
+        except (ImportError, AttributeError):  # it refers to a name that was moved since
             return None
         return code if (stamp, stored_key) == (self._find_stamp(), key) else None
 
@@ -149,7 +150,7 @@ class CompiledFiles:
         disk_cache.write(self._file(key), dumps((self._find_stamp(), key, code)))  # type: ignore[no-untyped-call]
 
     def flush(self) -> None:
-        """Forget everything."""
+        """Remove all files."""
         for file in self.folder.glob(f"{self._base}.*.uwsim"):
             file.unlink(missing_ok=True)
 
@@ -161,19 +162,19 @@ class CompiledFiles:
 
 
 class NoCache(NullCache):
-    """Of a function whose compiled code is kept nowhere."""
+    """The cache of a function whose compiled code is not stored."""
 
     def load_overload(self, sig: object, target_context: object) -> None:
-        """Find nothing: it is compiled."""
+        """Return None: the function is compiled."""
         count_compilation()
 
 
 class CacheOnUse(NullCache):
-    """The cache of a function from its first call on: to look for a folder writes a file there.
+    """The cache of a function, created at its first call, because numba tests its folder.
 
     Args:
-        function: whose cache it is.
-        is_typed: whether what is loaded is compiled into more code, which takes numba's tables.
+        function: the function.
+        is_typed: whether loaded code is compiled into other code, which needs numba's tables.
     """
 
     def __init__(self, function: Callable[..., object], *, is_typed: bool = False) -> None:
@@ -183,11 +184,11 @@ class CacheOnUse(NullCache):
     def _cache(self) -> HashedCache | NoCache:
         try:
             return HashedCache(self._function)
-        except RuntimeError:  # there is no folder to keep it in
+        except RuntimeError:  # no folder is writable
             return NoCache()
 
     def load_overload(self, sig: object, target_context: Any) -> object | None:
-        """Load compiled code; None if there is none, and it is compiled."""
+        """Load compiled code; return None if there is none."""
         code = self._cache.load_overload(sig, target_context)
         if code is None or self._is_typed:
             target_context.refresh()

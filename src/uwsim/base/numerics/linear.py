@@ -1,9 +1,9 @@
 """Small linear algebra whose results have the same bytes on every processor.
 
 BLAS and LAPACK, which numpy's ``@``, ``dot`` and ``linalg`` call, choose their code by the
-processor: two machines add in different orders, and tracked for minutes such a difference of 1e-16
-becomes one of a pixel. Whatever makes numbers of a result multiplies and solves here, in loops
-whose order is written down; ``tests/test_same_bytes.py`` names who may still call the others.
+processor. Two machines add in different orders, and in minutes of tracking a difference of 1e-16
+grows to a pixel. Code that computes numbers of a result uses the loops of this module, whose order
+is fixed; ``tests/test_same_bytes.py`` lists the modules that may call BLAS and LAPACK.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from .jit import njit
 
 Array = npt.NDArray[np.float64]
 SWEEPS = 60
-"""Of Jacobi's method, which needs ten at most."""
+"""The greatest number of sweeps of Jacobi's method, which needs ten at most."""
 
 
 def product(left: npt.ArrayLike, right: npt.ArrayLike) -> Array:
-    """``left @ right``: matrices, vectors, and stacks of matrices along the first axis."""
+    """Return ``left @ right`` of matrices, vectors, or stacks of matrices along the first axis."""
     a = np.ascontiguousarray(left, dtype=np.float64)
     b = np.ascontiguousarray(right, dtype=np.float64)
     if a.ndim == 1:
@@ -38,36 +38,40 @@ def product(left: npt.ArrayLike, right: npt.ArrayLike) -> Array:
 
 
 @njit
-def rotate(rotation: Array, vector: Array) -> Array:
-    """``rotation @ vector`` for (3, 3) and (3,), quickly."""
-    rotated = np.empty(3)
+def rotate(rotation: Array, vector_b: Array) -> Array:
+    """Return ``rotation @ vector_b`` for (3, 3) and (3,)."""
+    vector_a = np.empty(3)
     for i in range(3):
-        rotated[i] = (
-            rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
+        vector_a[i] = (
+            rotation[i, 0] * vector_b[0]
+            + rotation[i, 1] * vector_b[1]
+            + rotation[i, 2] * vector_b[2]
         )
-    return rotated
+    return vector_a
 
 
 @njit
-def rotate_back(rotation: Array, vector: Array) -> Array:
-    """``rotation.T @ vector`` for (3, 3) and (3,), quickly."""
-    rotated = np.empty(3)
+def rotate_back(rotation: Array, vector_a: Array) -> Array:
+    """Return ``rotation.T @ vector_a`` for (3, 3) and (3,)."""
+    vector_b = np.empty(3)
     for i in range(3):
-        rotated[i] = (
-            rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
+        vector_b[i] = (
+            rotation[0, i] * vector_a[0]
+            + rotation[1, i] * vector_a[1]
+            + rotation[2, i] * vector_a[2]
         )
-    return rotated
+    return vector_b
 
 
 @njit
 def rotate_rows(rotation: Array, vectors: Array) -> Array:
-    """``vectors @ rotation.T`` for (3, 3) and (n, 3), as `product` computes it."""
+    """Return ``vectors @ rotation.T`` for (3, 3) and (n, 3), with the bytes of `product`."""
     return multiply_matrices(vectors, rotation.T.copy())
 
 
 @njit
 def cross(left: Array, right: Array) -> Array:
-    """Vector product of (3,) and (3,), quickly."""
+    """Return the vector product of (3,) and (3,)."""
     vector = np.empty(3)
     for i in range(3):
         j, k = (i + 1) % 3, (i + 2) % 3
@@ -76,7 +80,7 @@ def cross(left: Array, right: Array) -> Array:
 
 
 def dot(left: Array, right: Array) -> float:
-    """Sum of the products of two vectors' components, first to last."""
+    """Return the sum of the products of the components of two vectors, first to last."""
     total = 0.0
     for x, y in zip(left.tolist(), right.tolist(), strict=True):
         total += x * y
@@ -84,18 +88,18 @@ def dot(left: Array, right: Array) -> float:
 
 
 def length(vector: npt.ArrayLike) -> float:
-    """Euclidean length of a vector."""
+    """Return the Euclidean length of a vector."""
     components = np.asarray(vector, dtype=np.float64)
     return math.sqrt(dot(components, components))
 
 
 def determinant(matrix: Array) -> float:
-    """Of a matrix (3, 3)."""
+    """Return the determinant of a matrix (3, 3)."""
     return float(determinants(matrix[None])[0])
 
 
 def determinants(matrices: Array) -> Array:
-    """Of matrices (n, 3, 3), (n,)."""
+    """Return the determinants of matrices (n, 3, 3), (n,)."""
     (a, b, c), (d, e, f), (g, h, i) = matrices.transpose(1, 2, 0)
     values: Array = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     return values
@@ -115,10 +119,10 @@ def solve(matrix: Array, right: Array) -> Array:
 
 
 def inverse(matrix: Array) -> Array:
-    """Of a matrix (n, n), or of each of a stack (..., n, n).
+    """Return the inverse of a matrix (n, n), or of each matrix of a stack (..., n, n).
 
     Raises:
-        numpy.linalg.LinAlgError: one is singular.
+        numpy.linalg.LinAlgError: a matrix is singular.
     """
     stack = np.array(matrix, dtype=np.float64, ndmin=3)
     inverses, are_regular = _invert_all(stack.reshape(-1, *matrix.shape[-2:]))
@@ -128,19 +132,19 @@ def inverse(matrix: Array) -> Array:
 
 
 def singular_values(matrix: Array) -> Array:
-    """Of a matrix (m, n), largest first, (min(m, n),)."""
+    """Return the singular values of a matrix (m, n), largest first, (min(m, n),)."""
     return _decompose(matrix)[1]
 
 
 def rank(matrix: Array) -> int:
-    """How many singular values are more than rounding, as numpy counts them."""
+    """Return the number of singular values above the rounding error, as numpy counts them."""
     values = singular_values(matrix)
     threshold = values.max(initial=0.0) * max(matrix.shape) * np.finfo(np.float64).eps
     return int(np.sum(values > threshold))
 
 
 def pseudo_inverse(matrix: Array, *, rcond: float) -> Array:
-    """Moore-Penrose inverse (n, m) of a matrix (m, n).
+    """Return the Moore-Penrose inverse (n, m) of a matrix (m, n).
 
     Singular values up to ``rcond`` times the largest count as zero.
     """
@@ -150,7 +154,10 @@ def pseudo_inverse(matrix: Array, *, rcond: float) -> Array:
 
 
 def _decompose(matrix: Array) -> tuple[Array, Array, Array]:
-    """``matrix = left @ diag(values) @ right.T`` by Jacobi's one-sided method (Hestenes 1958)."""
+    """Return left, values, right of ``matrix = left @ diag(values) @ right.T``.
+
+    The method is Jacobi's one-sided method (Hestenes 1958).
+    """
     is_wide = matrix.shape[0] < matrix.shape[1]
     columns = np.array(matrix.T if is_wide else matrix, dtype=np.float64, order="C")
     rotation = np.eye(columns.shape[1])
@@ -166,13 +173,13 @@ def _decompose(matrix: Array) -> tuple[Array, Array, Array]:
 def world_positions(
     origins: Array, axes: Array, bodies: npt.NDArray[np.int64], points: Array
 ) -> Array:
-    """World positions of one point of each of some bodies, (n, 3).
+    """Return the world positions of one point on each of some bodies, (n, 3).
 
     Args:
-        origins: of all bodies, (m, 3).
-        axes: their axes, (m, 3, 3).
-        bodies: which ones, (n,).
-        points: in their axes, (n, 3).
+        origins: the origins of all bodies, (m, 3).
+        axes: the axes of all bodies, (m, 3, 3).
+        bodies: the indices of the bodies, (n,).
+        points: the points in the axes of their bodies, (n, 3).
     """
     positions = np.empty((len(bodies), 3))
     for row in range(len(bodies)):
@@ -191,7 +198,7 @@ def world_positions(
 def multiply_matrices(a: Array, b: Array) -> Array:
     """Return ``a @ b`` of two matrices, row by row.
 
-    The loop inside is along the rows of ``b`` where these are long.
+    The inner loop is along the rows of ``b`` if these are long.
     """
     matrix = np.zeros((a.shape[0], b.shape[1]))
     if b.shape[1] > 3:
@@ -200,7 +207,7 @@ def multiply_matrices(a: Array, b: Array) -> Array:
                 for k in range(b.shape[1]):
                     matrix[i, k] += a[i, j] * b[j, k]
         return matrix
-    if b.shape == (3, 3):  # as below, with the three sums of a row side by side
+    if b.shape == (3, 3):  # as below, with the three sums of a row in one loop
         for i in range(a.shape[0]):
             x, y, z = a[i, 0], a[i, 1], a[i, 2]
             for k in range(3):
@@ -217,7 +224,7 @@ def multiply_matrices(a: Array, b: Array) -> Array:
 
 @njit
 def _multiply_stacks(a: Array, b: Array) -> Array:
-    """Products of (n, i, j) and (n, j, k); either may be one for all, with n = 1."""
+    """Return the products of (n, i, j) and (n, j, k); n = 1 stands for all."""
     n = max(a.shape[0], b.shape[0])
     products = np.empty((n, a.shape[1], b.shape[2]))
     for m in range(n):
@@ -236,7 +243,7 @@ def _multiply_stacks(a: Array, b: Array) -> Array:
 def compose_transforms(
     rotation_a: Array, position_a: Array, rotation_b: Array, position_b: Array
 ) -> tuple[Array, Array]:
-    """Shift and turn of ``a_from_b @ b_from_c``, from those of both."""
+    """Return the position and rotation of ``a_from_b @ b_from_c``."""
     rotation, position = np.empty((3, 3)), np.empty(3)
     for i in range(3):
         x, y, z = rotation_a[i, 0], rotation_a[i, 1], rotation_a[i, 2]
@@ -248,7 +255,7 @@ def compose_transforms(
 
 @njit
 def transform_points(points: Array, rotation: Array, position: Array) -> Array:
-    """``points @ rotation.T + position`` for (n, 3)."""
+    """Return ``points @ rotation.T + position`` for (n, 3)."""
     coordinates = np.empty((points.shape[0], 3))
     for n in range(points.shape[0]):
         x, y, z = points[n, 0], points[n, 1], points[n, 2]
@@ -261,7 +268,7 @@ def transform_points(points: Array, rotation: Array, position: Array) -> Array:
 
 @njit
 def eliminate(a: Array, b: Array) -> tuple[Array, bool]:
-    """Eliminate with partial pivoting; overwrites both, returns the solution in ``b``."""
+    """Eliminate with partial pivoting; overwrite both, return the solution and its existence."""
     n, m = b.shape
     for column in range(n):
         pivot = column
@@ -290,7 +297,7 @@ def eliminate(a: Array, b: Array) -> tuple[Array, bool]:
 
 @njit
 def invert(matrix: Array, output: Array) -> bool:
-    """Write the inverse of a matrix (n, n) to another; False if it is singular."""
+    """Write the inverse of a matrix (n, n) to ``output``; return False if it is singular."""
     inverse, is_regular = eliminate(matrix.copy(), np.eye(matrix.shape[0]))
     output[:] = inverse
     return is_regular
@@ -298,7 +305,7 @@ def invert(matrix: Array, output: Array) -> bool:
 
 @njit
 def _invert_all(matrices: Array) -> tuple[Array, bool]:
-    """Of each of (n, k, k); overwrites them."""
+    """Return the inverses of (n, k, k), which are overwritten, and whether all are regular."""
     inverses, are_regular = np.empty(matrices.shape), True
     for i in range(matrices.shape[0]):
         inverse, is_regular = eliminate(matrices[i], np.eye(matrices.shape[1]))
@@ -309,7 +316,7 @@ def _invert_all(matrices: Array) -> tuple[Array, bool]:
 
 @njit
 def _rotate_until_orthogonal(a: Array, rotation: Array) -> None:
-    """Turn pairs of columns of ``a`` (m, n), and of ``rotation`` (n, n) alike, until all are."""
+    """Rotate pairs of columns of ``a`` (m, n) and ``rotation`` (n, n) until all are orthogonal."""
     m, n = a.shape
     for _ in range(SWEEPS):
         is_done = True

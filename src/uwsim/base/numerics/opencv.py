@@ -1,4 +1,4 @@
-"""OpenCV set up so that its results have the same bytes on every processor."""
+"""A mode of OpenCV in which its results have the same bytes on every processor."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from contextlib import contextmanager
 
 @contextmanager
 def deterministic_opencv() -> Iterator[None]:
-    """Have OpenCV use its generic code in one thread.
+    """Make OpenCV use its generic code in one thread during this block.
 
-    It has several codes for most functions, and Intel's library for some, and chooses by the
-    processor; their sums differ in the last bit. That is a switch of the whole process, so it is
-    put back where it was.
+    OpenCV has several implementations of most functions, and Intel's library for some, and chooses
+    by the processor; their sums differ in the last bit. The mode is one of the whole process, so
+    it is restored after the block.
     """
     import cv2
 

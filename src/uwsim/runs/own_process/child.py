@@ -33,7 +33,7 @@ from typing import Any, NoReturn, TypeVar
 import numpy as np
 
 from ... import errors
-from ...base.deprecation import deprecated
+from ...base.deprecation import deprecated_name
 from ...base.exceptions import describe_exception
 from ...base.files.source_module import source_module
 from ...base.message_fields import find_invalid_field
@@ -106,12 +106,12 @@ class ChildNode:
         self._asked("create_timer", period_s, self._number(callback))
 
     @property
-    @deprecated("rng")
+    @deprecated_name("rng")
     def random(self) -> np.random.Generator:
         """The old name of `rng`."""
         return self.rng
 
-    @deprecated("create_timer")
+    @deprecated_name("create_timer")
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
         """Call `create_timer`, whose old name this is."""
         self.create_timer(period_s, callback)

@@ -10,7 +10,7 @@ from typing import NoReturn, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
-from ...base.deprecation import deprecated
+from ...base.deprecation import deprecated_name
 from ...base.exceptions import describe_exception
 from ...base.interrupts import is_user_interrupt
 from ...base.message_fields import copy_message
@@ -190,7 +190,7 @@ class InProcessNode:
         return self.state.rng
 
     @property
-    @deprecated("rng")
+    @deprecated_name("rng")
     def random(self) -> np.random.Generator:
         """The old name of `rng`."""
         return self.rng
@@ -283,7 +283,7 @@ class InProcessNode:
         self._timers.append(timer)
         self.state.timers.append(timer.state)
 
-    @deprecated("create_timer")
+    @deprecated_name("create_timer")
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
         """Call `create_timer`, whose old name this is."""
         self.create_timer(period_s, callback)
