@@ -244,7 +244,7 @@ def _run_with_controls(execution: Execution, jobs: Jobs, progress: Progress) -> 
     is_here = execution.workers in ("0", "1") and len(runs) == 1
     waits = any(is_foreign(run.plan) for run in runs)
     if is_here and not waits:
-        jobs, waits = jobs.in_this_process(), True
+        jobs, waits = jobs.local_jobs(), True
     if controls and not waits:
         jobs.ask(controls[0])
     outcome = _run(execution, progress)

@@ -47,7 +47,7 @@ class Jobs:
     ) -> None:
         """Hold nothing."""
 
-    def in_this_process(self) -> Jobs:
+    def local_jobs(self) -> Jobs:
         """Return what executes such jobs in this process."""
         return Jobs(self._reporter)
 
