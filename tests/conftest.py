@@ -31,7 +31,7 @@ def _may_dump_core() -> Iterator[None]:
     A process that denies it leaves no core file, hence no native stacks of a crash.
     """
     with pytest.MonkeyPatch.context() as patch:
-        for module in ("uwsim.runs.sealed", "uwsim.runs.executors.executor"):
+        for module in ("uwsim.runs.sealing", "uwsim.runs.executors.executor"):
             patch.setattr(f"{module}.deny_access_to_memory", lambda: None)
         yield
 

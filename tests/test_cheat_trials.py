@@ -42,6 +42,6 @@ def test_no_cheat_gains_but_those_within_their_own_process(tmp_path: Path) -> No
 def test_the_rows_of_a_run_tell_the_truth_only_when_they_are_not_sealed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.runs.sealed.is_foreign", lambda plan: False)
+    monkeypatch.setattr("uwsim.runs.sealing.is_foreign", lambda plan: False)
     results = by_name(trial(tmp_path, (ReadsTheFolder,), seed=2, length=0.5))
     assert len(errors(results)) == 2  # else the test above says nothing

@@ -14,7 +14,7 @@ from uwsim.bus import Node
 from uwsim.errors import RunFailed
 from uwsim.results.inputs import Inputs
 from uwsim.runs.executors.executor import run_each
-from uwsim.runs.input_watch import Watch, watchable
+from uwsim.runs.input_watch import InputWatch, unique_files
 from uwsim.runs.run import Run
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
@@ -37,7 +37,7 @@ def test_a_row_is_kept_only_while_all_files_are_as_they_were(tmp_path: Path) -> 
     (tmp_path / "box.png").write_text("texture")
     plan = make_plan(tmp_path, Edits, LEVELS, start=INIT)
     plan = with_algorithm(plan, parameters={"path": str(tmp_path / "box.png")})
-    files = watchable([file_of(tmp_path / "box.png")])
+    files = unique_files([file_of(tmp_path / "box.png")])
     bench = Run(plan=plan, out=tmp_path / "out", inputs=Inputs(), renderer="none", files=files)
     outcome = run_each([bench])
     [(_, error)] = outcome.failures
@@ -50,12 +50,12 @@ def test_what_was_changed_is_named_and_what_was_only_touched_is_not(tmp_path: Pa
     for name in ("a", "b", "bag/c"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         (tmp_path / name).write_text(name)
-    watch = Watch(watchable([file_of(tmp_path / name) for name in ("a", "b", "bag")]))
+    watch = InputWatch(unique_files([file_of(tmp_path / name) for name in ("a", "b", "bag")]))
     watch.check()
     os.utime(tmp_path / "a")
     watch.check()
     (tmp_path / "bag" / "c").write_text("C")
-    with pytest.raises(RunFailed, match=f"going on {tmp_path}/bag was changed"):
+    with pytest.raises(RunFailed, match=f"During the run {tmp_path}/bag was changed"):
         watch.check()
     (tmp_path / "bag" / "c").write_text("bag/c")
     watch.check()
@@ -71,5 +71,7 @@ def test_files_are_found_by_a_worker_that_has_gone_elsewhere(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     Path("a").write_text("a")
-    files = watchable([file_of(Path("a")), InputFile("made", "sha256:0"), file_of(tmp_path / "a")])
+    files = unique_files(
+        [file_of(Path("a")), InputFile("made", "sha256:0"), file_of(tmp_path / "a")]
+    )
     assert [file.path for file in files] == [tmp_path / "a"]

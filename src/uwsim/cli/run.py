@@ -17,7 +17,7 @@ from ..base.terminal import print_warnings, warn
 from ..base.tracked_parameters import describe_unread_parameters
 from ..errors import BadSetting, ErrorCollector, RunFailed, did_you_mean
 from ..runs.foreign_code import announce_code, refuse_code
-from ..runs.planning.make_plan import OF_ALGORITHM, check_parameters
+from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.program import load_program
 from ..runs.stand_ins import warn_of_stand_ins
@@ -174,7 +174,7 @@ def wanted_of(
     from ..middleware.recording import check_path, image_storage
 
     duration, program, images = 0.0, None, image_storage("raw")
-    own = [each for each in changes.all_settings if each.startswith(OF_ALGORITHM)]
+    own = [each for each in changes.all_settings if each.startswith(ALGORITHM_PREFIX)]
     connections.check(wrong)
     with wrong.collect():
         is_endless = what.duration is None and (connections.is_connected or is_viewed)
@@ -185,7 +185,7 @@ def wanted_of(
         elif own:
             raise BadSetting(f"--set {own[0]}: there is no --program whose parameter it could be.")
     parameters = {
-        name.removeprefix(OF_ALGORITHM): number_or_text(value)
+        name.removeprefix(ALGORITHM_PREFIX): number_or_text(value)
         for name, value in pairs_of(own, wrong)
     }
     check_parameters(program, parameters, wrong)
@@ -199,7 +199,7 @@ def wanted_of(
 
 def settings_of_scene(changes: SettingOptions) -> list[str]:
     """Return the settings that are not of the program."""
-    return [each for each in changes.all_settings if not each.startswith(OF_ALGORITHM)]
+    return [each for each in changes.all_settings if not each.startswith(ALGORITHM_PREFIX)]
 
 
 def duration_of(text: str) -> float:

@@ -17,7 +17,7 @@ from ..results.stored.stored_row import Record, StoredRow
 from ..runs.executors.executor import Executor, Job, JobQueue, OnLevel
 from ..runs.planning.plan import Plan, Trial
 from ..runs.run import Run
-from ..runs.sealed import sealed
+from ..runs.sealing import seal_runs
 from .criterion import Criterion, Judgement
 from .search import Search, SeedSearch, Strategy
 
@@ -41,7 +41,7 @@ class Evaluation:
 
 def plan_for(plan: Plan) -> Plan:
     """Return the plan of single levels, independent of seeds and search."""
-    return replace(plan, mode="independent", seed=0, repeats=1, chosen=())
+    return replace(plan, mode="independent", seed=0, repeats=1, level_choices=())
 
 
 class Evaluations:
@@ -77,7 +77,7 @@ class Evaluations:
             UwsimError: a run could not be executed.
         """
         queue = _JobQueue(self, strategy, on_run)
-        with sealed([self.main_run]):
+        with seal_runs([self.main_run]):
             executor.execute(queue)
         if queue.failure is not None:
             raise queue.failure

@@ -1,4 +1,4 @@
-"""Looking up every name of a benchmark in its scene, before anything runs."""
+"""The resolution of every name of a benchmark in its scene, before anything runs."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from .trial.triggered_measure import TriggeredMeasure
 
 
 def bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Look up every name of the benchmark before the run.
+    """Resolve every name of the benchmark before the run.
 
     Raises:
-        UnknownName: a body, a camera or a link is not there.
-        BadSetting: an output of a program outside is on no topic.
+        UnknownName: a body, a camera or a link does not exist.
+        BadSetting: an output of an external program is on no topic.
     """
     benchmark = plan.benchmark
     bind_updaters(benchmark.scene_updater, simulation.world.stage_view)
@@ -24,6 +24,6 @@ def bind_all(plan: Plan, simulation: Simulation) -> None:
     ]
     if plan.algorithm.client is not None:
         check_outputs(plan.algorithm.client.outputs, simulation.bus)
-    for triggered in measures:
-        triggered.close()
+    for measure in measures:
+        measure.close()
     LevelTriggers(benchmark, simulation.world.measure_view).close()

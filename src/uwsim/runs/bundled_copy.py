@@ -17,8 +17,8 @@ from .planning.plan_request import PlanRequest
 from .prepare import hash_inputs
 
 KINDS = ("scenes", "benchmarks")
-BESIDE = ("scenes", "benchmarks", "vehicles")
-"""Folders of the package whose files lie beside each other in the copy."""
+SHARED_FOLDERS = ("scenes", "benchmarks", "vehicles")
+"""The folders of the package whose files are in one folder of the copy."""
 
 
 def copyable_names() -> list[str]:
@@ -29,12 +29,12 @@ def copyable_names() -> list[str]:
 def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Path]:
     """Copy a bundled scene or benchmark with every bundled file that it reads.
 
-    The files lie where the copied scene finds them before the bundled ones. Models without a file
+    The copied scene finds the copies before the bundled files. Models without a file
     (stand-ins that uwsim builds) are not copied; the scene names them as before.
 
     Args:
-        name: of the scene or benchmark, with or without ``.xml``.
-        folder: where the copies go; it is made if it does not exist.
+        name: the name of the scene or benchmark, with or without ``.xml``.
+        folder: the folder of the copies; it is created if it does not exist.
         overwrite: whether existing files are replaced.
 
     Returns:
@@ -45,11 +45,11 @@ def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Pa
         BadSetting: a file exists already.
     """
     files = _files_of(name.removesuffix(".xml"))
-    copies = {folder / _place(file.path): file.path for file in files}
-    present = [str(copy) for copy in copies if copy.exists()]
-    if present and not overwrite:
+    copies = {folder / _relative_copy(file.path): file.path for file in files}
+    targets = [str(copy) for copy in copies if copy.exists()]
+    if targets and not overwrite:
         raise BadSetting(
-            f"{present[0]} exists already. Name another folder, or replace it with --overwrite."
+            f"{targets[0]} exists already. Name another folder, or replace it with --overwrite."
         )
     for copy, source in copies.items():
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -68,17 +68,19 @@ def _files_of(name: str) -> list[InputFile]:
             hash_inputs(make_plan(PlanRequest(benchmark=name)))
         else:
             raise UnknownName("bundled scene or benchmark", name, copyable_names())
-    unique = {file.path: file for file in files}
-    own = [file for path, file in unique.items() if path.suffix != ".py" and _is_bundled(path)]
-    return sorted(own, key=lambda file: file.path.stem != name)
+    paths = {file.path: file for file in files}
+    data_files = [
+        file for path, file in paths.items() if path.suffix != ".py" and _is_bundled(path)
+    ]
+    return sorted(data_files, key=lambda file: file.path.stem != name)
 
 
 def _is_bundled(path: Path) -> bool:
     return path.is_relative_to(PACKAGE / "data")
 
 
-def _place(path: Path) -> PurePosixPath:
-    """Return the place of a bundled file in the copy."""
-    within = path.relative_to(PACKAGE / "data")
-    kind, *rest = within.parts
-    return PurePosixPath(*rest) if kind in BESIDE else PurePosixPath(*within.parts)
+def _relative_copy(path: Path) -> PurePosixPath:
+    """Return the path of a bundled file in the copy."""
+    relative_path = path.relative_to(PACKAGE / "data")
+    kind, *parts = relative_path.parts
+    return PurePosixPath(*parts) if kind in SHARED_FOLDERS else PurePosixPath(*relative_path.parts)

@@ -1,4 +1,4 @@
-"""Collecting a result: the rows on disk become one result and its logs."""
+"""The collection of a result: the rows on disk become one result and its logs."""
 
 from __future__ import annotations
 
@@ -27,27 +27,27 @@ from .trial.floor import largest
 
 
 def collect(
-    plan: Plan, inputs: Inputs, info: RunInfo, stored: Sequence[tuple[Trial, StoredTrial]]
+    plan: Plan, inputs: Inputs, info: RunInfo, stored_trials: Sequence[tuple[Trial, StoredTrial]]
 ) -> tuple[Result, list[Log], float]:
     """Collect the rows on disk, in the order of the plan.
 
     Args:
-        plan: what is executed.
-        inputs: names and hashes of the files read.
-        info: what is known before the run.
-        stored: each trial of the plan, and what is on disk of it.
+        plan: the plan of the run.
+        inputs: the names and hashes of the files read.
+        info: the information that is known before the run.
+        stored_trials: each trial of the plan, and its content on disk.
 
     Returns:
         The result, its logs, and the length of all levels together [s].
     """
-    rows = [(trial, row) for trial, found in stored for row in found.rows]
+    rows = [(trial, row) for trial, content in stored_trials for row in content.rows]
     columns = _columns(plan, [row for _, row in rows])
-    began, simulated_s = _times(rows)
-    ended = [
-        row.duration + (0.0 if trial.is_alone else before)
-        for (trial, row), before in zip(rows, began, strict=True)
+    start_times, simulated_s = _times(rows)
+    end_times = [
+        row.duration + (0.0 if trial.is_alone else start)
+        for (trial, row), start in zip(rows, start_times, strict=True)
     ]
-    ends = [(trial, found.end) for trial, found in stored if found.end is not None]
+    ends = [(trial, content.end) for trial, content in stored_trials if content.end is not None]
     facts = ends[0][1].facts if ends else {}
     parameters = ends[0][1].parameters if ends else dict(plan.algorithm.parameters)
     result = Result(
@@ -55,13 +55,13 @@ def collect(
         run=replace(
             info,
             parameters=parameters,
-            units=(len(ends), len(stored)),
+            units=(len(ends), len(stored_trials)),
             notes=tuple(dict.fromkeys(note for _, end in ends for note in end.notes)),
         ),
         columns=tuple(columns),
         rows=tuple(
             _row(_lead(plan, trial, row), row, end, columns)
-            for (trial, row), end in zip(rows, ended, strict=True)
+            for (trial, row), end in zip(rows, end_times, strict=True)
         ),
         missing_values=tuple(
             MissingValue(row=number, column=name, reason=reason)
@@ -70,7 +70,7 @@ def collect(
         ),
         facts={**facts, **largest(end.facts for _, end in ends)},
         variations=variations_of(plan),
-        image_streams=tuple(each for trial, end in ends for each in _streams(trial, end)),
+        image_streams=tuple(stream for trial, end in ends for stream in _streams(trial, end)),
         images=tuple(
             _image(number, picture)
             for number, (_, row) in enumerate(rows)
@@ -87,21 +87,21 @@ def collect(
             for text in row.remarks
         ),
     )
-    return result, _logs(plan, columns, rows, began), simulated_s
+    return result, _logs(plan, columns, rows, start_times), simulated_s
 
 
 def _times(rows: Sequence[tuple[Trial, StoredRow]]) -> tuple[list[float], float]:
-    """Return when each level began, counted from its repeat's beginning, and the sum [s]."""
-    elapsed: dict[int, float] = {}
-    began = []
+    """Return the start time of each level within its repeat, and the sum of durations [s]."""
+    durations: dict[int, float] = {}
+    start_times = []
     for trial, row in rows:
-        began.append(elapsed.get(trial.repeat, 0.0))
-        elapsed[trial.repeat] = began[-1] + row.duration
-    return began, sum(elapsed.values())
+        start_times.append(durations.get(trial.repeat, 0.0))
+        durations[trial.repeat] = start_times[-1] + row.duration
+    return start_times, sum(durations.values())
 
 
 def _lead(plan: Plan, trial: Trial, row: StoredRow) -> list[float | int]:
-    """Cells of repeat, seed and level, with which rows and samples begin."""
+    """Return the cells of repeat, seed and level, which begin a row or a sample."""
     return [*([trial.repeat, trial.seed] if plan.repeats > 1 else []), *row.values]
 
 
@@ -122,9 +122,9 @@ def _logs(
     plan: Plan,
     columns: Sequence[Column],
     rows: Sequence[tuple[Trial, StoredRow]],
-    began: Sequence[float],
+    start_times: Sequence[float],
 ) -> list[Log]:
-    """Return the log of every measure that has one; none before the first row."""
+    """Return the log of every measure that has one; no log before the first row."""
     if not rows:
         return []
     levels = [column.label for column in columns if column.kind in ("run", "level")]
@@ -134,8 +134,8 @@ def _logs(
             measure=spec.name,
             header=(*levels, TIME, *headers[spec.name]),
             samples=tuple(
-                (*_lead(plan, trial, row), before + sample[0], *sample[1:])
-                for (trial, row), before in zip(rows, began, strict=True)
+                (*_lead(plan, trial, row), start + sample[0], *sample[1:])
+                for (trial, row), start in zip(rows, start_times, strict=True)
                 for sample in row.logs.get(spec.name, ())
             ),
         )
@@ -153,25 +153,25 @@ def _streams(trial: Trial, end: StoredEnd) -> list[ImageStream]:
 
 
 def variations_of(plan: Plan) -> tuple[Variation, ...]:
-    """Gather what varies, over the seeds of the plan."""
+    """Return the varied values, over the seeds of the plan."""
     seeds = [plan.seed + repeat for repeat in range(plan.repeats)]
     by_seed = [plan.draws(seed) for seed in seeds]
     return tuple(
         Variation(
-            path=same[0].path,
-            unit=same[0].unit or "1",
-            drawn_from=same[0].drawn_from,
-            values=tuple((seed, draw.value) for seed, draw in zip(seeds, same, strict=True)),
+            path=draws[0].path,
+            unit=draws[0].unit or "1",
+            drawn_from=draws[0].drawn_from,
+            values=tuple((seed, draw.value) for seed, draw in zip(seeds, draws, strict=True)),
         )
-        for same in zip(*by_seed, strict=True)
+        for draws in zip(*by_seed, strict=True)
     )
 
 
 def _columns(plan: Plan, rows: Sequence[StoredRow]) -> list[Column]:
-    """Name the columns; before the first row only those that are known without running.
+    """Return the columns; before the first row only those that are known without a run.
 
-    A measure's details are those of all rows together, and units those of the first row that has a
-    value: what a topic carries may not be known before something came.
+    A measure's details are those of all rows together, and its unit is that of the first row with a
+    value: the unit of a topic may be unknown before its first message.
     """
     updater = plan.benchmark.scene_updater
     columns = [Column(name=name, kind="run") for name in ("repeat", "seed") if plan.repeats > 1]
@@ -196,14 +196,14 @@ def _columns(plan: Plan, rows: Sequence[StoredRow]) -> list[Column]:
     ]
 
 
-def _units(measured: Iterable[Mapping[str, ValueWithUnit]]) -> dict[str, str]:
-    """Return name -> unit of what all rows have of a kind, in the order of its first row."""
-    first: dict[str, tuple[bool, str]] = {}
-    for row in measured:
+def _units(rows: Iterable[Mapping[str, ValueWithUnit]]) -> dict[str, str]:
+    """Return the unit of each name in any row, in the order of its first row."""
+    units: dict[str, tuple[bool, str]] = {}
+    for row in rows:
         for name, (value, unit) in row.items():
-            if name not in first or (value is not None and not first[name][0]):
-                first[name] = (value is not None, unit)
-    return {name: unit for name, (_, unit) in first.items()}
+            if name not in units or (value is not None and not units[name][0]):
+                units[name] = (value is not None, unit)
+    return {name: unit for name, (_, unit) in units.items()}
 
 
 def _image(row: int, picture: StoredPicture) -> SavedImage:

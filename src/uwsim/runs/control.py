@@ -11,20 +11,20 @@ from .planning.plan import AlgorithmUnderTest, Plan
 from .run import Run
 
 CONTROL = "frozen"
-"""The algorithm."""
+"""The algorithm of the control."""
 
 
-def wants_control(plan: Plan) -> bool:
-    """Whether `frozen` should run, too: a tracker is initialised with its target.
+def needs_control(plan: Plan) -> bool:
+    """Return whether `frozen` runs, too: the benchmark initialises a tracker with its target.
 
-    Where a current drives the vehicle the algorithm steers, and `frozen` is no control.
+    Where a current drives the vehicle, the algorithm steers, and `frozen` is no control.
     """
-    drifts = any(updater.name == "current" for updater in chain(plan.benchmark.scene_updater))
-    return plan.algorithm.name != CONTROL and not drifts and bool(_cameras(plan))
+    is_driven = any(updater.name == "current" for updater in chain(plan.benchmark.scene_updater))
+    return plan.algorithm.name != CONTROL and not is_driven and bool(_cameras(plan))
 
 
 def image_topic(plan: Plan) -> str | None:
-    """Image topic of the camera of the tracker's target."""
+    """Return the image topic of the camera of the tracker's target."""
     topics = {
         interface.camera_name: interface.image_topic
         for interface in plan.scene.ros_interfaces
@@ -34,7 +34,7 @@ def image_topic(plan: Plan) -> str | None:
 
 
 def _cameras(plan: Plan) -> list[str | None]:
-    """Cameras of the targets of trackers."""
+    """Return the cameras of the targets of trackers."""
     return [
         spec.ground_truth.camera
         for spec in plan.benchmark.measures
@@ -43,19 +43,19 @@ def _cameras(plan: Plan) -> list[str | None]:
 
 
 def control_of(run: Run) -> Run:
-    """Return the same with `frozen`, into ``control/``."""
+    """Return the same run with `frozen`, into ``control/``."""
     from ..algorithms import load_algorithm
     from ..algorithms.tracker_node import INPUT
     from ..results.directory import CONTROL as FOLDER
 
-    topic, usual = image_topic(run.plan), str(INPUT["image_topic"])
-    is_usual = topic is None or topic.strip("/") == usual.strip("/")
+    topic, default_topic = image_topic(run.plan), str(INPUT["image_topic"])
+    is_default = topic is None or topic.strip("/") == default_topic.strip("/")
     plan = replace(
         run.plan,
         algorithm=AlgorithmUnderTest(
             cls=load_algorithm(CONTROL),
             name=CONTROL,
-            parameters={} if topic is None or is_usual else {"image_topic": topic},
+            parameters={} if topic is None or is_default else {"image_topic": topic},
         ),
         is_blind=True,
     )

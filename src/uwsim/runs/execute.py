@@ -20,7 +20,7 @@ from ..base.terminal import warn
 from ..errors import ErrorCollector, RunFailed
 from ..results.provenance import lasting_provenance, machine, save_beginning, save_provenance
 from ..results.result import Result
-from .control import CONTROL, control_of, wants_control
+from .control import CONTROL, control_of, needs_control
 from .executors.background import Jobs
 from .executors.choose import executor_of
 from .executors.executor import Executor, OnLevel, Outcome, run_each
@@ -30,12 +30,12 @@ from .failed_algorithms import (
     refuse_if_all_broke,
 )
 from .foreign_code import announce_code
-from .planning.make_plan import make_plan, say_warnings
+from .planning.make_plan import make_plan, print_scene_warnings
 from .planning.plan import Plan
 from .planning.plan_request import PlanRequest
 from .prepare import prepare_runs
 from .run import Run
-from .sealed import is_foreign
+from .sealing import is_foreign
 
 PACKAGES = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
 """Packages whose versions are recorded."""
@@ -163,7 +163,7 @@ def prepare_execution(
     stopwatch = Stopwatch()
     announce_code(plans[0].scene)
     runs = prepare_runs(plans, out, folders)
-    say_warnings(plans[0])
+    print_scene_warnings(plans[0])
     return Execution(
         runs=runs, executor=executor, workers=workers, command=command, stopwatch=stopwatch
     )
@@ -240,7 +240,7 @@ def _run_with_controls(execution: Execution, jobs: Jobs, progress: Progress) -> 
     in this process it runs here: another process would load the simulation for it.
     """
     runs = execution.runs
-    controls = [control_of(run) for run in runs if wants_control(run.plan)]
+    controls = [control_of(run) for run in runs if needs_control(run.plan)]
     is_here = execution.workers in ("0", "1") and len(runs) == 1
     waits = any(is_foreign(run.plan) for run in runs)
     if is_here and not waits:

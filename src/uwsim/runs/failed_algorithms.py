@@ -13,49 +13,49 @@ ALGORITHM_ERROR = "algorithm error"
 
 
 def refuse_if_a_simulation_failed(runs: Sequence[Run], results: Sequence[Result]) -> None:
-    """Raise if the simulation of a row failed; all files are written by then.
+    """Raise an error if the simulation of a row failed; all files are written by then.
 
     Raises:
-        RunFailed: says for each algorithm how many rows, and why the first is as it is.
+        RunFailed: states the number of such rows for each algorithm, and the reason of the first.
     """
-    failed = []
+    texts = []
     for run, result in zip(runs, results, strict=True):
         status = result.values("status")
         rows = [row for row, cell in enumerate(status) if cell == SIMULATION_ERROR]
         if rows:
-            name, why = run.plan.algorithm.name, result.reason(rows[0], "total") or ""
-            failed.append(f"{name}, {len(rows)} of {len(status)} rows ({why.rstrip('.')})")
-    if failed:
+            name, reason = run.plan.algorithm.name, result.reason(rows[0], "total") or ""
+            texts.append(f"{name}, {len(rows)} of {len(status)} rows ({reason.rstrip('.')})")
+    if texts:
         raise RunFailed(
-            f"Rows ended in {SIMULATION_ERROR!r}: {'; '.join(failed)}. Other rows are not affected."
+            f"Rows ended in {SIMULATION_ERROR!r}: {'; '.join(texts)}. Other rows are not affected."
         )
 
 
 def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
-    """Raise if an algorithm failed in every row; all files are written by then.
+    """Raise an error if an algorithm failed in every row; all files are written by then.
 
     Raises:
-        RunFailed: names the algorithms, and why the first row of each is as it is.
+        RunFailed: names the algorithms, and the reason of the first row of each.
     """
-    broke = [
+    texts = [
         f"{run.plan.algorithm.name} ({result.reason(0, 'total')})"
         for run, result in zip(runs, results, strict=True)
         if result.rows and set(result.values("status")) == {ALGORITHM_ERROR}
     ]
-    if broke:
-        raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(broke)}.")
+    if texts:
+        raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(texts)}.")
 
 
 def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) -> None:
-    """Raise if an algorithm ended its process.
+    """Raise an error if an algorithm ended its process.
 
     Raises:
-        RunFailed: names the algorithms, and why the first such row of each is as it is.
+        RunFailed: names the algorithms, and the reason of the first such row of each.
     """
-    ended = []
+    texts = []
     for run, result in zip(runs, results, strict=True):
         reasons = [result.reason(row, "total") or "" for row in range(len(result.rows))]
         name = run.plan.algorithm.name
-        ended += [why for why in reasons if ended_its_process(name, why)][:1]
-    if ended:
-        raise RunFailed(f"{'; '.join(ended)}. Rows are kept; --resume tries those again.")
+        texts += [reason for reason in reasons if ended_its_process(name, reason)][:1]
+    if texts:
+        raise RunFailed(f"{'; '.join(texts)}. Rows are kept; --resume tries those again.")

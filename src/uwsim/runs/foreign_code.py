@@ -15,9 +15,9 @@ if TYPE_CHECKING:
 
 
 def refuse_code(scene: SceneSpec) -> None:
-    """Refuse a scene that names Python code; raises BadSetting."""
+    """Refuse a scene that names Python code; raise BadSetting."""
     for code in _codes(scene):
-        raise refused(code, scene.path)
+        raise code_refusal(code, scene.path)
 
 
 def announce_code(scene: SceneSpec) -> None:
@@ -26,23 +26,23 @@ def announce_code(scene: SceneSpec) -> None:
         announce(code, scene.path)
 
 
-def refused(code: str, file: str) -> BadSetting:
-    """Return the error for ``module:name``, which a file names and which may not run."""
+def code_refusal(code: str, file: str) -> BadSetting:
+    """Return the error for ``module:name`` of a file, which may not run."""
     return BadSetting(f"{file}: names the Python code {code!r}, which --no-code refuses.")
 
 
 def announce(code: str, file: str, *, place: Path | None = None) -> None:
-    """Announce that ``module:name``, or a plugin at a place, which a file names, will run."""
+    """Announce that ``module:name`` of a file, or a plugin at a place, will run."""
     try:
-        where = place or find_module_file(code.partition(":")[0])
+        location = place or find_module_file(code.partition(":")[0])
     except (ModuleNotFoundError, ValueError):
         return  # the import reports it
     message = (
-        f"uwsim: {file} runs Python code: {code} in {where or 'Python'} (--no-code refuses it)"
+        f"uwsim: {file} runs Python code: {code} in {location or 'Python'} (--no-code refuses it)"
     )
     print(clean_text(message), file=sys.stderr)
 
 
 def _codes(scene: SceneSpec) -> list[str]:
-    found = dict.fromkeys(current.code for current in scene.ocean_state.currents)
-    return [code for code in found if code]
+    codes = dict.fromkeys(current.code for current in scene.ocean_state.currents)
+    return [code for code in codes if code]

@@ -1,7 +1,7 @@
 """Check that the input files of a run have not changed since its start.
 
 Models, data and algorithms are read again by every worker, hours after their hashes were taken. So
-a row is kept only while each file has the hash that stands in the result.
+a row is stored only while each file has the hash that is in the result.
 """
 
 from __future__ import annotations
@@ -17,52 +17,51 @@ from ..results.inputs import MAX_LINES, short_hash
 _Stamp = tuple[tuple[int, int, int], ...]
 
 
-def watchable(read: Iterable[InputFile]) -> tuple[InputFile, ...]:
-    """Return the files whose place is known, each once, wherever a worker may be."""
-    known = {file.path.absolute(): file for file in read if file.path.name}
-    return tuple(replace(file, path=path) for path, file in known.items())
+def unique_files(files: Iterable[InputFile]) -> tuple[InputFile, ...]:
+    """Return the files with a known path, each once, with absolute paths for workers."""
+    files_by_path = {file.path.absolute(): file for file in files if file.path.name}
+    return tuple(replace(file, path=path) for path, file in files_by_path.items())
 
 
-class Watch:
-    """Checks repeatedly whether files have changed; hashes one only if it was written to.
+class InputWatch:
+    """A repeated check of files for changes; a file is hashed again only after a write.
 
     Args:
-        files: as they were (`watchable`).
+        files: the files with their first hashes (`unique_files`).
     """
 
     def __init__(self, files: Iterable[InputFile]) -> None:
         self._files = tuple(files)
-        self._sound: dict[Path, _Stamp] = {}  # when it was last seen to be as it was
+        self._valid_stamps: dict[Path, _Stamp] = {}  # the stamp at the last equal hash
 
     def check(self) -> None:
-        """Do nothing, or raise RunFailed, which names what was changed."""
-        messages = [why for file in self._files if (why := self._why_not(file))]
+        """Raise RunFailed with the changed files, if there are any."""
+        messages = [change for file in self._files if (change := self._find_change(file))]
         if messages:
-            more = [f"{len(messages) - MAX_LINES} more"] if len(messages) > MAX_LINES else []
+            rest = [f"{len(messages) - MAX_LINES} more"] if len(messages) > MAX_LINES else []
             raise RunFailed(
-                f"While the run was going on {'; '.join([*messages[:MAX_LINES], *more])}. "
+                f"During the run {'; '.join([*messages[:MAX_LINES], *rest])}. "
                 "Finished rows are kept; restore the files and continue with --resume."
             )
 
-    def _why_not(self, file: InputFile) -> str:
+    def _find_change(self, file: InputFile) -> str:
         try:
             stamp = _stamp(file.path)
-            if self._sound.get(file.path) == stamp:
+            if self._valid_stamps.get(file.path) == stamp:
                 return ""
-            now = compute_hash(file.path)
+            digest = compute_hash(file.path)
         except OSError as error:
             return f"{file.path} became unreadable ({error.strerror})"
-        if now != file.sha256:
-            return (
-                f"{file.path} was changed ({short_hash(file.sha256)} then, {short_hash(now)} now)"
-            )
-        self._sound[file.path] = stamp
+        if digest != file.sha256:
+            old_digest = short_hash(file.sha256)
+            return f"{file.path} was changed ({old_digest} then, {short_hash(digest)} now)"
+        self._valid_stamps[file.path] = stamp
         return ""
 
 
 def _stamp(path: Path) -> _Stamp:
-    """When a file was changed last, its size and its number; of a folder those of its files."""
-    facts = [
-        each.stat() for each in ([path, *sorted(path.rglob("*"))] if path.is_dir() else [path])
+    """Return the time of the last change, size and number of a file, or of a folder's files."""
+    statuses = [
+        entry.stat() for entry in ([path, *sorted(path.rglob("*"))] if path.is_dir() else [path])
     ]
-    return tuple((each.st_ctime_ns, each.st_size, each.st_ino) for each in facts)
+    return tuple((entry.st_ctime_ns, entry.st_size, entry.st_ino) for entry in statuses)

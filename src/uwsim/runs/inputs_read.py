@@ -15,13 +15,13 @@ from ..simulation import Simulation
 from .planning.plan import Plan
 
 
-def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> Inputs:
-    """Collect the input files of a plan; files that were not read yet are hashed now.
+def inputs_of(plan: Plan, simulation: Simulation, read_files: Iterable[InputFile]) -> Inputs:
+    """Collect the input files of a plan; hash those that were not read yet.
 
     Args:
         plan: the benchmark to run.
         simulation: its scene.
-        read: the input files that were read to make it (`record_inputs`).
+        read_files: the input files that were read to make it (`record_inputs`).
     """
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     robots = {
@@ -30,15 +30,15 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
     }
     assets = [
         InputFile(portable_name(robots[file.path]), file.sha256) if file.path in robots else file
-        for file in read
+        for file in read_files
         if file.path not in (benchmark, scene)
     ]
-    known = {file.path for file in read}
-    others = dict(simulation.world.files)
+    read_paths = {file.path for file in read_files}
+    other_files = dict(simulation.world.files)
     for updater in chain(plan.benchmark.scene_updater):
         with attribute_errors_to(plan.plugins):
-            others |= files_of(updater, simulation.world.stage_view)
-    assets += _hashed({name: path for name, path in others.items() if path not in known})
+            other_files |= files_of(updater, simulation.world.stage_view)
+    assets += _hash_files({n: path for n, path in other_files.items() if path not in read_paths})
     assets += [
         InputFile(name, f"sha256:{digest}")
         for name, digest in simulation.world.scenery.made_hashes.items()
@@ -48,22 +48,20 @@ def inputs_of(plan: Plan, simulation: Simulation, read: Iterable[InputFile]) -> 
         scene=(scene.name, compute_hash(scene)),
         assets=hashes_by_name(assets),
         plugins=hashes(plan.plugins) or None,
-        algorithm=of_algorithm(plan),
+        algorithm=hash_algorithm(plan),
     )
 
 
-def of_algorithm(plan: Plan) -> dict[str, str] | None:
-    """Hash and record the sources of a ``module:Class``; None if bundled or of a plugin."""
+def hash_algorithm(plan: Plan) -> dict[str, str] | None:
+    """Hash and record the sources of a ``module:Class``; return None if bundled or of a plugin."""
     module, colon, _ = plan.algorithm.name.partition(":")
     if not colon:
         return None
-    return hashes_by_name(_hashed(find_sources(module)))
+    return hashes_by_name(_hash_files(find_sources(module)))
 
 
-def _hashed(files: Mapping[str, Path]) -> list[InputFile]:
-    """Hash and record files that are read later, or by others."""
-    found = [
-        InputFile(portable_name(name), compute_hash(path), path) for name, path in files.items()
-    ]
-    record(found)
-    return found
+def _hash_files(files: Mapping[str, Path]) -> list[InputFile]:
+    """Hash and record files that are read later, or by other processes."""
+    hashes = [InputFile(portable_name(name), compute_hash(path), path) for name, path in files.items()]
+    record(hashes)
+    return hashes

@@ -1,4 +1,4 @@
-"""What the measures of a benchmark are in words: the first lines of their docstrings."""
+"""Descriptions of the measures of a benchmark: the first lines of their docstrings."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SIGNS = (
     (r"\lVert ", "‖"), (r" \rVert", "‖"), (r"\lVert", "‖"), (r"\rVert", "‖"),
     ("^2", "²"), ("^3", "³"), (r"\,", " "),
 )  # fmt: skip
-"""Signs of TeX, and how they are written without it."""
+"""Signs of TeX, and their plain forms."""
 ROOT = re.compile(r"\\sqrt\{([^{}]*)\}")
 
 
@@ -33,23 +33,23 @@ def meaning_of(spec: MeasureSpec) -> str:
 
 
 def live_class(spec: MeasureSpec) -> type[Measure] | None:
-    """Return the class that ``bind`` returns, by its annotation; None where it does not say."""
+    """Return the class that ``bind`` returns, by its annotation; None without annotation."""
     function = type(spec).bind
     name = str(function.__annotations__.get("return", "")).strip("'\"")
-    found = vars(sys.modules[function.__module__]).get(name) if name.isidentifier() else None
-    if found is None:
-        found = function.__annotations__.get("return")
-    is_live = isinstance(found, type) and issubclass(found, Measure) and found is not Measure
-    return found if is_live else None
+    cls = vars(sys.modules[function.__module__]).get(name) if name.isidentifier() else None
+    if cls is None:
+        cls = function.__annotations__.get("return")
+    is_live = isinstance(cls, type) and issubclass(cls, Measure) and cls is not Measure
+    return cls if is_live else None
 
 
 def plain_text(text: str) -> str:
     """Return a line of a docstring without marks of code and of mathematics."""
-    return CODE.sub(r"\1", MATH.sub(lambda found: _without_tex(found[1]), text))
+    return CODE.sub(r"\1", MATH.sub(lambda match: _strip_tex(match[1]), text))
 
 
-def _without_tex(formula: str) -> str:
+def _strip_tex(formula: str) -> str:
     """Return a short formula without TeX."""
-    for sign, written in SIGNS:
-        formula = formula.replace(sign, written)
+    for sign, plain_sign in SIGNS:
+        formula = formula.replace(sign, plain_sign)
     return re.sub(r"\\(\w+)", r"\1", ROOT.sub(r"√(\1)", formula)).replace("_", "")

@@ -21,47 +21,47 @@ def plugin_names(benchmark: Path) -> tuple[str, ...]:
     try:
         root = parse(benchmark, error=BenchmarkError).root
     except (BenchmarkError, OSError):
-        return ()  # whoever reads the file reports it
+        return ()  # the reader of the file reports it
     return tuple(str(root.get(ATTRIBUTE, "")).split())
 
 
 def named_plugins(benchmark: Path, request: PlanRequest) -> list[Path]:
-    """Return the plugins that a benchmark file names and that are not given as options already.
+    """Return the plugins that a benchmark file names and that no option has named.
 
     Raises:
         BadSetting: code is refused.
         BenchmarkError: a plugin is not found, or is outside the folders searched.
     """
-    from .foreign_code import announce, refused
+    from .foreign_code import announce, code_refusal
 
-    names, given = plugin_names(benchmark), request.plugins
+    names, option_paths = plugin_names(benchmark), request.plugins
     if names and request.no_code:
-        raise refused(names[0], str(benchmark))
-    hashes = {compute_hash(path) for path in given if path.is_file()}
-    found = []
+        raise code_refusal(names[0], str(benchmark))
+    hashes = {compute_hash(path) for path in option_paths if path.is_file()}
+    paths = []
     for name in names:
-        path = _found(name, benchmark, request.data_path)
+        path = _find_plugin(name, benchmark, request.data_path)
         if (digest := compute_hash(path)) not in hashes:
             hashes.add(digest)
             announce(name, str(benchmark), place=path)
-            found.append(path)
-    return found
+            paths.append(path)
+    return paths
 
 
-def _found(name: str, benchmark: Path, data_path: Sequence[Path]) -> Path:
-    """Find a plugin; BenchmarkError with the line of the benchmark where it is nowhere."""
+def _find_plugin(name: str, benchmark: Path, data_path: Sequence[Path]) -> Path:
+    """Find a plugin; raise BenchmarkError with the line of the benchmark if it is not found."""
     from ..assets.find import find
 
     try:
         path = find(name, named_by=benchmark.parent, data_path=tuple(data_path))
         if path is not None and path.suffix == ".py":
             return path
-        why = "it is not in the folder of the file, nor in those of --data-path"
+        reason = "it is not in the folder of the file, nor in those of --data-path"
         if path is not None:
-            why = "it is not a Python file (.py)"
+            reason = "it is not a Python file (.py)"
     except (AssetNotFound, BadSetting) as error:
-        why = str(error)
+        reason = str(error)
     diagnostics = Diagnostics(benchmark)
     root = parse(benchmark, error=BenchmarkError).root
-    diagnostics.error(root, f"u:plugin names {name[:100]!r}: {why}")
+    diagnostics.error(root, f"u:plugin names {name[:100]!r}: {reason}")
     raise BenchmarkError(diagnostics.to_list())

@@ -1,4 +1,4 @@
-"""Preparing runs: looks up all names and hashes all files before execution."""
+"""The preparation of runs: resolves all names and hashes all files before execution."""
 
 from __future__ import annotations
 
@@ -14,38 +14,38 @@ from ..errors import BenchmarkError, UwsimError
 from ..results.inputs import Inputs
 from ..simulation import RendererPool, Simulation
 from .bind_all import bind_all
-from .input_watch import watchable
-from .inputs_read import inputs_of, of_algorithm
+from .input_watch import unique_files
+from .inputs_read import hash_algorithm, inputs_of
 from .planning.plan import Plan
 from .planning.trial_cache import compile_plan
 from .run import Run
 
 
 def prepare_run(plan: Plan, out: Path) -> Run:
-    """Return the run of a plan, with its result in ``out``; raises as `hash_inputs` does."""
+    """Return the run of a plan, with its result in ``out``; raise errors as `hash_inputs` does."""
     with record_inputs() as files:
         inputs, renderer = hash_inputs(plan)
-    return Run(plan=plan, out=out, inputs=inputs, renderer=renderer, files=watchable(files))
+    return Run(plan=plan, out=out, inputs=inputs, renderer=renderer, files=unique_files(files))
 
 
 def prepare_runs(plans: Sequence[Plan], out: Path, folders: Sequence[str]) -> list[Run]:
     """Return the runs of plans that differ in the algorithm alone; the scene is opened once.
 
     Args:
-        plans: an algorithm each.
+        plans: the plans, one for each algorithm.
         out: the result directory.
-        folders: of each algorithm's result in ``out``; none where there is one algorithm.
+        folders: the folders of the results in ``out``; none where there is one algorithm.
 
     Raises:
         UwsimError: as `hash_inputs` does.
     """
-    first = prepare_run(plans[0], out)
+    base = prepare_run(plans[0], out)
     runs = []
     for plan, folder in zip(plans, folders or [""], strict=True):
         with record_inputs() as sources:
-            inputs = replace(first.inputs, algorithm=of_algorithm(plan))
-        files = watchable([*first.files, *sources])
-        run = Run(plan=plan, out=out / folder, inputs=inputs, renderer=first.renderer, files=files)
+            inputs = replace(base.inputs, algorithm=hash_algorithm(plan))
+        files = unique_files([*base.files, *sources])
+        run = Run(plan=plan, out=out / folder, inputs=inputs, renderer=base.renderer, files=files)
         runs.append(run)
     return runs
 
@@ -53,18 +53,18 @@ def prepare_runs(plans: Sequence[Plan], out: Path, folders: Sequence[str]) -> li
 def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, str]:
     """Open the scene once: hash every file that is read, and name the renderer.
 
-    Every name of the benchmark is looked up on the way, so that no name can fail later. Inside
+    Every name of the benchmark is resolved, so that no name can fail later. Inside
     `record_inputs` the files are recorded with their paths.
 
     Args:
         plan: the benchmark to run.
-        pool: lends the renderer; without one it is made, and closed again.
+        pool: the pool of the renderer; without one a renderer is created and closed again.
 
     Returns:
-        The ``inputs`` of the result, and what draws the images.
+        The ``inputs`` of the result, and the name of the renderer.
 
     Raises:
-        UwsimError: a file, a body, a camera or a service that is not there.
+        UwsimError: a file, a body, a camera or a service does not exist.
     """
     with record_inputs() as files:
         simulation = Simulation(compile_plan(plan, 0), pool=pool)
@@ -78,7 +78,7 @@ def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, s
 
 
 def _bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Look up every name of the benchmark; raises BenchmarkError with all that is wrong."""
+    """Resolve every name of the benchmark; raise BenchmarkError with all errors."""
     try:
         bind_all(plan, simulation)
     except UwsimError:
@@ -86,5 +86,5 @@ def _bind_all(plan: Plan, simulation: Simulation) -> None:
             raise BenchmarkError(errors) from None
         raise
     truths = truth_diagnostics(plan.benchmark, simulation.world.stage_view)
-    if errors := [each for each in truths if each.severity == "error"]:
+    if errors := [diagnostic for diagnostic in truths if diagnostic.severity == "error"]:
         raise BenchmarkError(errors)

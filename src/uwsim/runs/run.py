@@ -27,9 +27,9 @@ from ..results.seal import Seal
 from ..results.stored.stored_row import Record
 from ..results.summary import save_summary
 from .collect import collect
-from .described import described
 from .measure_notes import notes_of
 from .planning.plan import Plan, Trial
+from .run_description import describe_plan
 from .trial.status import ended_its_process, was_stopped
 from .trial.trial_recorder import TrialRecorder
 from .uwsim_files import save_dat, save_data
@@ -46,65 +46,66 @@ class Run:
     inputs: Inputs
     """Names and hashes of the files read (`prepare`)."""
     renderer: str
-    """What draws the images (`prepare`)."""
+    """The name of the renderer (`prepare`)."""
     files: tuple[InputFile, ...] = ()
     """Files that must not change during the run (`watchable`)."""
     recorder: TrialRecorder | None = None
-    """Writes down the messages of its trials."""
+    """The recorder of the messages of its trials."""
     seal: Seal | None = field(default=None, repr=False)
-    """Keeps an algorithm that is not of uwsim from reading the rows, while the run goes on."""
+    """The seal that prevents a foreign algorithm from reading the rows during the run."""
     n_resumed: int = 0
     """Levels that were on disk already when the run began."""
     n_lost: int = 0
-    """How often a trial lost its worker and was repeated."""
+    """The number of trials that lost their worker and were repeated."""
     simulated_s: float = 0.0
-    """Length of all levels of the result together [s]."""
+    """The length of all levels of the result together [s]."""
 
     @property
     def info(self) -> RunInfo:
-        """What is executed, as far as it is known before it is."""
-        return described(self.plan, self.renderer)
+        """The description of the run, as far as it is known before its execution."""
+        return describe_plan(self.plan, self.renderer)
 
     def begin(self) -> list[Trial]:
-        """Make the directory, and return the trials that are not finished."""
+        """Create the directory, and return the trials that are not finished."""
         self.out.mkdir(parents=True, exist_ok=True)
-        self._forget_what_was_stopped()
+        self._truncate_stopped_trials()
         if self.plan.algorithm.client is not None and self.plan.algorithm.client.sync == "none":
-            self._forget_what_cannot_be_repeated()
+            self._truncate_unrepeatable()
         self.n_resumed = self.n_finished()
-        to_run = [*self._without_motion(), *self.unfinished()]
+        to_run = [*self._trials_without_motion(), *self.unfinished_trials()]
         return sorted(to_run, key=lambda trial: trial.index)
 
-    def _forget_what_was_stopped(self) -> None:
-        """Repeat trials whose algorithm ended its process.
+    def _truncate_stopped_trials(self) -> None:
+        """Truncate trials whose algorithm ended its process, so that they are repeated.
 
         Earlier levels are kept and compared with the repeated ones. A call that did not return is
-        final; but a trial without an end is repeated anyhow, and may go better.
+        final, except in a trial without an end, which is repeated.
         """
         name = self.plan.algorithm.name
         for trial in self.plan.trials():
-            stored = self.read_trial(trial)
-            is_to_go = ended_its_process if stored.end is not None else was_stopped
-            for n, row in enumerate(stored.rows):
-                if is_to_go(name, row.missing.get("total")):
+            content = self.read_trial(trial)
+            is_truncated = ended_its_process if content.end is not None else was_stopped
+            for n, row in enumerate(content.rows):
+                if is_truncated(name, row.missing.get("total")):
                     journal.cut_back(self.out, trial.index, n)
                     break
 
-    def _without_motion(self) -> Iterator[Trial]:
-        """Find finished trials to run again: their motion is not on disk, or damaged.
+    def _trials_without_motion(self) -> Iterator[Trial]:
+        """Yield finished trials to run again, whose motion is absent or damaged.
 
-        A trial that would not come out the same again, with a pilot, a program outside that runs
-        freely or a call that took too long, is kept as it is.
+        A trial that is not repeatable is kept: one with a pilot, an external program that runs
+        freely, or a call that took too long.
         """
         plan = self.plan
         is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
         is_free = plan.algorithm.client is not None and plan.algorithm.client.sync == "none"
         for trial in plan.trials():
-            stored = self.read_trial(trial)
-            if stored.end is None or _has_motion(self.out, trial):
+            content = self.read_trial(trial)
+            if content.end is None or _has_motion(self.out, trial):
                 continue
-            whys = [row.missing.get("total") for row in stored.rows]
-            if is_piloted or is_free or any(was_stopped(plan.algorithm.name, why) for why in whys):
+            reasons = [row.missing.get("total") for row in content.rows]
+            has_stopped = any(was_stopped(plan.algorithm.name, reason) for reason in reasons)
+            if is_piloted or is_free or has_stopped:
                 warn(
                     f"{journal.track_path(self.out, trial.index)} is lost or damaged, and its "
                     "trial cannot be repeated: there is no replay of it"
@@ -112,13 +113,13 @@ class Run:
             else:
                 yield trial
 
-    def _forget_what_cannot_be_repeated(self) -> None:
-        """Begin unfinished trials anew: their rows would not come out as they are stored."""
-        for trial in self.unfinished():
+    def _truncate_unrepeatable(self) -> None:
+        """Begin unfinished trials anew, as their rows would differ from the stored ones."""
+        for trial in self.unfinished_trials():
             if self.n_rows(trial):
                 journal.cut_back(self.out, trial.index, 0)
 
-    def unfinished(self) -> list[Trial]:
+    def unfinished_trials(self) -> list[Trial]:
         """Return the trials whose end is not on disk."""
         return [trial for trial in self.plan.trials() if self.read_trial(trial).end is None]
 
@@ -133,16 +134,16 @@ class Run:
     def head(self, trial: Trial) -> Record:
         """Return the identity of a trial: equal heads mean that its rows must be equal."""
         return {
-            "inputs": _as_stored(self.inputs.as_dict()),
-            "run": _as_stored(self.info.as_dict()),
+            "inputs": _round_trip(self.inputs.as_dict()),
+            "run": _round_trip(self.info.as_dict()),
             "seed": trial.seed,
             "levels": [[value for _, value in level.values] for level in trial.levels],
         }
 
     def write(self) -> Result:
         """Collect the rows on disk and write result, summary of repeats and logs."""
-        stored = [(trial, self.read_trial(trial)) for trial in self.plan.trials()]
-        result, logs, self.simulated_s = collect(self.plan, self.inputs, self.info, stored)
+        stored_trials = [(trial, self.read_trial(trial)) for trial in self.plan.trials()]
+        result, logs, self.simulated_s = collect(self.plan, self.inputs, self.info, stored_trials)
         save(result, self.out)
         save_dat(
             result,
@@ -164,21 +165,21 @@ class Run:
         """Return the stored rows of a trial.
 
         Raises:
-            ResultError: they are of another run, or not of the levels of the trial.
+            ResultError: they belong to another run, or to other levels than those of the trial.
         """
         path = journal.path_of(self.out, trial.index)
         if not path.exists():
             return journal.EMPTY_JOURNAL
-        found = journal.read(self.out, trial.index, self.head(trial), self.seal)
-        if message := journal.level_difference(found, trial.values):
+        content = journal.read(self.out, trial.index, self.head(trial), self.seal)
+        if message := journal.level_difference(content, trial.values):
             raise ResultError(
                 f"{path}: {message}. Remove this file: --resume then runs its trial again."
             )
-        return found
+        return content
 
 
 def _has_motion(out: Path, trial: Trial) -> bool:
-    """Whether the motion of a trial can be read."""
+    """Return whether the motion of a trial can be read."""
     try:
         load_track(journal.track_path(out, trial.index))
     except ResultError:
@@ -186,6 +187,6 @@ def _has_motion(out: Path, trial: Trial) -> bool:
     return True
 
 
-def _as_stored(value: object) -> object:
-    """Return a value as it will be read back from JSON."""
+def _round_trip(value: object) -> object:
+    """Return a value as it is read back from JSON."""
     return json.loads(json.dumps(value))

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def warn_of_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
-    """Tell which robots of a scene are the bundled ones in the place of files that are nowhere."""
+    """Warn of bundled robots of a scene that replace missing files."""
     from ..model.robots import robot_stand_ins
 
     for name, path in robot_stand_ins(scene, data_path).items():

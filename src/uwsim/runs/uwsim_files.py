@@ -6,17 +6,16 @@ r"""The original's files: its result, here ``result.dat``, and its logs, ``bench
     0\t1.83\t0.41\t2.24\t2\t
     0.05\tnan\tnan\tnan\t4\t
 
-Every field is followed by a tab, numbers have C++'s default format (``%g``, six digits). A value
-that is missing is ``nan`` and no row is dropped; the compatibility ``rows`` has the original back:
-a row with a measure in error is left out, and a function that fails leaves its field out. In error
-are only a `euclideanNorm` without an estimate and a `pathFollowing` without a path; what else has
-measured nothing has the value that it starts with. The original sums the errors of a row, and a
-path that is not there counts -1: with one other estimate missing the row stays, and -1 and 0
-stand for the two.
+Every field is followed by a tab, numbers have C++'s default format (``%g``, six digits). A missing
+value is ``nan`` and no row is dropped. The compatibility ``rows`` restores the original: a row with
+a measure in error is omitted, and so is the field of a function that fails. Only a `euclideanNorm`
+without an estimate and a `pathFollowing` without a path are in error; other measures without a
+value have their start value. The original sums the errors of a row, and a missing path counts -1:
+with one missing estimate beside it the row remains, and the two values are -1 and 0.
 
-A measure with ``<log>`` has a file of its own, and our CSV of the same samples. Its first column
+A measure with ``<log>`` has its own file, and a CSV file of the same samples. Its first column
 has the outermost updater's name and holds, in the original too, the running time; the details of
-the measure follow, and one blank line at the end. Levels are not told apart.
+the measure follow, and one blank line at the end. Levels are not distinguished.
 
 .. code-block:: text
 
@@ -57,7 +56,7 @@ LEVEL_NAMES = {
     "light": "Light",
     "noise": "Noise",
 }
-"""Reference of an updater -> the original's name of it."""
+"""The original's name of each updater, by reference."""
 
 
 def dat_text(
@@ -66,12 +65,12 @@ def dat_text(
     compatibility: frozenset[str] = frozenset(),
     measures: Sequence[MeasureSpec] = (),
 ) -> str:
-    """Return the text of ``result.dat``; ``repeat`` and ``seed`` lead when there are several.
+    """Return the text of ``result.dat``; ``repeat`` and ``seed`` come first when there are several.
 
     Args:
-        result: what was found.
-        compatibility: compatibility quirks; ``rows`` matters here.
-        measures: of the benchmark; one that is not given has one field, its value.
+        result: the result.
+        compatibility: the compatibility quirks, of which ``rows`` applies here.
+        measures: the measures of the benchmark; an absent one has one field, its value.
     """
     specs = {spec.name: spec for spec in measures}
     fields = list(_fields(result, specs))
@@ -79,22 +78,22 @@ def dat_text(
     for row in result.rows:
         cells = [(column, row[result.index(column.name)]) for _, column in fields]
         if "rows" in compatibility:
-            measured = [column.name for column in result.columns_of_kind("measure")]
-            missing = [name for name in measured if row[result.index(name)] is None]
-            if sum(specs[name].error_flag if name in specs else 1 for name in missing):
+            names = [column.name for column in result.columns_of_kind("measure")]
+            missing_names = [name for name in names if row[result.index(name)] is None]
+            if sum(specs[name].error_flag if name in specs else 1 for name in missing_names):
                 continue
-            cells = list(_as_the_original(result, row, cells, specs))
+            cells = list(_original_fields(result, row, cells, specs))
         lines.append("".join(f"{_number(cell)}\t" for _, cell in cells))
     return "\n".join(lines) + "\n"
 
 
-def _as_the_original(
+def _original_fields(
     result: Result,
     row: Sequence[Cell],
     cells: Sequence[tuple[Column, Cell]],
     specs: Mapping[str, MeasureSpec],
 ) -> Iterator[tuple[Column, Cell]]:
-    """Yield the fields of a row with start values for what is missing, and the score of those."""
+    """Yield the fields of a row with start values for missing ones, and the score of those."""
     values: dict[str, float | None] = {}
     for column in result.columns_of_kind("measure"):
         cell = row[result.index(column.name)]
@@ -123,14 +122,14 @@ def save_dat(
     compatibility: frozenset[str] = frozenset(),
     measures: Sequence[MeasureSpec] = (),
 ) -> Path:
-    """Write ``result.dat`` into the result directory, whole or not at all."""
+    """Write ``result.dat`` into the result directory atomically."""
     path = directory / "result.dat"
     write_text(path, dat_text(result, compatibility=compatibility, measures=measures))
     return path
 
 
 def _fields(result: Result, specs: Mapping[str, MeasureSpec]) -> Iterator[tuple[str, Column]]:
-    """Names of the fields, and the columns that they show."""
+    """Yield the names of the fields, and the columns that they show."""
     for kind in ("run", "level", "measure", "score", "time"):
         for column in result.columns:
             if column.kind != kind:
@@ -138,16 +137,16 @@ def _fields(result: Result, specs: Mapping[str, MeasureSpec]) -> Iterator[tuple[
             if kind != "measure" or column.name not in specs:
                 yield _name(column), column
                 continue
-            for name, shown in specs[column.name].original_fields.items():
-                yield name, result.columns[result.index(shown)]
+            for name, column_name in specs[column.name].original_fields.items():
+                yield name, result.columns[result.index(column_name)]
 
 
 def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
-    """Return what the original calls the details of a measure: its log's columns after the time.
+    """Return the original's names of a measure's details: its log's columns after the time.
 
     Args:
-        spec: the measure; one that the original does not have gives all that it logs.
-        n_logged: number of values in a sample of its log.
+        spec: the measure; one that the original lacks has all values of its log.
+        n_logged: the number of values in a sample of its log.
     """
     name = spec.name
     match spec:
@@ -168,30 +167,30 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
     return names[:n_logged]
 
 
-def details(triggered: TriggeredMeasure) -> tuple[float | None, ...]:
-    """Return the details of a measure as of now, in the order of `detail_names`."""
-    values = [finite(value)[0] for value in sample_of(triggered.measure)]
-    if triggered.has_start_value:
-        values = [triggered.spec.start_value, *(0.0 for _ in values[1:])]
-    return tuple(values[: len(detail_names(triggered.spec, len(values)))])
+def details(triggered_measure: TriggeredMeasure) -> tuple[float | None, ...]:
+    """Return the current details of a measure, in the order of `detail_names`."""
+    values = [finite(value)[0] for value in sample_of(triggered_measure.measure)]
+    if triggered_measure.has_start_value:
+        values = [triggered_measure.spec.start_value, *(0.0 for _ in values[1:])]
+    return tuple(values[: len(detail_names(triggered_measure.spec, len(values)))])
 
 
 def data_text(log: Log, spec: MeasureSpec) -> str:
-    """Return the text of ``benchmark-<name>.data``; ``repeat`` and ``seed`` lead as in the CSV."""
+    """Return the text of ``benchmark-<name>.data``, with ``repeat`` and ``seed`` as in the CSV."""
     time = log.header.index(TIME)
-    led = [name for name in log.header[:time] if name in ("repeat", "seed")]
-    parameter = log.header[len(led)].partition(" ")[0]
-    outermost = LEVEL_NAMES.get(parameter, parameter)
+    prefix = [name for name in log.header[:time] if name in ("repeat", "seed")]
+    parameter = log.header[len(prefix)].partition(" ")[0]
+    level_name = LEVEL_NAMES.get(parameter, parameter)
     names = detail_names(spec, len(log.header) - time - 1)
-    lines = ["".join(f"{field}\t" for field in (*led, outermost, *names))]
+    lines = ["".join(f"{field}\t" for field in (*prefix, level_name, *names))]
     for sample in log.samples:
-        cells = (*sample[: len(led)], *sample[time : time + 1 + len(names)])
+        cells = (*sample[: len(prefix)], *sample[time : time + 1 + len(names)])
         lines.append("".join(f"{_number(cell)}\t" for cell in cells))
     return "\n".join(lines) + "\n\n"
 
 
 def save_data(log: Log, spec: MeasureSpec, directory: Path, file: str = "") -> Path:
-    """Write ``benchmark-<file>.data``, called after the measure, whole or not at all."""
+    """Write ``benchmark-<file>.data`` atomically; the default name is the measure's."""
     path = directory / f"benchmark-{file or file_name(spec.name)}.data"
     write_text(path, data_text(log, spec))
     return path

@@ -12,7 +12,7 @@ from ..assets.bundled import bundled_files
 from ..errors import AssetNotFound, ResultError
 from ..results.inputs import Inputs, input_differences
 from ..runs.named_plugins import plugin_names
-from ..runs.own_process.program import IN_PROCESS, is_outside
+from ..runs.own_process.program import SHARED_PROCESS, is_outside
 from ..runs.planning.make_plan import make_plan
 from ..runs.planning.plan_request import PlanRequest
 from ..runs.planning.stored_pilot import PILOT, PREFIX
@@ -84,7 +84,7 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
         data_path=overrides.data_path,
         plugins=_plugins(result, overrides.plugins, [*words, *_plugin_paths(result, benchmark)]),
         no_code=overrides.no_code,
-        in_process=IN_PROCESS in dict(run.clients or ()).values(),
+        in_process=SHARED_PROCESS in dict(run.clients or ()).values(),
         algorithm_is_from=str(directory),
     )
     return replace(make_plan(request), is_blind=is_blind)

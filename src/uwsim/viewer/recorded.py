@@ -17,7 +17,7 @@ from ..results.motion import MotionTrack, TrackLevel, load_track
 from ..results.result import Result
 from ..results.result_file import load
 from ..results.stored.stored_row import StoredRow
-from ..runs.planning.make_plan import OF_ALGORITHM
+from ..runs.planning.make_plan import ALGORITHM_PREFIX
 from ..scene.reader import read_scene
 from ..scene.settings import apply_setting, xacro_arguments
 from ..scene.spec import SceneSpec
@@ -173,7 +173,7 @@ def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> Scene
     arguments = xacro_arguments(result.run.settings or ())
     scene = read_scene(path, data_path=overrides.data_path, arguments=arguments)
     for name, value in result.run.settings or ():
-        if not name.startswith(OF_ALGORITHM):
+        if not name.startswith(ALGORITHM_PREFIX):
             with suppress(UwsimError):  # it was valid in the run: it belongs to an updater
                 scene = apply_setting(scene, name, value)
     return scene

@@ -43,7 +43,7 @@ class TrialRecording:
 
     def missing_files(self, run: Run) -> list[Path]:
         """Return the files of finished trials that do not exist."""
-        to_run = {trial.index for trial in run.unfinished()}
+        to_run = {trial.index for trial in run.unfinished_trials()}
         files = [self.path_of(t) for t in run.plan.trials() if t.index not in to_run]
         return [file for file in files if not file.exists()]
 

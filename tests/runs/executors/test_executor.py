@@ -162,7 +162,7 @@ def test_resume_tries_again_what_ended_its_process_and_leaves_what_did_not_come_
     file.close()
     bench.begin()
     assert bench.n_rows(trial) == n_left
-    assert (bench.unfinished() == []) == (n_left == 3)
+    assert (bench.unfinished_trials() == []) == (n_left == 3)
 
 
 @pytest.mark.parametrize(

@@ -26,7 +26,7 @@ from ..own_process.process import PROCESS_ENDED
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache
 from ..run import Run
-from ..sealed import sealed
+from ..sealing import seal_runs
 from ..trial.onlooker import Onlooker
 from .worker import Event, JournalWriter, picklable, run_trial
 
@@ -264,7 +264,7 @@ def run_each(
     """
     jobs = [Job(run, trial) for run in runs for trial in run.begin()]
     queue = JobQueue(jobs, on_level)
-    with sealed(runs):
+    with seal_runs(runs):
         try:
             (executor or SerialExecutor()).execute(queue)
             _miss_what_is_gone(runs, queue)
@@ -276,7 +276,7 @@ def run_each(
 def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
     """Fail a run if a finished trial is not on disk any more."""
     for run in runs:
-        for trial in run.unfinished()[:1]:
+        for trial in run.unfinished_trials()[:1]:
             name = path_of(run.out, trial.index)
             message = "was run, but its file is incomplete now. Continue with --resume."
             job = Job(run, trial)

@@ -23,7 +23,7 @@ from ...base.environment import set_environment
 from ...base.interrupts import is_user_interrupt
 from ...base.terminal import ignore_casts
 from ...simulation import BEFORE, Calls, Counter, Cut, open_call
-from ..own_process.process import TOO_LONG, how
+from ..own_process.process import CALL_TIMEOUT, describe_exit
 from ..planning.trial_cache import TrialCache
 from .closed_forks import ClosedForks, closes_forks
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
@@ -175,7 +175,9 @@ class WorkerProcess:
             return
         if not is_alive:
             self._process.join()
-            queue.lost(self.job, how(self._process.exitcode), open_call(self._counter.value))
+            queue.lost(
+                self.job, describe_exit(self._process.exitcode), open_call(self._counter.value)
+            )
             self.job = None
 
     def watch(self, queue: JobQueue, waited: float, limit: float) -> None:
@@ -198,7 +200,7 @@ class WorkerProcess:
             return
         self._process.kill()
         self._process.join()
-        queue.stopped(self.job, Cut(call, TOO_LONG))
+        queue.stopped(self.job, Cut(call, CALL_TIMEOUT))
         self.job = None
 
     def dismiss(self) -> None:

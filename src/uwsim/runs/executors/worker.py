@@ -21,7 +21,7 @@ from ...results import journal
 from ...results.atomic_file import atomic_write
 from ...results.stored.stored_row import StoredEnd, StoredPicture, StoredRow
 from ...simulation import Calls
-from ..input_watch import Watch
+from ..input_watch import InputWatch
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache
 from ..run import Run
@@ -114,7 +114,7 @@ class JournalWriter:
 
     def __init__(self, run: Run, trial: Trial) -> None:
         self._out = run.out
-        self._watch = Watch(run.files)
+        self._watch = InputWatch(run.files)
         self._track = journal.track_path(run.out, trial.index)
         self._seal = run.seal
         self._file = journal.Journal(run.out, trial.index, run.head(trial), run.seal)

@@ -1,1 +1,1 @@
-"""A third-party algorithm in a process of its own, in lock-step: it gets messages and no more."""
+"""A third-party algorithm in a process of its own, in lock-step: it receives messages only."""

@@ -1,21 +1,21 @@
 """The process of an algorithm: ``python -m uwsim.runs.own_process.child FD``.
 
-It gets frames through one socket, answers each, and has nothing else of the simulation.
+It receives frames through one socket, answers each, and has no other access to the simulation.
 
 .. code-block:: text
 
-    from the simulation                 answer, when the algorithm has come back
-      make  path, plugins, class          done  published, value, rule broken
+    from the simulation                 answer, when the algorithm has returned
+      make  path, plugins, class          done  published, value, broken rule
       start now, parameters, random       raised  published, kind, message, text
       call  callback, now, message
       parameters  given
-      asked                               (names of parameters that it read)
+      names_read                          (names of parameters that it read)
       given / refused                   (what the algorithm asked for)
 
-Within a call the algorithm asks for what a node offers (`ask`): the frames nest, as the calls of
-one process do. A message that the simulation is certain to take needs no answer: it goes with the
-next frame, whichever that is, as the first thing that it asks for (``published``: a frame for each,
-of a publisher's number and a message).
+Within a call the algorithm requests the functions of a node (`ask`): the frames nest, as the calls
+of one process do. A message that the simulation is certain to accept needs no answer: it is sent
+with the next frame of any kind, as its first request (``published``: a frame for each, of a
+publisher's number and a message).
 """
 
 from __future__ import annotations
@@ -41,32 +41,32 @@ from ...base.terminal import ignore_casts
 from ...base.tracked_parameters import TrackedParameters, untracked_parameters
 from ...bus import Bus
 from ...errors import BadSetting, NotAllowed, UwsimError
-from .codec import MAX_FRAME, Unknown, decode, encode, message_class
+from .codec import MAX_FRAME, UnknownValue, decode, encode, message_class
 
 M = TypeVar("M")
-GLANCE = 0.5
-"""How often this process looks whether its parent is still there [s]."""
+PARENT_CHECK_PERIOD = 0.5
+"""The period at which this process checks that its parent exists [s]."""
 MAX_PUBLISHED = 100
-"""So many messages, and no more, wait for the next frame."""
+"""The greatest number of messages that wait for the next frame."""
 MAX_PUBLISHED_BYTES = 2**20
-"""So many of their bytes, and hardly more, wait for it."""
+"""The size of messages from which they are sent at once [bytes]."""
 
 
 class ChildNode:
-    """The node of an algorithm in this process: everything is asked of the simulation."""
+    """The node of an algorithm in this process; it forwards every request to the simulation."""
 
     def __init__(self, ask: Callable[..., Any]) -> None:
         self._ask = ask
-        self._published: list[bytes] = []
+        self._frames: list[bytes] = []
         self._n_bytes = 0
-        self._types = Bus()  # checks the classes of messages, where they still are what they are
+        self._types = Bus()  # checks the classes of messages before they are encoded
         self._thread = threading.get_ident()
         self.callbacks: list[Callable[..., object]] = []
-        """What the simulation may call, by its number."""
-        self.broken: str | None = None
-        """The rule that a thread of the algorithm has broken."""
+        """The callbacks of the simulation, by number."""
+        self.violation: str | None = None
+        """The rule that a thread of the algorithm has violated."""
         self.now = 0.0
-        """Simulation time [s]."""
+        """The simulation time [s]."""
         self.parameters = TrackedParameters({})
         """The parameters that the user set."""
         self.rng = np.random.default_rng(0)
@@ -74,36 +74,36 @@ class ChildNode:
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Call ``callback`` with every message on ``topic``."""
-        self._asked("subscribe", topic, _sendable(type), self._number(callback))
+        self._request("subscribe", topic, _check_message_class(type), self._number(callback))
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``."""
-        number, may_refuse = self._asked("publisher", topic, _sendable(type))
+        number, may_refuse = self._request("publisher", topic, _check_message_class(type))
         check = self._types.publisher(topic, type)
 
         def publish(message: M) -> None:
             check(message)
             self._check_thread()
             frame = encode([number, message])
-            self._published.append(frame)
+            self._frames.append(frame)
             self._n_bytes += len(frame)
-            is_full = len(self._published) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
+            is_full = len(self._frames) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
             if is_full or may_refuse or find_invalid_field(message, converts=False):
-                self._asked("take")
+                self._request("take")
 
         return publish
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service; ``type`` is the class of its request."""
-        self._asked("serve", name, _sendable(type), self._number(handler))
+        self._request("serve", name, _check_message_class(type), self._number(handler))
 
     def call(self, name: str, request: object) -> object:
-        """Call a service; UnknownName if it is not offered."""
-        return self._asked("call", name, request)
+        """Call a service; raise UnknownName if it is not offered."""
+        return self._request("call", name, request)
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         """Call ``callback`` every ``period_s`` of simulation time, from now on."""
-        self._asked("create_timer", period_s, self._number(callback))
+        self._request("create_timer", period_s, self._number(callback))
 
     @property
     @deprecated_name("rng")
@@ -116,30 +116,30 @@ class ChildNode:
         """Call `create_timer`, whose old name this is."""
         self.create_timer(period_s, callback)
 
-    def published(self) -> list[bytes]:
-        """Return what was published since this was asked last, as frames."""
-        published, self._published, self._n_bytes = self._published, [], 0
-        return published
+    def take_published(self) -> list[bytes]:
+        """Return the messages published since the last call, as frames."""
+        frames, self._frames, self._n_bytes = self._frames, [], 0
+        return frames
 
     def _number(self, callback: Callable[..., object]) -> int:
         self.callbacks.append(callback)
         return len(self.callbacks) - 1
 
-    def _asked(self, method: str, *arguments: object) -> Any:
+    def _request(self, method: str, *arguments: object) -> Any:
         self._check_thread()
         return self._ask(method, *arguments)
 
     def _check_thread(self) -> None:
         if threading.get_ident() != self._thread:
-            self.broken = self.broken or "it uses its node from a thread of its own"
-            raise NotAllowed(self.broken)
+            self.violation = self.violation or "it uses its node from a thread of its own"
+            raise NotAllowed(self.violation)
 
 
 class Child:
-    """Serves the frames of the simulation.
+    """The server of the frames of the simulation.
 
     Args:
-        pipe: the way to it.
+        pipe: the connection to it.
     """
 
     def __init__(self, pipe: Connection) -> None:
@@ -149,37 +149,37 @@ class Child:
         self._class: type = object
 
     def serve(self) -> None:
-        """Answer every frame until the simulation has gone."""
+        """Answer every frame until the simulation has ended."""
         while True:
             self._run(*self._receive())
 
     def _run(self, kind: str, *arguments: Any) -> None:
-        """Do what a frame says, and answer it."""
+        """Execute the request of a frame, and answer it."""
         try:
             value = getattr(self, f"_{kind}")(*arguments)
-            frame = encode(["done", self._node.published(), value, self._node.broken])
+            frame = encode(["done", self._node.take_published(), value, self._node.violation])
         except BaseException as error:
             message = str(error) if isinstance(error, UwsimError) else ""
             trace = error.__traceback__
             error.__traceback__ = trace and trace.tb_next  # the first is that of this function
             text = describe_exception(error, self._class)
-            raised = (type(error).__name__, message, text)
-            frame = encode(["raised", self._node.published(), *raised])
+            fault = (type(error).__name__, message, text)
+            frame = encode(["raised", self._node.take_published(), *fault])
         self._send(frame)
 
     def _make(self, path: list[str], sources: list[list[Any]], module: str, name: str) -> None:
-        """Import the class as the simulation did, and make the algorithm."""
+        """Import the class as the simulation did, and construct the algorithm."""
         sys.path[:] = path
-        for each, file, source in sources:
-            source_module(each, file, source)
-        found: Any = sys.modules.get(module) or importlib.import_module(module)
+        for module_name, file, source in sources:
+            source_module(module_name, file, source)
+        cls: Any = sys.modules.get(module) or importlib.import_module(module)
         for part in name.split("."):
-            found = getattr(found, part)
-        self._class = found
-        self._algorithm = found()
+            cls = getattr(cls, part)
+        self._class = cls
+        self._algorithm = cls()
 
-    def _start(self, now: float, parameters: dict[str, Any], random: list[Any]) -> None:
-        name, state = random
+    def _start(self, now: float, parameters: dict[str, Any], rng_state: list[Any]) -> None:
+        name, state = rng_state
         bits = getattr(np.random, name)()
         bits.state = state
         self._node.rng = np.random.Generator(bits)
@@ -190,16 +190,16 @@ class Child:
         self._node.now = now
         return self._node.callbacks[number](*arguments)
 
-    def _parameters(self, given: dict[str, Any]) -> object:
-        reported: object = untracked_parameters(getattr(self._algorithm, "parameters", given))
-        return dict(reported) if isinstance(reported, Mapping) else reported
+    def _parameters(self, defaults: dict[str, Any]) -> object:
+        parameters: object = untracked_parameters(getattr(self._algorithm, "parameters", defaults))
+        return dict(parameters) if isinstance(parameters, Mapping) else parameters
 
-    def _asked(self) -> list[str]:
+    def _names_read(self) -> list[str]:
         return list(self._node.parameters.names_read)
 
     def _ask(self, method: str, *arguments: object) -> Any:
-        """Ask the simulation for something; calls that come in between are answered."""
-        self._send(encode(["ask", self._node.published(), method, *arguments]))
+        """Request something of the simulation, and answer calls that arrive before the reply."""
+        self._send(encode(["ask", self._node.take_published(), method, *arguments]))
         while True:
             kind, *rest = self._receive()
             if kind == "given":
@@ -222,29 +222,29 @@ class Child:
         return frame
 
 
-def _sendable(cls: type) -> type:
-    """Return the class of a message, which has to be known outside this process, too."""
+def _check_message_class(cls: type) -> type:
+    """Return the class of a message, which must be known outside this process, too."""
     name = f"{cls.__module__}:{cls.__qualname__}" if isinstance(cls, type) else ""
     if message_class(name) is not cls:
-        raise BadSetting(f"{cls!r} is no class of messages that its process could exchange.")
+        raise BadSetting(f"{cls!r} is not a class of messages that its process can exchange.")
     return cls
 
 
-def _raise(kind: str, message: str, about: dict[str, Any]) -> NoReturn:
-    """Raise what the simulation raised."""
-    found = getattr(errors, kind, None) or getattr(builtins, kind, None)
-    if not (isinstance(found, type) and issubclass(found, Exception)):
+def _raise(kind: str, message: str, attributes: dict[str, Any]) -> NoReturn:
+    """Raise the exception that the simulation raised."""
+    cls = getattr(errors, kind, None) or getattr(builtins, kind, None)
+    if not (isinstance(cls, type) and issubclass(cls, Exception)):
         raise RuntimeError(f"{kind}: {message}")
-    error = found.__new__(found)
+    error = cls.__new__(cls)
     error.args = (message,)
-    for name, value in about.items():
-        if not isinstance(value, Unknown):
+    for name, value in attributes.items():
+        if not isinstance(value, UnknownValue):
             setattr(error, name, value)
     raise error
 
 
 def _leave() -> NoReturn:
-    """End this process: nobody waits for it any more."""
+    """End this process: its parent does not wait for it any more."""
     sys.stdout.flush()
     os._exit(0)
 
@@ -253,7 +253,7 @@ def main(descriptor: int, parent: int) -> None:
     """Serve the simulation at the other end of a socket, and end with it.
 
     Args:
-        descriptor: of the socket.
+        descriptor: the descriptor of the socket.
         parent: the process that holds the other end.
     """
     ignore_casts()
@@ -265,7 +265,7 @@ def main(descriptor: int, parent: int) -> None:
 def _exit_with(parent: int) -> None:
     """End this process when its parent has ended, also from within an endless callback."""
     while os.getppid() == parent:
-        time.sleep(GLANCE)
+        time.sleep(PARENT_CHECK_PERIOD)
     os._exit(1)
 
 

@@ -1,8 +1,8 @@
 """Messages as bytes between the simulation and an algorithm's process.
 
-A frame is JSON, which keeps every float64, and behind it the bytes of all arrays. What is read can
-only become numbers, texts, lists, arrays and message classes that this process already knows: no
-code comes in with a frame, and nothing is imported for it.
+A frame is JSON, which preserves every float64, followed by the bytes of all arrays. A frame decodes
+to numbers, texts, lists, arrays and message classes that this process has already loaded: no code
+arrives with a frame, and nothing is imported for it.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ from typing import Any, cast
 import numpy as np
 
 MAX_FRAME = 2**30
-"""Longest frame [bytes]."""
+"""The greatest length of a frame [bytes]."""
 _TEXT = json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
 _VALUE = json.JSONDecoder().decode
 _LENGTH = struct.Struct("<I")
 _ARRAYS = (np.ndarray, np.generic)
 _BASES: tuple[Any, ...] = (bool, int, float, str, list, tuple, dict)
-_PLAIN = frozenset((type(None), bool, int, float, str))
-_MOST_NAMES = 10_000
+_SCALARS = frozenset((type(None), bool, int, float, str))
+_MAX_NAMES = 10_000
 MAX_DEPTH = 100
-"""Values that are nested deeper do not leave the process: one may hold itself."""
+"""The greatest depth of values that leave the process; deeper ones may contain themselves."""
 
 
 class FrameError(Exception):
     """Bytes that are no frame."""
 
 
-class Unknown:
-    """Stands for a value that cannot leave the process it was made in; shown as it is there."""
+class UnknownValue:
+    """A replacement of a value that cannot leave its process, with its representation there."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -48,10 +48,10 @@ class Unknown:
 def encode(value: object) -> bytes:
     """Return a value as a frame: numbers, texts, lists, dicts, arrays, messages, message classes.
 
-    Anything else becomes `Unknown` over there.
+    Any other value becomes `UnknownValue` in the other process.
     """
     arrays: list[bytes] = []
-    head = _TEXT(_tagged(value, arrays)).encode()
+    head = _TEXT(_to_json(value, arrays)).encode()
     return b"".join((_LENGTH.pack(len(head)), head, *arrays))
 
 
@@ -59,7 +59,7 @@ def decode(frame: bytes) -> Any:
     """Return the value of a frame; its arrays are read-only.
 
     Raises:
-        FrameError: it is none.
+        FrameError: the bytes are not a frame.
     """
     try:
         (n,) = _LENGTH.unpack_from(frame)
@@ -74,25 +74,25 @@ def decode(frame: bytes) -> Any:
     return value
 
 
-def _tagged(value: Any, arrays: list[bytes], depth: int = 0) -> object:
-    """Return JSON of a value; what JSON has no form for is an object with one key."""
+def _to_json(value: Any, arrays: list[bytes], depth: int = 0) -> object:
+    """Return JSON of a value; a value without a form in JSON is an object with one key."""
     cls: Any = value.__class__
-    if cls in _PLAIN:
+    if cls in _SCALARS:
         return value
     if depth > MAX_DEPTH:
-        return {"o": [cls.__name__, _shown(value)]}
-    inner = depth + 1
+        return {"o": [cls.__name__, _safe_repr(value)]}
+    level = depth + 1
     if cls is list:
-        return [_tagged(item, arrays, inner) for item in value]
+        return [_to_json(item, arrays, level) for item in value]
     if cls is tuple:
-        return {"t": [_tagged(item, arrays, inner) for item in value]}
+        return {"t": [_to_json(item, arrays, level) for item in value]}
     if cls is dict:
-        pairs = [(_tagged(k, arrays, inner), _tagged(v, arrays, inner)) for k, v in value.items()]
+        pairs = [(_to_json(k, arrays, level), _to_json(v, arrays, level)) for k, v in value.items()]
         return {"d": [list(pair) for pair in pairs]}
     if hasattr(cls, "__dataclass_fields__") and message_class(name := _name(cls)) is cls:
         fields = [getattr(value, field) for field in _names(cls)]
-        tagged = (v if v.__class__ in _PLAIN else _tagged(v, arrays, inner) for v in fields)
-        return {"m": [name, *tagged]}
+        values = (v if v.__class__ in _SCALARS else _to_json(v, arrays, level) for v in fields)
+        return {"m": [name, *values]}
     if isinstance(value, _ARRAYS) and value.dtype.kind in "biufSU":
         arrays.append(value.tobytes())
         key = "a" if isinstance(value, np.ndarray) else "s"
@@ -102,27 +102,27 @@ def _tagged(value: Any, arrays: list[bytes], depth: int = 0) -> object:
         return {"b": len(value)}
     if isinstance(value, type):
         return {"c": _name(value)}
-    derived = next((plain for plain in _BASES if isinstance(value, plain)), None)
-    if derived is not None:
-        return _tagged(derived(value), arrays, inner)
-    return {"o": [cls.__name__, _shown(value)]}
+    base_type = next((cls_ for cls_ in _BASES if isinstance(value, cls_)), None)
+    if base_type is not None:
+        return _to_json(base_type(value), arrays, level)
+    return {"o": [cls.__name__, _safe_repr(value)]}
 
 
 class _Reader:
-    """Reads the value of a frame, and its arrays in their order."""
+    """A reader of the value of a frame, and of its arrays in their order."""
 
     def __init__(self, frame: bytes, start: int) -> None:
-        self._frame, self._at = frame, start
+        self._frame, self._offset = frame, start
 
-    def value(self, tagged: object) -> tuple[Any, int]:
-        return self._read(tagged), self._at
+    def value(self, node: object) -> tuple[Any, int]:
+        return self._read(node), self._offset
 
-    def _read(self, tagged: Any) -> Any:
-        if tagged.__class__ in _PLAIN:
-            return tagged
-        if tagged.__class__ is list:
-            return [self._read(item) for item in tagged]
-        ((tag, rest),) = tagged.items()
+    def _read(self, node: Any) -> Any:
+        if node.__class__ in _SCALARS:
+            return node
+        if node.__class__ is list:
+            return [self._read(item) for item in node]
+        ((tag, rest),) = node.items()
         if tag == "m":
             return self._message(*rest)
         if tag in ("a", "s"):
@@ -134,16 +134,16 @@ class _Reader:
         if tag == "b":
             return self._bytes(int(rest))
         if tag == "c":
-            return _known(rest)
+            return _class_of(rest)
         if tag == "o":
-            return type(str(rest[0]), (Unknown,), {})(str(rest[1]))
+            return type(str(rest[0]), (UnknownValue,), {})(str(rest[1]))
         raise ValueError(f"no value is called {tag!r}")
 
     def _message(self, name: str, *values: object) -> object:
-        cls = _known(name)
+        cls = _class_of(name)
         message: object = object.__new__(cls)
         for field, value in zip(_names(cls), values, strict=True):
-            read = value if value.__class__ in _PLAIN else self._read(value)
+            read = value if value.__class__ in _SCALARS else self._read(value)
             object.__setattr__(message, field, read)  # of a frozen one, too
         return message
 
@@ -156,20 +156,20 @@ class _Reader:
         return array[()] if tag == "s" else array
 
     def _bytes(self, n: int) -> bytes:
-        if not 0 <= n <= len(self._frame) - self._at:
+        if not 0 <= n <= len(self._frame) - self._offset:
             raise ValueError("it is too short")
-        self._at += n
-        return self._frame[self._at - n : self._at]
+        self._offset += n
+        return self._frame[self._offset - n : self._offset]
 
 
-@functools.lru_cache(_MOST_NAMES)
+@functools.lru_cache(_MAX_NAMES)
 def _name(cls: Hashable) -> str:
     assert isinstance(cls, type)
     return f"{cls.__module__}:{cls.__qualname__}"
 
 
-def _known(name: str) -> type:
-    """Return a message class by its name; ValueError if this process has none."""
+def _class_of(name: str) -> type:
+    """Return a message class by its name; raise ValueError if this process has none."""
     cls = message_class(name)
     if cls is None:
         raise ValueError(f"no message is called {name!r}")
@@ -184,33 +184,33 @@ def message_class(name: str) -> type | None:
     if name == "builtins:object":
         return object
     module, path = _path(name)
-    found: Any = sys.modules.get(module)
+    cls: Any = sys.modules.get(module)
     for part in path:
-        found = getattr(found, part, None)
-    return found if isinstance(found, type) and _is_message(cast(Hashable, found), module) else None
+        cls = getattr(cls, part, None)
+    return cls if isinstance(cls, type) and _is_message(cast(Hashable, cls), module) else None
 
 
-@functools.lru_cache(_MOST_NAMES)
+@functools.lru_cache(_MAX_NAMES)
 def _path(name: str) -> tuple[str, tuple[str, ...]]:
-    """Return the module of ``module:Class``, and the names that lead from there to the class."""
+    """Return the module of ``module:Class``, and the names that lead from it to the class."""
     module, _, path = name.partition(":")
     return module, tuple(path.split("."))
 
 
-@functools.lru_cache(_MOST_NAMES)
+@functools.lru_cache(_MAX_NAMES)
 def _is_message(cls: Hashable, module: str) -> bool:
-    """Whether a class that was found in a module is one of messages."""
+    """Return whether a class of a module is a message class."""
     is_own = module.partition(".")[0] == "uwsim"
     return dataclasses.is_dataclass(cls) and (hasattr(cls, "__msgtype__") or not is_own)
 
 
-@functools.lru_cache(_MOST_NAMES)
+@functools.lru_cache(_MAX_NAMES)
 def _names(cls: Any) -> tuple[str, ...]:
     names = [field.name for field in dataclasses.fields(cls)]
     return tuple(name for name in names if name != "__msgtype__")  # rosbags has it as a field
 
 
-def _shown(value: object) -> str:
+def _safe_repr(value: object) -> str:
     try:
         return repr(value)[:1000]
     except Exception:

@@ -1,4 +1,4 @@
-"""The algorithm of a plan: made in this process, in one of its own, or a program outside."""
+"""The algorithm of a plan: in this process, in one of its own, or an external program."""
 
 from __future__ import annotations
 
@@ -17,29 +17,29 @@ from ..planning.plan import Plan
 from .process import OwnProcess, ProcessAlgorithm
 
 Program = Callable[[Simulation, Mapping[str, float | str]], Algorithm]
-"""Makes the algorithm of a simulation; takes the parameters that the user set."""
-OWN_PROCESS, IN_PROCESS = "own process, grade (b)", "in process"
-"""How an algorithm class that is not bundled takes part, as a result says it."""
+"""The constructor of a simulation's algorithm from the parameters that the user set."""
+OWN_PROCESS, SHARED_PROCESS = "own process, grade (b)", "in process"
+"""The participation of an algorithm class that is not bundled, as a result states it."""
 
 
 @contextmanager
 def program_of(plan: Plan, limit: float | None = None) -> Iterator[Program]:
-    """Yield what makes the algorithm of a plan; its process, or connection, ends with the block.
+    """Yield the constructor of a plan's algorithm; its process, or connection, ends with the block.
 
     Args:
-        plan: names the algorithm.
-        limit: how long a callback in a process of its own may take [s of wall time].
+        plan: the plan, which names the algorithm.
+        limit: the longest callback in a process of its own [s of wall time].
     """
     with ExitStack() as stack:
         if plan.algorithm.client is not None:
             yield partial(_client, plan.algorithm.client, stack)
         elif plan.algorithm.own_process:
-            yield partial(_in_own_process, plan, stack.enter_context(OwnProcess(limit)))
+            yield partial(_process_algorithm, plan, stack.enter_context(OwnProcess(limit)))
         else:
             yield lambda simulation, parameters: plan.algorithm.cls()
 
 
-def _in_own_process(
+def _process_algorithm(
     plan: Plan, process: OwnProcess, simulation: Simulation, parameters: Mapping[str, float | str]
 ) -> Algorithm:
     may_refuse = simulation.bus.may_refuse
@@ -52,9 +52,9 @@ def _client(
     simulation: Simulation,
     parameters: Mapping[str, float | str],
 ) -> Algorithm:
-    """Open the connection of a program outside, until the stack is closed."""
-    opened = spec.connection.open(simulation.bus, lambda: simulation.time)
-    bridges = stack.enter_context(opened)
+    """Open the connection of an external program, until the stack is closed."""
+    connection = spec.connection.open(simulation.bus, lambda: simulation.time)
+    bridges = stack.enter_context(connection)
     client = make_external_client(spec, bridges, timestep=simulation.timestep)
     for bridge in bridges:
         simulation.watch(bridge.step)
@@ -63,10 +63,10 @@ def _client(
     return client
 
 
-def refused_of(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
-    """Return what was refused, since the last call, of programs that do not take part.
+def take_refused_messages(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
+    """Return the refused messages, since the last call, of programs that do not take part.
 
-    Sender, topic or service, and how often; nothing where the algorithm is no program outside.
+    Each has sender, topic or service, and number; only external programs have any.
     """
     if isinstance(algorithm, LockStepClient | ExternalProgram):
         return algorithm.take_refusals()
@@ -74,16 +74,16 @@ def refused_of(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
 
 
 def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
-    """Return who takes part, how, and its grade; None where only code of uwsim does."""
+    """Return the participants with participation and grade; None for code of uwsim alone."""
     if plan.algorithm.client is not None:
         return ((plan.algorithm.name, plan.algorithm.client.participation),)
     if plan.algorithm.own_process:
         return ((plan.algorithm.name, OWN_PROCESS),)
     if plan.algorithm.cls.__module__.startswith("uwsim."):
         return None
-    return ((plan.algorithm.name, IN_PROCESS),)
+    return ((plan.algorithm.name, SHARED_PROCESS),)
 
 
-def is_outside(how: str) -> bool:
-    """Whether an entry of `clients_of` is of a program outside, which only its owner can run."""
-    return how.startswith((LOCK_STEP, FREE_RUNNING))
+def is_outside(participation: str) -> bool:
+    """Return whether an entry of `clients_of` is an external program, run by its owner only."""
+    return participation.startswith((LOCK_STEP, FREE_RUNNING))

@@ -1,4 +1,4 @@
-"""Making a plan from a request: reads the files and reports all errors together."""
+"""The construction of a plan from a request: reads the files and reports all errors together."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ...errors import AssetNotFound, BadSetting, ErrorCollector
 from ...scene.settings import OF_XACRO, xacro_arguments
 from ...schema.source_line import line_of
 from ...world import TIMESTEP
-from ..foreign_code import announce, refuse_code, refused
+from ..foreign_code import announce, code_refusal, refuse_code
 from ..named_plugins import named_plugins
 from ..program import load_program
 from ..stand_ins import warn_of_stand_ins
@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from .plan import Mode, Plan
 
 MAX_REPEATS = 10_000
-OF_ALGORITHM = "algorithm."
-"""Begins the ``--set`` that are parameters of the algorithm."""
+ALGORITHM_PREFIX = "algorithm."
+"""The prefix of ``--set`` for parameters of the algorithm."""
 MAX_TIME = 1e8
-"""A benchmark that would simulate longer than this is taken for a typing error [s]."""
+"""The longest simulation of a benchmark; a longer one is taken for a typing error [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,44 +53,44 @@ def make_plan(request: PlanRequest) -> Plan:
     Code that they name is announced before it runs, or refused.
 
     Raises:
-        UwsimError: a file, a name or a setting that is wrong; or SeveralErrors, with all of them.
+        UwsimError: a file, a name or a setting is invalid; or SeveralErrors, with all of them.
     """
     from .plan import AlgorithmUnderTest, Plan
 
-    wrong = ErrorCollector()
+    errors = ErrorCollector()
     inputs: dict[int, bytes] = {}
-    with wrong.collect():
+    with errors.collect():
         request, inputs = with_stored_pilot(request)
-    pairs = pairs_of(request.settings, wrong)
-    read = _read_files(request, xacro_arguments(pairs), wrong)
+    pairs = pairs_of(request.settings, errors)
+    read = _read_files(request, xacro_arguments(pairs), errors)
     parameters = {
-        name.removeprefix(OF_ALGORITHM): number_or_text(value)
+        name.removeprefix(ALGORITHM_PREFIX): number_or_text(value)
         for name, value in pairs
-        if name.startswith(OF_ALGORITHM)
+        if name.startswith(ALGORITHM_PREFIX)
     }
-    read = _with_settings(read, pairs, wrong)
+    read = _apply_values(read, pairs, errors)
     spec, scene = read.benchmark, read.scene
     kind: type[Algorithm] | None = None
-    with wrong.collect():
+    with errors.collect():
         if scene is not None and request.no_code:
             refuse_code(scene)
-    with wrong.collect():
+    with errors.collect():
         kind = request.algorithm_class
         name = request.algorithm or ""
-        if kind is None and not name.startswith(PREFIX):  # else it has been said what is wrong
+        if kind is None and not name.startswith(PREFIX):  # else the error has been collected
             kind = _algorithm(request, read)
-    with wrong.collect():
+    with errors.collect():
         check_client(request, parameters)
-    check_parameters(kind, parameters, wrong)
+    check_parameters(kind, parameters, errors)
     mode: Mode = "sequential"
-    with wrong.collect():
+    with errors.collect():
         mode = mode_of(request.mode or (None if spec is None else spec.mode))
-    of_file = () if spec is None else spec.compatibility
-    quirks = compatibility_of([*of_file, *request.compat], wrong)
-    chosen = levels_of(request.levels, spec, wrong)
-    with wrong.collect():
-        check_length(spec, chosen, request.repeat)
-    wrong.raise_errors()
+    file_quirks = () if spec is None else spec.compatibility
+    quirks = compatibility_of([*file_quirks, *request.compat], errors)
+    levels = levels_of(request.levels, spec, errors)
+    with errors.collect():
+        check_length(spec, levels, request.repeat)
+    errors.raise_errors()
     assert spec is not None
     assert scene is not None
     assert kind is not None
@@ -99,69 +99,70 @@ def make_plan(request: PlanRequest) -> Plan:
         scene=scene,
         algorithm=AlgorithmUnderTest(
             cls=kind,
-            name=_wanted(request, spec),
+            name=_algorithm_name(request, spec),
             parameters=parameters,
             own_process=request.client is None
             and not request.in_process
-            and kind not in _bundled_algorithms(_wanted(request, spec)),
+            and kind not in _bundled_algorithms(_algorithm_name(request, spec)),
             client=request.client,
         ),
         settings=tuple(pairs),
         mode=mode,
         seed=request.seed,
         repeats=request.repeat,
-        chosen=chosen,
+        level_choices=levels,
         timestep=TIMESTEP if spec.timestep is None else spec.timestep,
         compatibility=quirks,
         data_path=tuple(request.data_path),
         inputs=inputs,
-        plugins=_with_program(read.plugins, _wanted(request, spec)),
+        plugins=_add_program(read.plugins, _algorithm_name(request, spec)),
     )
 
 
-def _with_program(plugins: tuple[Plugin, ...], algorithm: str) -> tuple[Plugin, ...]:
-    """Add the file of an algorithm ``FILE.py:Class``: other processes import it as a plugin."""
+def _add_program(plugins: tuple[Plugin, ...], algorithm: str) -> tuple[Plugin, ...]:
+    """Add the file of an algorithm ``FILE.py:Class``, which other processes import as a plugin."""
     file = algorithm.partition(":")[0]
     if not file.endswith(".py"):
         return plugins
     from ...benchmark.plugin import read_plugin
 
-    own = read_plugin(Path(file))
-    return plugins if own.module_name in [each.module_name for each in plugins] else (*plugins, own)
+    program = read_plugin(Path(file))
+    names = [plugin.module_name for plugin in plugins]
+    return plugins if program.module_name in names else (*plugins, program)
 
 
 def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
-    """Return the bundled algorithm of this name, if there is one; ``module:Class`` is none."""
+    """Return the bundled algorithm of this name, if there is one, not a ``module:Class``."""
     from ...algorithms import ALGORITHMS
 
     return (ALGORITHMS[name],) if name in ALGORITHMS else ()
 
 
 def _read_files(
-    request: PlanRequest, arguments: Mapping[str, str], wrong: ErrorCollector
+    request: PlanRequest, arguments: Mapping[str, str], errors: ErrorCollector
 ) -> _Files:
-    """Read plugins, benchmark and scene, with xacro arguments; collects their errors."""
+    """Read plugins, benchmark and scene, with xacro arguments; collect their errors."""
     plugins: tuple[Plugin, ...] = ()
     tables: Tables | None = None
     path: Path | None = None
     spec: BenchmarkSpec | None = None
     scene: SceneSpec | None = None
     data_path = tuple(request.data_path)
-    with wrong.collect():
+    with errors.collect():
         plugins, tables = read_plugins(request.plugins)
-    with wrong.collect():
+    with errors.collect():
         path = benchmark_file(request.benchmark, data_path)
         if tables is not None:
-            if named := named_plugins(path, request):
-                plugins, tables = read_plugins([*request.plugins, *named])
+            if named_paths := named_plugins(path, request):
+                plugins, tables = read_plugins([*request.plugins, *named_paths])
             spec = benchmark_of(path, plugins, tables)
-    with wrong.collect():
+    with errors.collect():
         scene = scene_of(request.scene, path, spec, data_path, arguments)
     return _Files(plugins=plugins, tables=tables, benchmark=spec, scene=scene)
 
 
-def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: ErrorCollector) -> _Files:
-    """Apply every ``--set`` of scene and updaters; collects errors."""
+def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorCollector) -> _Files:
+    """Apply every ``--set`` of scene and updaters; collect errors."""
     from ...benchmark.updater_settings import (
         apply_updater_setting,
         check_begin,
@@ -171,8 +172,8 @@ def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: ErrorC
 
     spec, scene = read.benchmark, read.scene
     for name, value in pairs:
-        with wrong.collect():
-            if name.startswith((OF_ALGORITHM, OF_XACRO)):
+        with errors.collect():
+            if name.startswith((ALGORITHM_PREFIX, OF_XACRO)):
                 continue
             if spec is not None and leads_to_updater(spec, name):
                 spec = apply_updater_setting(spec, name, value)
@@ -183,34 +184,34 @@ def _with_settings(read: _Files, pairs: Sequence[tuple[str, str]], wrong: ErrorC
     return replace(read, benchmark=spec, scene=scene)
 
 
-def _wanted(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
-    """Return the name of the algorithm; empty where none is given."""
+def _algorithm_name(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
+    """Return the name of the algorithm; empty where there is none."""
     if request.client is not None:
         return request.client.name
     return request.algorithm or (None if spec is None else spec.algorithm) or ""
 
 
 def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
-    """Find the algorithm; a class that a file names is announced, or refused."""
+    """Find the algorithm; announce or refuse a class that a file names."""
     from ...middleware.lockstep.client import LockStepClient
 
     if request.client is not None:
         return LockStepClient
-    wanted, spec = _wanted(request, read.benchmark), read.benchmark
+    name, spec = _algorithm_name(request, read.benchmark), read.benchmark
     file = request.algorithm_is_from or ("" if request.algorithm or spec is None else spec.path)
-    if file and ":" in wanted:
+    if file and ":" in name:
         if request.no_code:
-            raise refused(wanted, file)
-        announce(wanted, file)
+            raise code_refusal(name, file)
+        announce(name, file)
     try:
-        return algorithm_of(wanted, spec, read.tables)
+        return algorithm_of(name, spec, read.tables)
     except BadSetting as error:
-        if not wanted or request.algorithm or spec is None:
+        if not name or request.algorithm or spec is None:
             raise
         raise BadSetting(f"{spec.path}:{line_of(spec)}: {error}") from error
 
 
-def say_warnings(plan: Plan) -> None:
+def print_scene_warnings(plan: Plan) -> None:
     """Print warnings about stand-ins for missing files and about unlikely values."""
     from ...checks import scene_warnings
 
@@ -218,12 +219,12 @@ def say_warnings(plan: Plan) -> None:
     print_warnings(scene_warnings(plan.scene, plan.data_path, plan.timestep))
 
 
-def benchmark_of(path: Path, own: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:
-    """Read the benchmark, with what plugins have added to the tables."""
+def benchmark_of(path: Path, plugins: Sequence[Plugin], tables: Tables) -> BenchmarkSpec:
+    """Read the benchmark, with the entries that plugins have added to the tables."""
     from ...benchmark.plugin import attribute_errors_to
     from ...benchmark.reader import read_benchmark
 
-    with attribute_errors_to(own):
+    with attribute_errors_to(plugins):
         return read_benchmark(
             path, measures=tables.measures, triggers=tables.triggers, updaters=tables.updaters
         )
@@ -239,14 +240,14 @@ def scene_of(
     """Read the scene; None where the benchmark that names it could not be read.
 
     Raises:
-        BadSetting: no scene is given.
-        AssetNotFound: it is nowhere.
-        SceneError: it is wrong.
+        BadSetting: no scene is named.
+        AssetNotFound: its file is not found.
+        SceneError: its file is invalid.
     """
     from ...scene.reader import read_scene
 
-    named = scene or (None if spec is None else spec.scene)
-    if named is None:
+    name = scene or (None if spec is None else spec.scene)
+    if name is None:
         if spec is None:
             return None
         raise BadSetting(
@@ -254,7 +255,7 @@ def scene_of(
         )
     folders = data_path if benchmark is None else (benchmark.parent, *data_path)
     try:
-        path = scene_file(named, folders, named_by=None if scene else benchmark)
+        path = scene_file(name, folders, named_by=None if scene else benchmark)
         return read_scene(path, data_path=folders, arguments=arguments)
     except AssetNotFound:
         if benchmark is None:
@@ -263,25 +264,25 @@ def scene_of(
 
 
 def algorithm_of(
-    wanted: str, spec: BenchmarkSpec | None, tables: Tables | None
+    name: str, spec: BenchmarkSpec | None, tables: Tables | None
 ) -> type[Algorithm] | None:
     """Find the algorithm; None where the file that names it could not be read.
 
     Raises:
-        BadSetting: none is given, or there is none of that name.
+        BadSetting: no algorithm is named, or none has that name.
     """
-    if not wanted and spec is not None:
+    if not name and spec is not None:
         raise BadSetting(
             f"{spec.path}: the benchmark does not name an algorithm (u:algorithm); "
             "give one with --algorithm."
         )
-    if not wanted or tables is None:
+    if not name or tables is None:
         return None
-    return load_program(wanted, tables.algorithms)
+    return load_program(name, tables.algorithms)
 
 
 def check_client(request: PlanRequest, parameters: Mapping[str, float | str]) -> None:
-    """Refuse what does not go together with a client outside; raises BadSetting."""
+    """Refuse options that exclude an external program; raise BadSetting."""
     if request.client is None:
         return
     name = request.client.name
@@ -289,29 +290,29 @@ def check_client(request: PlanRequest, parameters: Mapping[str, float | str]) ->
         raise BadSetting(f"--algorithm {request.algorithm}: the algorithm is --client {name}.")
     if parameters:
         raise BadSetting(
-            f"--set {OF_ALGORITHM}{next(iter(parameters))}: the parameters of --client {name} are "
-            "its own."
+            f"--set {ALGORITHM_PREFIX}{next(iter(parameters))}: "
+            f"the parameters of --client {name} are its own."
         )
 
 
 def check_parameters(
-    kind: type[Algorithm] | None, parameters: Mapping[str, float | str], wrong: ErrorCollector
+    kind: type[Algorithm] | None, parameters: Mapping[str, float | str], errors: ErrorCollector
 ) -> None:
     """Collect errors for parameters that the algorithm does not have."""
     from ... import algorithms
     from ...simulation import latency_of
 
     for name, value in parameters.items():
-        with wrong.collect():
+        with errors.collect():
             latency_of({name: value})
             if kind is not None:
                 algorithms.check_parameters(kind, {name: value})
 
 
 def check_length(
-    spec: BenchmarkSpec | None, chosen: Sequence[tuple[str, float]], repeat: int
+    spec: BenchmarkSpec | None, level_choices: Sequence[tuple[str, float]], repeat: int
 ) -> None:
-    """Refuse a benchmark of excessive length; raises BadSetting."""
+    """Refuse a benchmark of excessive length; raise BadSetting."""
     from ...benchmark import updaters
     from .plan import chosen_levels
 
@@ -319,9 +320,9 @@ def check_length(
         raise BadSetting(f"--repeat {repeat}: at most {MAX_REPEATS}.")
     if spec is None:
         return
-    settling = max(each.settling_time for each in updaters.chain(spec.scene_updater))
+    settling = max(updater.settling_time for updater in updaters.chain(spec.scene_updater))
     length = (updaters.interval(spec.scene_updater) or 0.0) + settling
-    n_levels = len(chosen_levels(updaters.levels(spec.scene_updater), chosen))
+    n_levels = len(chosen_levels(updaters.levels(spec.scene_updater), level_choices))
     total = length * n_levels * repeat
     if total > MAX_TIME:
         raise BadSetting(

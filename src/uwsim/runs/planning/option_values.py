@@ -1,4 +1,4 @@
-"""Checking options: settings ``NAME=VALUE``, modes, levels, names of quirks."""
+"""The checks of options: settings ``NAME=VALUE``, modes, levels, names of quirks."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ if TYPE_CHECKING:
     from .plan import Mode
 
 
-def pairs_of(settings: Sequence[str], wrong: ErrorCollector) -> list[tuple[str, str]]:
-    """Split every ``--set`` into name and value; collects errors."""
+def pairs_of(settings: Sequence[str], errors: ErrorCollector) -> list[tuple[str, str]]:
+    """Split every ``--set`` into name and value; collect errors."""
     pairs = []
     for setting in settings:
-        with wrong.collect():
+        with errors.collect():
             pairs.append(split(setting, "--set"))
     return pairs
 
 
 def mode_of(mode: str | None) -> Mode:
-    """Return how levels follow each other; raises BadSetting."""
+    """Return the mode of levels; raise BadSetting."""
     if mode is None or mode == "sequential":
         return "sequential"
     if mode == "independent":
@@ -31,38 +31,38 @@ def mode_of(mode: str | None) -> Mode:
     raise BadSetting(f"--mode is {mode!r}; expected sequential or independent.{near}")
 
 
-def compatibility_of(compat: Sequence[str], wrong: ErrorCollector) -> frozenset[str]:
-    """Return the quirks of ``--compat``; an unknown name goes into ``wrong``."""
+def compatibility_of(compat: Sequence[str], errors: ErrorCollector) -> frozenset[str]:
+    """Return the quirks of ``--compat``; collect errors for unknown names."""
     from ...base.compatibility import compatibility
 
-    found: frozenset[str] = frozenset()
+    quirks: frozenset[str] = frozenset()
     for name in [word for words in compat for word in words.replace(",", " ").split()]:
-        with wrong.collect():
-            found |= compatibility([name])
-    return found
+        with errors.collect():
+            quirks |= compatibility([name])
+    return quirks
 
 
 def levels_of(
-    wanted: Sequence[tuple[str, float]], spec: BenchmarkSpec | None, wrong: ErrorCollector
+    pairs: Sequence[tuple[str, float]], spec: BenchmarkSpec | None, errors: ErrorCollector
 ) -> tuple[tuple[str, float], ...]:
-    """Return the wanted levels that the sweep has; collects errors for the others."""
+    """Return the requested levels that the sweep has; collect errors for the others."""
     from ...benchmark import updaters
     from .plan import chosen_levels
 
-    levels = () if spec is None or not wanted else updaters.levels(spec.scene_updater)
-    chosen = []
-    for pair in wanted:
-        with wrong.collect():
+    levels = () if spec is None or not pairs else updaters.levels(spec.scene_updater)
+    level_choices = []
+    for pair in pairs:
+        with errors.collect():
             if levels:
                 chosen_levels(levels, [pair])
-            chosen.append(pair)
-    return tuple(chosen)
+            level_choices.append(pair)
+    return tuple(level_choices)
 
 
 def split(setting: str, option: str) -> tuple[str, str]:
-    """Split ``NAME=VALUE``; raises BadSetting."""
-    name, equals, value = setting.partition("=")
-    if not equals or not name.strip():
+    """Split ``NAME=VALUE``; raise BadSetting if there is no name."""
+    name, separator, value = setting.partition("=")
+    if not separator or not name.strip():
         raise BadSetting(f"{option} {setting!r}: expected NAME=VALUE.")
     return name.strip(), value.strip()
 

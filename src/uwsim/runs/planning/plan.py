@@ -1,6 +1,6 @@
 """The plan of a run, divided into trials.
 
-A trial is a sequence that must be run in one go: one seed's whole sweep when the benchmark is
+A trial is a sequence that runs without interruption: one seed's whole sweep when the benchmark is
 sequential, one seed's one level when it is independent.
 """
 
@@ -25,7 +25,7 @@ from ...world import TIMESTEP
 
 Mode = Literal["sequential", "independent"]
 PATIENCE = 10.0
-"""Default of the longest wait for a start, in simulation time [s]."""
+"""The default of the longest wait for a start, in simulation time [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,15 +33,15 @@ class Trial:
     """One sequence: its seed, and its levels."""
 
     index: int
-    """Place in the plan, from 0."""
+    """The index in the plan, from 0."""
     repeat: int
-    """Number of the repeat, from 0."""
+    """The number of the repeat, from 0."""
     seed: int
-    """Seed of every random stream."""
+    """The seed of every random stream."""
     levels: tuple[Level, ...]
     """Levels to run, in order."""
     is_alone: bool
-    """Whether this is one level of an independent benchmark."""
+    """A flag: the trial is one level of an independent benchmark."""
 
     @property
     def values(self) -> tuple[tuple[float, ...], ...]:
@@ -50,7 +50,7 @@ class Trial:
 
     @property
     def stream_prefix(self) -> str:
-        """Prefix of the name of every random stream."""
+        """The prefix of the name of every random stream."""
         if not self.is_alone:
             return ""
         values = ",".join(f"{value:.12g}" for _, value in self.levels[0].values)
@@ -62,15 +62,15 @@ class AlgorithmUnderTest:
     """An algorithm, its parameters, and where it runs."""
 
     cls: type[Algorithm]
-    """Its class."""
+    """The class of the algorithm."""
     name: str
     """The name that selected it."""
     parameters: Mapping[str, float | str] = field(default_factory=dict)
     """The values of ``--set algorithm.NAME=VALUE``."""
     own_process: bool = False
-    """Whether it runs in a process of its own, in lock-step."""
+    """A flag: it runs in a process of its own, in lock-step."""
     client: ClientSpec | None = None
-    """The program outside that is the algorithm; None where ``cls`` is."""
+    """The external program that is the algorithm; None where ``cls`` is."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,48 +82,48 @@ class Plan:
     scene: SceneSpec
     """The scene, with ``--set`` applied."""
     algorithm: AlgorithmUnderTest
-    """What is tested, and where it runs."""
+    """The algorithm under test, and where it runs."""
     settings: tuple[tuple[str, str], ...] = ()
-    """Every ``--set``, as given; those of scene and updaters are already in these."""
+    """Every ``--set``, as written; those of scene and updaters are already applied."""
     mode: Mode = "sequential"
-    """How levels follow each other."""
+    """The mode of the levels: each follows the last one, or all are independent."""
     seed: int = 0
-    """Seed of the first repeat."""
+    """The seed of the first repeat."""
     repeats: int = 1
-    """Number of repeats; they use seeds ``seed ... seed + repeats - 1``."""
-    chosen: tuple[tuple[str, float], ...] = ()
+    """The number of repeats, with seeds ``seed ... seed + repeats - 1``."""
+    level_choices: tuple[tuple[str, float], ...] = ()
     """``--level``: only levels whose swept parameter has one of these values."""
     compatibility: frozenset[str] = frozenset()
     """The compatibility quirks that are on."""
     timestep: float = TIMESTEP
-    """Length of a physics step [s]."""
+    """The length of a physics step [s]."""
     data_path: tuple[Path, ...] = ()
-    """Folders in which files are looked for."""
+    """Folders in which files are searched."""
     is_blind: bool = False
-    """Whether images are black: for a control that does not look at them."""
+    """A flag: images are black, for a control that does not use them."""
     inputs: Mapping[int, bytes] = field(default_factory=dict)
-    """Number of a trial -> a pilot's inputs in an earlier run, which are sent again."""
+    """The inputs of a pilot in an earlier run, which are sent again, by the number of the trial."""
     plugins: tuple[Plugin, ...] = ()
-    """What was read with ``--plugin``."""
+    """The plugins of ``--plugin``."""
 
     def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
         """Pickle the plugins first, because later fields may be of their classes."""
-        others = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "plugins"}
-        return _unpacked, (self.plugins, others)
+        values = {f.name: getattr(self, f.name) for f in fields(self) if f.name != "plugins"}
+        return _build_plan, (self.plugins, values)
 
     @property
     def is_bundled(self) -> bool:
-        """Whether only code of uwsim runs: a bundled algorithm without plugins."""
+        """A flag: only code of uwsim runs, that is, a bundled algorithm without plugins."""
         return self.algorithm.cls.__module__.startswith("uwsim.") and not self.plugins
 
     @property
     def patience(self) -> float:
-        """How long a start is waited for [s of simulation time]."""
+        """The longest wait for a start [s of simulation time]."""
         if self.benchmark.patience is not None:
             return self.benchmark.patience
         client = self.algorithm.client
         if client is not None and client.sync == "none":
-            return client.limit * client.speed  # somebody has yet to start the program
+            return client.limit * client.speed  # the user starts the program meanwhile
         return PATIENCE
 
     def draws(self, seed: int) -> tuple[Draw, ...]:
@@ -136,7 +136,7 @@ class Plan:
         Raises:
             BadSetting: ``--level`` names no swept parameter, or a value the sweep does not have.
         """
-        return chosen_levels(levels_of(self.benchmark.scene_updater), self.chosen)
+        return chosen_levels(levels_of(self.benchmark.scene_updater), self.level_choices)
 
     def trials(self) -> tuple[Trial, ...]:
         """Divide the plan into trials, repeat by repeat, level by level."""
@@ -156,38 +156,40 @@ class Plan:
 
 
 def chosen_levels(
-    levels: Sequence[Level], chosen: Sequence[tuple[str, float]]
+    levels: Sequence[Level], choices: Sequence[tuple[str, float]]
 ) -> tuple[Level, ...]:
-    """Return those of the levels whose swept parameters have one of the values chosen for them.
+    """Return the levels whose swept parameters have one of the chosen values.
 
     Raises:
-        BadSetting: a name is no swept parameter, or a value is not in the sweep.
+        BadSetting: a name is not a swept parameter, or a value is not in the sweep.
     """
-    kept = tuple(levels)
-    for name in dict.fromkeys(name for name, _ in chosen):
-        wanted = [value for other, value in chosen if other == name]
-        has = {value for level in kept for n, value in level.values if n == name}
-        if not has:
-            known = [n for n, _ in kept[0].values]
-            near = did_you_mean(name, known)
-            raise BadSetting(f"--level {name}: this benchmark sweeps {', '.join(known)}.{near}")
-        for value in wanted:
-            if not any(_same(value, other) for other in has):
-                nearest = min(sorted(has, reverse=value > 0), key=lambda other: abs(other - value))
-                raise BadSetting(
-                    f"--level {name}={value:.12g} is not a level; the nearest is {nearest:.12g}."
+    selection = tuple(levels)
+    for name in dict.fromkeys(name for name, _ in choices):
+        values = [value for other, value in choices if other == name]
+        sweep = {value for level in selection for n, value in level.values if n == name}
+        if not sweep:
+            names = [n for n, _ in selection[0].values]
+            near = did_you_mean(name, names)
+            raise BadSetting(f"--level {name}: this benchmark sweeps {', '.join(names)}.{near}")
+        for value in values:
+            if not any(_are_equal(value, other) for other in sweep):
+                neighbour = min(
+                    sorted(sweep, reverse=value > 0), key=lambda other: abs(other - value)
                 )
-        kept = tuple(
+                raise BadSetting(
+                    f"--level {name}={value:.12g} is not a level; the nearest is {neighbour:.12g}."
+                )
+        selection = tuple(
             level
-            for level in kept
-            if any(_same(dict(level.values)[name], value) for value in wanted)
+            for level in selection
+            if any(_are_equal(dict(level.values)[name], value) for value in values)
         )
-    return kept
+    return selection
 
 
-def _unpacked(plugins: tuple[Plugin, ...], others: dict[str, Any]) -> Plan:
-    return Plan(plugins=plugins, **others)
+def _build_plan(plugins: tuple[Plugin, ...], values: dict[str, Any]) -> Plan:
+    return Plan(plugins=plugins, **values)
 
 
-def _same(a: float, b: float) -> bool:
+def _are_equal(a: float, b: float) -> bool:
     return abs(a - b) < 1e-9

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class PlanRequest:
-    """The options of a run, as they are given to ``uwsim bench``."""
+    """The options of a run, as for ``uwsim bench``."""
 
     benchmark: str
     """A benchmark file, or a bundled name."""
@@ -23,11 +23,11 @@ class PlanRequest:
     algorithm: str | None = None
     """A name or ``module:Class``; without it the one that the benchmark names."""
     algorithm_class: type[Algorithm] | None = None
-    """The class that ``algorithm`` names, where a program has it; None: it is looked for."""
+    """The class that ``algorithm`` names, where a program has it; None: it is searched."""
     seed: int = 0
-    """Seed of the first repeat."""
+    """The seed of the first repeat."""
     repeat: int = 1
-    """Number of repeats."""
+    """The number of repeats."""
     mode: str | None = None
     """``sequential`` or ``independent``; None: that of the benchmark."""
     levels: Sequence[tuple[str, float]] = ()
@@ -37,14 +37,14 @@ class PlanRequest:
     compat: Sequence[str] = ()
     """Names of quirks of the original."""
     data_path: Sequence[Path] = ()
-    """Folders in which files are looked for."""
+    """Folders in which files are searched."""
     plugins: Sequence[Path] = ()
     """Files of ``--plugin``."""
     no_code: bool = False
-    """Whether code that the files name is refused."""
+    """A flag: code that the files name is refused."""
     client: ClientSpec | None = None
-    """The program outside that is the algorithm."""
+    """The external program that is the algorithm."""
     in_process: bool = False
-    """Whether a third-party algorithm shares the simulation's process."""
+    """A flag: a third-party algorithm shares the simulation's process."""
     algorithm_is_from: str = ""
     """The file that names ``algorithm``, where the user did not."""

@@ -12,14 +12,14 @@ from .plan_request import PlanRequest
 
 PREFIX = "scripted:"
 PILOT = "pilot"
-OF_ALGORITHM = "algorithm."
+ALGORITHM_PREFIX = "algorithm."
 
 
 def with_stored_pilot(request: PlanRequest) -> tuple[PlanRequest, dict[int, bytes]]:
     """Return the request with the algorithm `pilot`, and its inputs by the number of the trial.
 
-    Other algorithms stay as they are. Parameters are those of the earlier run, unless some are
-    given.
+    A request for another algorithm is returned unchanged. Parameters are those of the earlier run,
+    unless the request has some.
 
     Raises:
         BadSetting: the result holds no inputs of a pilot.
@@ -28,15 +28,14 @@ def with_stored_pilot(request: PlanRequest) -> tuple[PlanRequest, dict[int, byte
     name = request.algorithm or ""
     if not name.startswith(PREFIX) or request.algorithm_class is not None:
         return request, {}
-    given = Path(name.removeprefix(PREFIX))
-    directory = given.parent if given.name == "result.json" else given
+    path = Path(name.removeprefix(PREFIX))
+    directory = path.parent if path.name == "result.json" else path
     run = load(directory).run
     files = sorted((directory / journal.FOLDER).glob(f"*{journal.INPUTS}"))
     if run.algorithm != PILOT or not files:
         raise BadSetting(f"--algorithm {name}: holds no inputs of a pilot (--algorithm {PILOT}).")
     settings = list(request.settings)
-    if not any(setting.startswith(OF_ALGORITHM) for setting in settings):
-        own = [pair for pair in run.pairs_of_settings if pair.startswith(OF_ALGORITHM)]
-        settings += own
-    changed = replace(request, algorithm=PILOT, settings=settings)
-    return changed, {int(file.stem): file.read_bytes() for file in files}
+    if not any(setting.startswith(ALGORITHM_PREFIX) for setting in settings):
+        settings += [p for p in run.pairs_of_settings if p.startswith(ALGORITHM_PREFIX)]
+    pilot_request = replace(request, algorithm=PILOT, settings=settings)
+    return pilot_request, {int(file.stem): file.read_bytes() for file in files}

@@ -1,4 +1,4 @@
-"""What the trials of one process share: renderers, and the models of scenes."""
+"""The objects that the trials of one process share: renderers, and the models of scenes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ...simulation import RendererPool
 from .plan import Plan
 
 N_MODELS = 2
-"""Models that are kept: a run and its control take turns, each with the levels of a seed."""
+"""The number of models that are kept: a run and its control alternate, level by level."""
 
 
 def compile_plan(plan: Plan, seed: int) -> SceneModel:
@@ -28,7 +28,7 @@ def compile_plan(plan: Plan, seed: int) -> SceneModel:
 
 
 class TrialCache:
-    """Keeps what does not change from trial to trial. Use it from one thread.
+    """A cache of objects that do not change from trial to trial. Use it from one thread.
 
     Files that change while a run executes end the run (`uwsim.runs.input_watch`), so that a model
     is never older than its files.
@@ -36,8 +36,8 @@ class TrialCache:
 
     def __init__(self) -> None:
         self.renderers = RendererPool()
-        """Lends the renderer of each trial."""
-        self._models: dict[object, SceneModel] = {}  # the one used last is the last
+        """The pool with the renderer of each trial."""
+        self._models: dict[object, SceneModel] = {}  # in the order of last use
 
     def model(self, plan: Plan, seed: int) -> SceneModel:
         """Return the model of a plan's scene for a seed; it is compiled at the first request.
@@ -50,8 +50,8 @@ class TrialCache:
         if model is None:
             model = compile_plan(plan, seed)
         self._models[key] = model
-        for oldest in list(self._models)[:-N_MODELS]:
-            del self._models[oldest]
+        for unused_key in list(self._models)[:-N_MODELS]:
+            del self._models[unused_key]
         return model
 
     def close(self) -> None:

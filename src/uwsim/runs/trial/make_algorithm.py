@@ -70,7 +70,7 @@ def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> 
     asked: Iterable[str] = node.parameters.names_read
     if isinstance(algorithm, ProcessAlgorithm):
         try:
-            asked = algorithm.asked
+            asked = algorithm.names_read
         except (RemoteError, Stopped):
             return ()
     note = describe_unread_parameters(plan.algorithm.name, given, asked)

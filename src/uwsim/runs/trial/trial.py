@@ -34,7 +34,7 @@ from ...errors import NeverStarted, SimulationFailed
 from ...messages import String
 from ...simulation import Calls, Simulation
 from ...simulation.markers import SERVICE as SPAWN_MARKER
-from ..own_process.program import Program, program_of, refused_of
+from ..own_process.program import Program, program_of, take_refused_messages
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache, compile_plan
 from .fingerprint import Fingerprinter
@@ -229,7 +229,7 @@ class _Execution:
 
     def _ended(self, row: LevelRow) -> LevelRow:
         """Have it noted that a level is over."""
-        row = replace(row, refused=refused_of(self._algorithm))
+        row = replace(row, refused=take_refused_messages(self._algorithm))
         self._motion.end_level(row)
         if self._onlooker is not None:
             self._onlooker.end_level(row)

@@ -17,7 +17,7 @@ from ...errors import RunFailed
 from ...runs.executors.executor import ENVIRONMENT
 from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_interrupts
 from ...runs.executors.worker import picklable
-from ...runs.own_process.process import how
+from ...runs.own_process.process import describe_exit
 from ..recorded import RecordedTrial
 from .encoder import Chapter, Packing
 from .film import FilmSpec, Reel, chapters_of, n_frames_of
@@ -96,7 +96,7 @@ class DrawingProcesses:
                 frame = self._pipes[index].recv_bytes()
             except (EOFError, OSError):
                 self._processes[index].join(EXIT_TIMEOUT)
-                reason = how(self._processes[index].exitcode)
+                reason = describe_exit(self._processes[index].exitcode)
                 raise RunFailed(f"A process that draws the film has ended: {reason}.") from None
             if frame.startswith(ERROR_PREFIX):
                 raise pickle.loads(frame.removeprefix(ERROR_PREFIX))

@@ -19,7 +19,7 @@ from uwsim.results.motion import load_track
 from uwsim.results.seal import PR_SET_DUMPABLE, deny_access_to_memory
 from uwsim.runs.executors.executor import run_each
 from uwsim.runs.run import Run
-from uwsim.runs.sealed import is_foreign
+from uwsim.runs.sealing import is_foreign
 
 IS_DUMPABLE = 3
 """Number of a request to prctl."""
@@ -42,7 +42,7 @@ class Looks(Holds):
 @pytest.fixture(autouse=True)
 def _denies_access(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """Runs deny access to the memory of this process, as outside of the tests."""
-    for module in ("uwsim.runs.sealed", "uwsim.runs.executors.executor"):
+    for module in ("uwsim.runs.sealing", "uwsim.runs.executors.executor"):
         monkeypatch.setattr(f"{module}.deny_access_to_memory", deny_access_to_memory)
     yield
     ctypes.CDLL(None).prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)
@@ -71,7 +71,7 @@ def test_rows_are_sealed_until_the_run_has_ended(tmp_path: Path) -> None:
 def test_without_the_seal_rows_would_be_read(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("uwsim.runs.sealed.is_foreign", lambda plan: False)
+    monkeypatch.setattr("uwsim.runs.sealing.is_foreign", lambda plan: False)
     run = played(tmp_path)
     assert b'"row"' in b"".join(Looks.seen)
     assert len(run.read_trial(run.plan.trials()[0]).rows) == 2

@@ -1,4 +1,4 @@
-"""What a plan executes, as a result says it: ``run``."""
+"""The description of a plan in its result: ``run``."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from .own_process.program import clients_of
 from .planning.plan import Plan
 
 
-def described(plan: Plan, renderer: str) -> RunInfo:
-    """Return what is executed, as far as it is known before it is."""
+def describe_plan(plan: Plan, renderer: str) -> RunInfo:
+    """Return the description of a plan, as far as it is known before the run."""
     return RunInfo(
         seed=plan.seed,
         repeats=plan.repeats,
@@ -22,7 +22,7 @@ def described(plan: Plan, renderer: str) -> RunInfo:
         clients=clients_of(plan),
         parameters=dict(sorted(plan.algorithm.parameters.items())),
         settings=plan.settings,
-        levels=plan.chosen,
+        levels=plan.level_choices,
         compatibility=tuple(sorted(plan.compatibility)),
         timestep=(plan.timestep, "s"),
         version=__version__,

@@ -11,13 +11,13 @@ from .run import Run
 
 
 def is_foreign(plan: Plan) -> bool:
-    """Whether code runs that is not of uwsim: a class, a plugin or a program outside."""
+    """Return whether foreign code runs: a class, a plugin or an external program."""
     return plan.algorithm.client is not None or not plan.is_bundled
 
 
 @contextmanager
-def sealed(runs: Sequence[Run]) -> Iterator[None]:
-    """Seal what these runs write, if one of them is foreign, until the block is left."""
+def seal_runs(runs: Sequence[Run]) -> Iterator[None]:
+    """Seal the files of these runs, if one of them is foreign, until the block ends."""
     if not any(is_foreign(run.plan) for run in runs):
         yield
         return
