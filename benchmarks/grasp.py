@@ -13,12 +13,12 @@ import time
 from statistics import median
 
 from measure import main
+from uwsim.runs.trial.onlooker import Onlooker
 
 from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan_request import PlanRequest
 from uwsim.runs.planning.trial_cache import TrialCache
 from uwsim.runs.trial.level_row import LevelRow
-from uwsim.runs.trial.onlooker import Onlooker
 from uwsim.runs.trial.trial import execute
 
 TIMES_REAL_TIME = 8.0
@@ -60,7 +60,7 @@ def measure() -> dict[str, object]:
     episodes, whole, rows = [], [], []
     for _ in range(REPEATS + 1):
         clock, began = Clock(), time.process_time()
-        found = [*execute(plan, trial, cache=cache, onlooker=clock)]
+        found = [*execute(plan, trial, cache=cache, observer=clock)]
         whole.append(time.process_time() - began)
         episodes.append(clock.ended - clock.began)
         rows += [row for row in found if isinstance(row, LevelRow)]

@@ -37,8 +37,8 @@ def test_an_attack_ends_the_row_with_its_reason(
     monkeypatch.setattr(undelivered, "MAX_BYTES", 2**20)
     rows = rows_of(make_plan(tmp_path, algorithm, LEVELS, measures=MEASURES, start=INIT))
     assert [row.status for row in rows] == ["algorithm error"] * 2
-    assert "algorithm raised at 0.4 s: " in rows[0].missing["total"]
-    assert ATTACKS[algorithm] in rows[0].missing["total"]
+    assert "algorithm raised at 0.4 s: " in rows[0].missing_reasons["total"]
+    assert ATTACKS[algorithm] in rows[0].missing_reasons["total"]
     assert [row.measures["t"][0] for row in rows] == pytest.approx([0.7, 0.7])
 
 
@@ -56,7 +56,7 @@ def test_a_keyboard_interrupt_is_the_users_unless_ctrl_c_cannot_come_here(tmp_pa
         rows = rows_of(plan)
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-    assert "KeyboardInterrupt" in rows[0].missing["total"]
+    assert "KeyboardInterrupt" in rows[0].missing_reasons["total"]
 
 
 class Delayed(Attacker):

@@ -5,9 +5,17 @@ from __future__ import annotations
 import csv
 import io
 
+import pytest
+
 from tests.support.synthetic_results import one_level, visibility
 from uwsim.results.inputs import Inputs
-from uwsim.results.per_level import intervals_of, rows_by_level, seeds_of, success_rates
+from uwsim.results.per_level import (
+    intervals_of,
+    per_level,
+    rows_by_level,
+    seeds_of,
+    success_rates,
+)
 from uwsim.results.result import Column, MissingValue, Result
 from uwsim.results.run_info import RunInfo
 from uwsim.results.summary import summary_text
@@ -80,3 +88,9 @@ def test_the_summary_has_a_line_for_every_column_at_every_level() -> None:
 def test_the_summary_of_one_repeat_has_no_limits_but_those_of_the_rate() -> None:
     line = next(csv.DictReader(io.StringIO(summary_text(one_level()))))
     assert (line["n"], line["std"], line["low"], line["rate_high"]) == ("1", "", "", "1.0")
+
+
+def test_the_old_name_of_the_intervals_works_and_warns() -> None:
+    with pytest.warns(DeprecationWarning, match="use 'intervals_of'"):
+        found = per_level(two_seeds(), "total")
+    assert found == intervals_of(two_seeds(), "total")

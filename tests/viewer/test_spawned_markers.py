@@ -152,14 +152,14 @@ def test_lines_end_before_the_viewer() -> None:
 
 def test_a_program_cannot_make_a_track_grow_without_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(motion_events, "MAX_CHANGES", 50)
-    monkeypatch.setattr(motion_events, "MAX_KEPT", 300)
+    monkeypatch.setattr(motion_events, "MAX_STORED_POINTS", 300)
     with uwsim.load("remus-scene") as simulation:
         log = MarkerLog(simulation)
         for k in range(100):
             points = [Point(x=0.1 * i + k, y=0.0, z=0.0) for i in range(20)]
             new = marker(type=Marker.LINE_STRIP, points=points)
             simulation.call("SpawnMarker", SpawnMarker(marker=new))
-            log.look(k)
+            log.update(k)
         assert len(log.changes) == 51
         assert log.changes[-1].marker is None
         looks = [change.marker for change in log.changes if change.marker is not None]

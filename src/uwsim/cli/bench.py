@@ -43,7 +43,7 @@ if TYPE_CHECKING:
     from ..runs.executors.executor import OnLevel
     from ..runs.planning.plan import Plan
     from ..runs.run import Run
-    from ..runs.trial.onlooker import Onlooker
+    from ..runs.trial.trial_observer import TrialObserver
     from ..viewer.trial_recording import TrialRecording
 
 
@@ -239,7 +239,7 @@ def is_piloted(plan: Plan) -> bool:
 
 
 @contextmanager
-def looked_at(live: LiveOptions, plans: Sequence[Plan]) -> Iterator[Onlooker | None]:
+def looked_at(live: LiveOptions, plans: Sequence[Plan]) -> Iterator[TrialObserver | None]:
     """Open the live view that the options ask for; a pilot's run is in real time, and waits."""
     pilots = any(map(is_piloted, plans))
     title = Path(plans[0].benchmark.path).stem

@@ -23,7 +23,7 @@ from ..results.result import (
 from ..results.run_info import RunInfo
 from ..results.stored.stored_row import StoredEnd, StoredPicture, StoredRow, ValueWithUnit
 from .planning.plan import Plan, Trial
-from .trial.floor import largest
+from .trial.floor import largest_floors
 
 
 def collect(
@@ -68,7 +68,7 @@ def collect(
             for number, (_, row) in enumerate(rows)
             for name, reason in row.missing.items()
         ),
-        facts={**facts, **largest(end.facts for _, end in ends)},
+        facts={**facts, **largest_floors(end.facts for _, end in ends)},
         variations=variations_of(plan),
         image_streams=tuple(stream for trial, end in ends for stream in _streams(trial, end)),
         images=tuple(

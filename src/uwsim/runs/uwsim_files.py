@@ -45,7 +45,7 @@ from ..benchmark.plugin_checks import sample_of
 from ..results.atomic_file import write_text
 from ..results.log import TIME, Log
 from ..results.result import Cell, Column, Result
-from .trial.triggered_measure import TriggeredMeasure, finite
+from .trial.triggered_measure import TriggeredMeasure, finite_value
 
 LEVEL_NAMES = {
     "none": "None",
@@ -112,7 +112,7 @@ def _original_fields(
 
 def _score(expression: str, values: Mapping[str, float | None]) -> float | None:
     """Return the score of these values; None where the function fails."""
-    return finite(parse(expression, list(values)).evaluate(values))[0]
+    return finite_value(parse(expression, list(values)).evaluate(values))[0]
 
 
 def save_dat(
@@ -167,12 +167,12 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
     return names[:n_logged]
 
 
-def details(triggered_measure: TriggeredMeasure) -> tuple[float | None, ...]:
+def details(measure: TriggeredMeasure) -> tuple[float | None, ...]:
     """Return the current details of a measure, in the order of `detail_names`."""
-    values = [finite(value)[0] for value in sample_of(triggered_measure.measure)]
-    if triggered_measure.has_start_value:
-        values = [triggered_measure.spec.start_value, *(0.0 for _ in values[1:])]
-    return tuple(values[: len(detail_names(triggered_measure.spec, len(values)))])
+    values = [finite_value(value)[0] for value in sample_of(measure.measure)]
+    if measure.has_start_value:
+        values = [measure.spec.start_value, *(0.0 for _ in values[1:])]
+    return tuple(values[: len(detail_names(measure.spec, len(values)))])
 
 
 def data_text(log: Log, spec: MeasureSpec) -> str:

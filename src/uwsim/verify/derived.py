@@ -11,7 +11,7 @@ from ..base.expression import Expression, parse
 from ..benchmark.spec import BenchmarkSpec
 from ..results.leaves import leaves
 from ..results.result import Cell, Result
-from ..runs.trial.triggered_measure import finite
+from ..runs.trial.triggered_measure import finite_value
 from .differences import Difference
 
 
@@ -53,4 +53,4 @@ def _total(expression: Expression, row: dict[str, Cell]) -> float | None:
         name: float(cell) if isinstance(cell := row[name], int | float) else None
         for name in expression.names
     }
-    return finite(expression.score(values).value)[0]
+    return finite_value(expression.score(values).value)[0]

@@ -122,7 +122,7 @@ def compare_checkpoints(
 ) -> FingerprintComparison:
     """Compare the fingerprints of two executions of one trial."""
     traces = [None if trial.end is None else trial.end.trace for trial in (old_trial, new_trial)]
-    old_marks, new_marks = (Checkpoints.of(trace) for trace in traces)
+    old_marks, new_marks = (Checkpoints.from_dict(trace) for trace in traces)
     if old_marks is None or new_marks is None:
         return FingerprintComparison(message=None, is_known=False)
     split = divergence(old_marks, new_marks)
@@ -137,8 +137,8 @@ def compare_checkpoints(
             message=f"the fingerprint of its level {levels[0]} differs, no mark does"
         )
     span = (
-        f"the same up to step {split.after} ({split.after * timestep:g} s), "
-        f"no more at step {split.until} ({split.until * timestep:g} s)"
+        f"the same up to step {split.last_equal} ({split.last_equal * timestep:g} s), "
+        f"no more at step {split.first_different} ({split.first_different * timestep:g} s)"
     )
     suffix = f"; first differs: {', '.join(split.parts)}" if split.parts else ""
     return FingerprintComparison(message=f"motion and images are {span}{suffix}", parts=split.parts)

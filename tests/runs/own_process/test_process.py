@@ -188,7 +188,7 @@ def test_a_parameter_that_nobody_read_is_noted(
 
 def test_ctrl_c_of_the_algorithm_is_its_own_mistake(tmp_path: Path) -> None:
     first, _ = rows(tmp_path, programs.Interrupts)
-    assert "KeyboardInterrupt" in first.missing["total"]
+    assert "KeyboardInterrupt" in first.missing_reasons["total"]
 
 
 @pytest.mark.parametrize(
@@ -205,7 +205,7 @@ def test_a_process_that_ends_ends_its_rows_and_no_more(
 ) -> None:
     found = rows(tmp_path, algorithm)
     assert [row.status for row in found] == ["algorithm error"] * 2
-    assert why in found[0].missing["total"]
+    assert why in found[0].missing_reasons["total"]
     assert [row.measures["t"][0] for row in found] == pytest.approx([0.7, 0.7])
 
 

@@ -13,8 +13,8 @@ import pytest
 
 from tests.support.opened import open_scene
 from uwsim.runs.trial.fingerprint import (
-    EVERY,
     MAX_CHECKPOINTS,
+    SAMPLE_PERIOD,
     Checkpoints,
     Fingerprinter,
     divergence,
@@ -81,19 +81,19 @@ def test_the_same_motion_leaves_the_same_trace_however_often_it_is_asked() -> No
 def test_there_are_never_more_marks_than_fit_and_the_last_is_at_the_end(n_steps: int) -> None:
     checkpoints = traced(n_steps)
     assert len(checkpoints.marks) <= MAX_CHECKPOINTS + 1
-    assert list(checkpoints.by_step())[-1] == n_steps
-    assert checkpoints.every * len(checkpoints.marks) >= n_steps
+    assert list(checkpoints.hashes_by_step())[-1] == n_steps
+    assert checkpoints.period * len(checkpoints.marks) >= n_steps
     assert n_steps < 1000 or len(checkpoints.marks) >= MAX_CHECKPOINTS // 4
     assert {len(mark) for mark in checkpoints.marks} == {8 * 3}
 
 
 def test_marks_that_are_kept_are_those_of_the_finer_trace() -> None:
     fine, coarse = traced(4096), traced(8192)
-    assert coarse.every == 2 * fine.every
+    assert coarse.period == 2 * fine.period
     assert coarse.marks[: len(fine.marks) // 2] == fine.marks[1::2]
 
 
-@pytest.mark.parametrize("at", [EVERY, 160, 1600, 9984])
+@pytest.mark.parametrize("at", [SAMPLE_PERIOD, 160, 1600, 9984])
 def test_the_interval_and_the_body_of_a_difference_are_named(at: int) -> None:
     def nudge(step: int, simulation: FakeSimulation) -> None:
         if step == at:
@@ -101,8 +101,8 @@ def test_the_interval_and_the_body_of_a_difference_are_named(at: int) -> None:
 
     found = divergence(traced(10_000), traced(10_000, nudge))
     assert found is not None
-    assert found.after < at <= found.until
-    assert found.until - found.after <= 256
+    assert found.last_equal < at <= found.first_different
+    assert found.first_different - found.last_equal <= 256
     assert found.parts == ("box",)
 
 
@@ -115,16 +115,16 @@ def test_an_image_that_differs_is_named_by_its_topic() -> None:
 
     found = divergence(traced(1000, same), traced(1000, capture))
     assert found is not None
-    assert (found.after, found.until, found.parts) == (256, 320, ("/camera",))
+    assert (found.last_equal, found.first_different, found.parts) == (256, 320, ("/camera",))
 
 
 def test_a_run_that_ends_earlier_parts_where_it_ends() -> None:
     found = divergence(traced(64 * 10), traced(64 * 20))
     assert found is not None
-    assert (found.after, found.until) == (640, 1280)
+    assert (found.last_equal, found.first_different) == (640, 1280)
     found = divergence(traced(8192), traced(10_000))  # the one has twice the distance of the other
     assert found is not None
-    assert (found.after, found.until) == (8192, 10_000)
+    assert (found.last_equal, found.first_different) == (8192, 10_000)
 
 
 def test_traces_of_other_bodies_cannot_be_compared() -> None:
@@ -136,9 +136,9 @@ def test_traces_of_other_bodies_cannot_be_compared() -> None:
 
 def test_a_trace_is_read_back_as_it_was_stored() -> None:
     checkpoints = traced(1000)
-    assert Checkpoints.of(checkpoints.plain()) == checkpoints
-    assert Checkpoints.of(None) is None
-    assert Checkpoints.of({"every": 1}) is None
+    assert Checkpoints.from_dict(checkpoints.as_dict()) == checkpoints
+    assert Checkpoints.from_dict(None) is None
+    assert Checkpoints.from_dict({"every": 1}) is None
 
 
 def test_a_scene_in_which_nothing_can_move_leaves_a_trace_too() -> None:

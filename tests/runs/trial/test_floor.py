@@ -10,7 +10,7 @@ import pytest
 
 from tests.support.short_benchmark import bench_of, write_benchmark
 from uwsim.runs.executors.executor import run_all
-from uwsim.runs.trial.floor import crossing, homography, largest, through
+from uwsim.runs.trial.floor import crossing, homography, largest_floors, transform_points
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 SEEN = np.array([[3.0, 4.0], [80.0, 9.0], [70.0, 66.0], [-5.0, 50.0]])
@@ -21,9 +21,9 @@ def test_a_homography_is_opencvs() -> None:
     theirs = cv2.getPerspectiveTransform(SQUARE.astype(np.float32), SEEN.astype(np.float32))
     assert found is not None
     assert found == pytest.approx(theirs, rel=1e-5)
-    assert through(found, SQUARE) == pytest.approx(SEEN)
+    assert transform_points(found, SQUARE) == pytest.approx(SEEN)
     inner = np.array([[0.5, 0.25], [0.1, 0.9]])
-    assert through(found, inner) == pytest.approx(
+    assert transform_points(found, inner) == pytest.approx(
         cv2.perspectiveTransform(inner[None], found)[0], rel=1e-9
     )
 
@@ -35,12 +35,12 @@ def test_points_on_a_line_have_no_homography() -> None:
 def test_the_diagonals_of_a_square_seen_askew_cross_where_its_centre_is() -> None:
     found = homography(SQUARE, SEEN)
     assert found is not None
-    assert crossing(SEEN) == pytest.approx(through(found, np.array([[0.5, 0.5]]))[0])
+    assert crossing(SEEN) == pytest.approx(transform_points(found, np.array([[0.5, 0.5]]))[0])
 
 
 def test_of_several_units_the_largest_floor_counts() -> None:
     facts = [{"floor_a": [1.0, "px"], "S": [3.0, "1"]}, {"floor_a": [2.0, "px"]}, {}]
-    assert largest(facts) == {"floor_a": [2.0, "px"]}
+    assert largest_floors(facts) == {"floor_a": [2.0, "px"]}
 
 
 @pytest.mark.parametrize(

@@ -29,7 +29,7 @@ def test_a_timeout_keeps_the_value_of_a_measure_that_did_not_wait(
     cells = cells_of(measures, status, "why")  # type: ignore[arg-type]
     assert cells.values == {"norm": kept, "depth": 4.0}
     assert cells.details["norm.mean"][0] == kept
-    assert cells.missing == ({} if kept is not None else {"norm": "why"})
+    assert cells.missing_reasons == ({} if kept is not None else {"norm": "why"})
 
 
 def test_a_measure_that_waited_has_no_value_in_a_timeout() -> None:
@@ -37,4 +37,4 @@ def test_a_measure_that_waited_has_no_value_in_a_timeout() -> None:
     measures = [triggered("norm", None, is_fed=True), triggered("other", 1.0, is_fed=True)]
     cells = cells_of(measures, "timeout", "no estimate for 2 s")  # type: ignore[arg-type]
     assert cells.values == {"norm": None, "other": 1.0}
-    assert cells.missing["norm"] == "no estimate for 2 s"
+    assert cells.missing_reasons["norm"] == "no estimate for 2 s"

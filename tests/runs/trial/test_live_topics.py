@@ -77,7 +77,7 @@ def test_results_are_kept_from_the_algorithm_under_test(
     function = '<function publishResult="true">t</function>'
     row = rows_of(make_plan(tmp_path, Spies, NESTED, function=function))[0]
     assert row.status == "algorithm error"
-    assert "BenchmarkResults' is for observers of the run" in row.missing["total"]
+    assert "BenchmarkResults' is for observers of the run" in row.missing_reasons["total"]
 
 
 @pytest.mark.usefixtures("observed")

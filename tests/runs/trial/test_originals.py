@@ -178,10 +178,10 @@ def test_an_original_is_played_and_every_cell_has_a_value_or_a_reason(
     ]
     ends_itself = plan.benchmark.scene_updater.seconds_per_level is None
     for row in rows:
-        assert row.status == "ok" or (row.status == "timeout" and ends_itself), row.missing
+        assert row.status == "ok" or (row.status == "timeout" and ends_itself), row.missing_reasons
         for name, (value, _) in row.measures.items():
-            assert value is not None or row.missing[name]
-        assert row.total is not None or row.missing["total"]
+            assert value is not None or row.missing_reasons[name]
+        assert row.total is not None or row.missing_reasons["total"]
         assert row.duration > 0.0
 
 

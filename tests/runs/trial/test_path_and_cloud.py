@@ -131,6 +131,6 @@ def test_who_is_lost_has_no_reconstruction_but_the_path_is_the_worlds(tmp_path: 
     assert row.status == "lost"
     assert row.measures["path"][0] == pytest.approx(0.2)
     assert row.measures["cloud"][0] is None
-    assert "in the dark" in row.missing["cloud"]
+    assert "in the dark" in row.missing_reasons["cloud"]
     assert row.details["cloud.coverage"][0] is None
     assert row.total is None

@@ -52,7 +52,7 @@ def test_levels_in_and_after_a_failure_have_rows_and_those_before_keep_their_val
     assert [row.status for row in found] == ["ok", "simulation error", "simulation error"]
     assert [row.total for row in found] == [1.0, None, None]
     assert [row.duration for row in found] == pytest.approx([1.0, 0.5, 0.0])
-    assert found[1].missing == {"t": WHY, "total": WHY}
+    assert found[1].missing_reasons == {"t": WHY, "total": WHY}
     assert found[1].measures == {"t": (None, "s")}
     (tmp_path / "track").write_bytes(end.motion)
     levels = load_track(tmp_path / "track").levels

@@ -64,7 +64,7 @@ def test_a_benchmark_that_stops_on_contact_has_the_status_collision(tmp_path: Pa
     assert first.measures["t"][0] == pytest.approx(first.duration)
     assert first.measures["hits"][0] is not None
     assert first.total is None
-    assert first.missing["total"].startswith("'blackbox' touched 'slab' at ")
+    assert first.missing_reasons["total"].startswith("'blackbox' touched 'slab' at ")
 
 
 def test_without_the_wish_a_contact_costs_only_its_score(tmp_path: Path) -> None:
@@ -109,8 +109,8 @@ def test_the_first_status_that_applies_counts(
     monitor = StatusMonitor(node, inbox)  # type: ignore[arg-type]
     if said:
         inbox.receive(String(data=said), 0)
-    monitor.listen(1.0)
-    found = monitor.status([measure(silence)], overran=overran, ended=ended)  # type: ignore[list-item]
+    monitor.read_reports(1.0)
+    found = monitor.status([measure(silence)], cutoff=overran, ending=ended)  # type: ignore[list-item]
     assert found[0] == status
     assert (found[1] is None) is (status == "ok")
 
@@ -153,6 +153,6 @@ def test_a_message_that_no_thruster_takes_is_the_algorithms_error(
     plan = make_plan(tmp_path, algorithm, REPEAT.replace("3<", "1.2<"), scene=scene)
     rows = rows_of(plan)
     assert [row.status for row in rows] == ["algorithm error"] * 2
-    assert said in rows[0].missing["total"]
-    assert "test_status.py" in rows[0].missing["total"]
+    assert said in rows[0].missing_reasons["total"]
+    assert "test_status.py" in rows[0].missing_reasons["total"]
     assert [row.measures["t"][0] for row in rows] == pytest.approx([1.2, 1.2])

@@ -27,7 +27,7 @@ from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache
 from ..run import Run
 from ..sealing import seal_runs
-from ..trial.onlooker import Onlooker
+from ..trial.trial_observer import TrialObserver
 from .worker import Event, JournalWriter, picklable, run_trial
 
 OnLevel = Callable[[], None]
@@ -190,7 +190,7 @@ class SerialExecutor:
     """
 
     def __init__(
-        self, onlooker: Onlooker | None = None, *, callback_limit: float | None = None
+        self, onlooker: TrialObserver | None = None, *, callback_limit: float | None = None
     ) -> None:
         self._onlooker, self._limit = onlooker, callback_limit
 
@@ -217,7 +217,7 @@ class SerialExecutor:
 
 
 def run_and_record(
-    job: Job, cache: TrialCache, calls: Calls, onlooker: Onlooker | None = None
+    job: Job, cache: TrialCache, calls: Calls, onlooker: TrialObserver | None = None
 ) -> Iterator[Event]:
     """Run a trial and write its journal; yields the levels that were not on disk before."""
     if job.run.seal is not None:

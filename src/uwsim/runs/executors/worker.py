@@ -26,8 +26,8 @@ from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache
 from ..run import Run
 from ..trial.level_row import LevelRow, TrialEnd
-from ..trial.onlooker import Onlooker
 from ..trial.trial import execute
+from ..trial.trial_observer import TrialObserver
 from ..trial.trial_recorder import TrialRecorder
 
 IMAGES = "pictures"
@@ -71,7 +71,7 @@ def run_trial(
     trial: Trial,
     cache: TrialCache,
     calls: Calls | None = None,
-    onlooker: Onlooker | None = None,
+    onlooker: TrialObserver | None = None,
     recorder: TrialRecorder | None = None,
 ) -> Iterator[Event]:
     """Run a trial; yields each level as it ends, and finally the end of the trial.
@@ -87,7 +87,7 @@ def run_trial(
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    outcomes = execute(plan, trial, cache=cache, calls=calls, onlooker=onlooker, recorder=recorder)
+    outcomes = execute(plan, trial, cache=cache, calls=calls, observer=onlooker, recorder=recorder)
     for n, outcome in enumerate(outcomes):
         if isinstance(outcome, TrialEnd):
             yield TrialEnded(end=_end(outcome), motion=outcome.motion, inputs=outcome.inputs)
@@ -171,7 +171,7 @@ def _row(row: LevelRow, images: dict[str, str]) -> StoredRow:
         details=row.details,
         total=row.total,
         status=row.status,
-        missing=row.missing,
+        missing=row.missing_reasons,
         ended_at=row.ended_at,
         duration=row.duration,
         logs=row.logs,
@@ -186,7 +186,7 @@ def _row(row: LevelRow, images: dict[str, str]) -> StoredRow:
             for snapshot in row.snapshots
         ),
         fingerprint=row.fingerprint,
-        refused=row.refused,
+        refused=row.refused_messages,
         remarks=row.remarks,
     )
 
@@ -197,5 +197,5 @@ def _end(end: TrialEnd) -> StoredEnd:
         parameters=end.parameters,
         streams=end.streams,
         notes=end.notes,
-        trace=end.checkpoints.plain(),
+        trace=end.checkpoints.as_dict(),
     )

@@ -1,5 +1,5 @@
 """One trial: a task at all its levels with one seed.
 
 `trial` has the loop over the levels, `level_triggers` their beginning and end, `triggered_measure`
-a measure between its triggers, `status` what became of the algorithm, `level_row` what is stored.
+a measure between its triggers, `status` the algorithm's status, `level_row` the values to store.
 """

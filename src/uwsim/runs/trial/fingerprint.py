@@ -1,9 +1,9 @@
 """Fingerprints of a run: hashes of the state that locate where two runs diverge.
 
-The motion of every body is sampled every 16th step and hashed as the run goes on, body by body and
-without ever beginning anew; so are the images on each topic. At intervals a *checkpoint* is stored:
-the hashes so far, four bytes each. A difference shows in all later checkpoints, so the first one
-that differs says between which steps, and in what, two runs diverged.
+The motion of every body is sampled every 16th step and hashed during the run, body by body and
+without a reset; so are the images on each topic. At intervals a *checkpoint* is stored: the hashes
+so far, four bytes each. A difference changes all later checkpoints, so the first one that differs
+locates the steps, and the body or topic, at which two runs diverged.
 
 A trial has at most 64 checkpoints: when there are more every second one is dropped, and the
 distance doubles. That costs a third of a microsecond a step and a few kilobytes a trial, however
@@ -21,55 +21,55 @@ import numpy as np
 
 from ...simulation import Simulation
 
-EVERY = 16
+SAMPLE_PERIOD = 16
 """Steps between two samples."""
 BLOCK = 4
 """Samples that are hashed at a time."""
 MAX_CHECKPOINTS = 64
 BYTES = 4
-"""Of each hash in a checkpoint."""
+"""The size of each hash in a checkpoint."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Checkpoints:
     """The checkpoints of one trial."""
 
-    every: int
+    period: int
     """Steps from one checkpoint to the next."""
     n_steps: int
     """Steps of the whole trial; the last checkpoint is at its end."""
     parts: tuple[str, ...]
-    """What is hashed: bodies, then topics of images."""
+    """The names of the hashed parts: bodies, then topics of images."""
     marks: tuple[str, ...]
-    """Hexadecimal, 8 digits a part."""
+    """The hashes at each checkpoint, in hexadecimal, 8 digits a part."""
 
-    def plain(self) -> dict[str, object]:
-        """Return it as it is stored."""
+    def as_dict(self) -> dict[str, object]:
+        """Return the checkpoints as they are stored."""
         return {
-            "every": self.every,
+            "every": self.period,
             "steps": self.n_steps,
             "parts": list(self.parts),
             "marks": list(self.marks),
         }
 
     @staticmethod
-    def of(stored: Any) -> Checkpoints | None:
-        """Read what `plain` gave; None if it is not whole."""
+    def from_dict(record: Any) -> Checkpoints | None:
+        """Read the value of `as_dict`; return None if it is incomplete."""
         try:
             return Checkpoints(
-                every=int(stored["every"]),
-                n_steps=int(stored["steps"]),
-                parts=tuple(map(str, stored["parts"])),
-                marks=tuple(map(str, stored["marks"])),
+                period=int(record["every"]),
+                n_steps=int(record["steps"]),
+                parts=tuple(map(str, record["parts"])),
+                marks=tuple(map(str, record["marks"])),
             )
         except (KeyError, TypeError, ValueError):
             return None
 
-    def by_step(self) -> dict[int, tuple[str, ...]]:
-        """Return step -> the hash of each part up to there."""
+    def hashes_by_step(self) -> dict[int, tuple[str, ...]]:
+        """Return the hash of each part up to each checkpoint, by step."""
         width = 2 * BYTES
         return {
-            min((i + 1) * self.every, self.n_steps): tuple(
+            min((i + 1) * self.period, self.n_steps): tuple(
                 mark[k : k + width] for k in range(0, len(mark), width)
             )
             for i, mark in enumerate(self.marks)
@@ -78,14 +78,14 @@ class Checkpoints:
 
 @dataclass(frozen=True, kw_only=True)
 class Divergence:
-    """Where two traces diverge."""
+    """The divergence of two traces."""
 
-    after: int
-    """They are the same up to this step ..."""
-    until: int
-    """... and no more by this one."""
+    last_equal: int
+    """The last step at which they are equal."""
+    first_different: int
+    """The first known step at which they differ."""
     parts: tuple[str, ...]
-    """What differs first; empty when the traces are not of one kind."""
+    """The parts that differ first; empty when the traces have different parts."""
 
 
 def divergence(a: Checkpoints, b: Checkpoints) -> Divergence | None:
@@ -93,19 +93,19 @@ def divergence(a: Checkpoints, b: Checkpoints) -> Divergence | None:
     if a == b:
         return None
     if a.parts == b.parts:
-        after = 0
-        one, other = a.by_step(), b.by_step()
-        for step in (step for step in one if step in other):
-            pairs = list(zip(a.parts, one[step], other[step], strict=False))
-            if names := tuple(name for name, mine, theirs in pairs if mine != theirs):
-                return Divergence(after=after, until=step, parts=names)
-            after = step
-        return Divergence(after=after, until=max(a.n_steps, b.n_steps), parts=())
-    return Divergence(after=0, until=max(a.n_steps, b.n_steps), parts=())
+        last_step = 0
+        a_hashes, b_hashes = a.hashes_by_step(), b.hashes_by_step()
+        for step in (step for step in a_hashes if step in b_hashes):
+            pairs = list(zip(a.parts, a_hashes[step], b_hashes[step], strict=False))
+            if names := tuple(name for name, a_hash, b_hash in pairs if a_hash != b_hash):
+                return Divergence(last_equal=last_step, first_different=step, parts=names)
+            last_step = step
+        return Divergence(last_equal=last_step, first_different=max(a.n_steps, b.n_steps), parts=())
+    return Divergence(last_equal=0, first_different=max(a.n_steps, b.n_steps), parts=())
 
 
 class Fingerprinter:
-    """Takes the fingerprints of a simulation while it runs."""
+    """A recorder of the fingerprints of a simulation while it runs."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation, self._motion = simulation, simulation.world.engine.motion
@@ -117,26 +117,26 @@ class Fingerprinter:
             for start, end in itertools.pairwise(ends)
         ]
         self._marks: list[str] = []
-        self._every = EVERY * BLOCK
+        self._period = SAMPLE_PERIOD * BLOCK
         simulation.watch(self.tick)
 
     def tick(self) -> None:
-        """Look at the world after one more step."""
+        """Sample the state after one more step."""
         self._step += 1
         step = self._step
-        if step % EVERY:
+        if step % SAMPLE_PERIOD:
             return
         self._motion.read(self._block[self._n])
         self._n += 1
         if self._n == BLOCK:
             self._absorb()
-        if step % self._every == 0:
+        if step % self._period == 0:
             self._absorb()
             self._set_checkpoint()
 
     @property
     def fingerprint(self) -> str:
-        """All that was sampled so far, in 16 hexadecimal digits."""
+        """The fingerprint of all samples so far, in 16 hexadecimal digits."""
         self._absorb()
         return hashlib.blake2b(bytes.fromhex(self._digests()), digest_size=8).hexdigest()
 
@@ -144,8 +144,8 @@ class Fingerprinter:
         """Return the checkpoints, with a last one of the current state."""
         self._absorb()
         step = self._step
-        marks = [*self._marks, *([self._digests()] if step % self._every else [])]
-        return Checkpoints(every=self._every, n_steps=step, parts=self._names(), marks=tuple(marks))
+        marks = (*self._marks, *([self._digests()] if step % self._period else []))
+        return Checkpoints(period=self._period, n_steps=step, parts=self._names(), marks=marks)
 
     def _absorb(self) -> None:
         for columns, digest in self._hashes:
@@ -156,7 +156,7 @@ class Fingerprinter:
         self._marks.append(self._digests())
         if len(self._marks) > MAX_CHECKPOINTS:
             self._marks = self._marks[1::2]
-            self._every *= 2
+            self._period *= 2
 
     def _digests(self) -> str:
         images = self._simulation.world.images

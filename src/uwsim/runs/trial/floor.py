@@ -1,12 +1,11 @@
 r"""The error floor: the score of a perfect tracker, below which differences are meaningless.
 
-A tracker of the target's top face that is never wrong follows the homography H which takes the
-face's corners from where they were when it was started to where they are now. What it reports is
-then :math:`H q_0`, with the quad :math:`q_0` that it was started on, and where the diagonals of
-that cross. The truth of the original is the smallest rectangle round the projected bounding box,
-and the projection of the body's origin: seen from another place they move otherwise than the face.
-A face that is seen exactly and a quad on it would be followed without error; not modelled are
-noise, the pixels' grid, and what of the quad is not on the face.
+A perfect tracker of the target's top face follows the homography H that maps the face's corners at
+its start to the current ones. It reports :math:`H q_0`, with its initial quad :math:`q_0`, and the
+crossing of the diagonals of that quad. The truth of the original is the smallest rectangle round
+the projected bounding box, and the projection of the body's origin: with a moving camera they move
+otherwise than the face. A face that is seen exactly and a quad on it would be followed without
+error. Not modelled are noise, the pixels' grid, and the parts of the quad outside of the face.
 """
 
 from __future__ import annotations
@@ -26,54 +25,54 @@ from ...simulation import Simulation
 from ..planning.plan import Plan
 from .visibility import Fact
 
-EVERY = 16
-"""Steps from one look to the next."""
+SAMPLE_PERIOD = 16
+"""The steps from one sample to the next."""
 
 
 class Floor:
-    """What a perfect tracker scores in each measure of pixels, level by level.
+    """The error of a perfect tracker in each measure of pixels, level by level.
 
-    Does nothing where no measure starts a tracker on a quad.
+    Has no effect where no measure starts a tracker on a quad.
     """
 
     def __init__(self, simulation: Simulation, plan: Plan) -> None:
         specs = [spec for spec in plan.benchmark.measures if isinstance(spec, EuclideanNormSpec)]
-        starting = next((spec for spec in specs if _corners_of(spec) is not None), None)
+        tracker_spec = next((spec for spec in specs if _corners_of(spec) is not None), None)
         self._truths: dict[str, GroundTruth] = {}
         self._means: dict[str, list[float]] = {}
         self._sums: dict[str, tuple[float, int]] = {}
-        self._then: tuple[Array, Array] | None = None  # the quad given, and the face: (8,) each
+        self._reference: tuple[Array, Array] | None = None  # the initial quad and face: (8,) each
         self._is_measured = False
-        if starting is None:
+        if tracker_spec is None:
             return
-        chosen = _corners_of(starting)
-        assert chosen is not None
-        self._is_started_once = starting.auto_init == "once"
+        quad_spec = _corners_of(tracker_spec)
+        assert quad_spec is not None
+        self._is_started_once = tracker_spec.auto_init == "once"
         world = simulation.world.measure_view
-        self._given = chosen.bind(world, starting.truth)
-        self._face = FaceCorners(world.camera(chosen.camera), world.body(chosen.target))
+        self._quad = quad_spec.bind(world, tracker_spec.truth)
+        self._face = FaceCorners(world.camera(quad_spec.camera), world.body(quad_spec.target))
         self._truths = {
             spec.name: spec.ground_truth.bind(world, spec.truth)
             for spec in specs
-            if spec.ground_truth.camera == chosen.camera
-            and getattr(spec.ground_truth, "target", None) == chosen.target
+            if spec.ground_truth.camera == quad_spec.camera
+            and getattr(spec.ground_truth, "target", None) == quad_spec.target
         }
         self._steps = 0
-        simulation.watch(self._look)
+        simulation.watch(self._update)
 
     def start(self) -> None:
         """Initialise the tracker with its quad, unless that happens only once."""
-        if self._truths and (self._then is None or not self._is_started_once):
-            quad, face = self._given.read(), self._face.read()
-            self._then = None if quad is None or face is None else (quad, face)
+        if self._truths and (self._reference is None or not self._is_started_once):
+            quad, face = self._quad.read(), self._face.read()
+            self._reference = None if quad is None or face is None else (quad, face)
 
     def begin(self) -> None:
-        """A level is measured from now on, and the tracker is given its quad."""
+        """Begin the measurement of a level, and initialise the tracker with its quad."""
         self.start()
         self._is_measured = True
 
     def end(self) -> None:
-        """The level is over."""
+        """End the measurement of a level."""
         for name, (total, n) in self._sums.items():
             self._means.setdefault(name, []).append(total / n)
         self._sums, self._is_measured = {}, False
@@ -85,63 +84,63 @@ class Floor:
             f"{FLOOR}{name}": (round(max(means), 6), "px") for name, means in self._means.items()
         }
 
-    def _look(self) -> None:
+    def _update(self) -> None:
         self._steps += 1
-        if self._steps % EVERY or not self._is_measured or self._then is None:
+        if self._steps % SAMPLE_PERIOD or not self._is_measured or self._reference is None:
             return
-        quad, face_then = self._then
+        quad, old_face = self._reference
         face = self._face.read()
-        moved = None if face is None else homography(face_then, face)
-        if moved is None:
+        motion = None if face is None else homography(old_face, face)
+        if motion is None:
             return
-        followed = through(moved, quad.reshape(4, 2))
-        estimates = {8: followed.reshape(8), 2: crossing(followed)}
+        tracked_quad = transform_points(motion, quad.reshape(4, 2))
+        estimates = {8: tracked_quad.reshape(8), 2: crossing(tracked_quad)}
         for name, truth in self._truths.items():
-            found = truth.read()
-            if found is not None and len(found) in estimates:
+            numbers = truth.read()
+            if numbers is not None and len(numbers) in estimates:
                 total, n = self._sums.get(name, (0.0, 0))
-                error = length(found - estimates[len(found)])
+                error = length(numbers - estimates[len(numbers)])
                 self._sums[name] = total + error, n + 1
 
 
 def _corners_of(spec: EuclideanNormSpec) -> CornersFromCameraSpec | None:
-    """The quad with which this measure initialises a tracker; None where it does not."""
+    """Return the quad with which this measure initialises a tracker, if it does."""
     truth = spec.ground_truth
     starts = isinstance(truth, CornersFromCameraSpec) and truth.publish_on is not None
     return truth if starts and isinstance(truth, CornersFromCameraSpec) else None
 
 
-def largest(facts: Iterable[Mapping[str, StoredFact]]) -> dict[str, StoredFact]:
-    """Put together the floors of several trials: the largest of each."""
-    found: dict[str, StoredFact] = {}
-    for each in facts:
-        for name, fact in each.items():
-            if name.startswith(FLOOR) and (name not in found or fact[0] > found[name][0]):
-                found[name] = fact
-    return found
+def largest_floors(facts: Iterable[Mapping[str, StoredFact]]) -> dict[str, StoredFact]:
+    """Return the largest floor of each measure in several trials."""
+    floors: dict[str, StoredFact] = {}
+    for trial_facts in facts:
+        for name, fact in trial_facts.items():
+            if name.startswith(FLOOR) and (name not in floors or fact[0] > floors[name][0]):
+                floors[name] = fact
+    return floors
 
 
-def homography(before: Array, after: Array) -> Array | None:
-    """Return the homography that takes four points to four others, (3, 3); None if there is none.
+def homography(source: Array, target: Array) -> Array | None:
+    """Return the homography that maps four points to four others, (3, 3); None if there is none.
 
     Eight equations for eight unknowns, with the ninth number 1 (Hartley and Zisserman 2004,
     section 4.1).
     """
     rows: list[list[float]] = []
-    for (x, y), (u, v) in zip(before.reshape(4, 2), after.reshape(4, 2), strict=True):
+    for (x, y), (u, v) in zip(source.reshape(4, 2), target.reshape(4, 2), strict=True):
         rows.append([x, y, 1.0, 0.0, 0.0, 0.0, -u * x, -u * y])
         rows.append([0.0, 0.0, 0.0, x, y, 1.0, -v * x, -v * y])
     try:
-        found = solve(np.array(rows), after.reshape(8))
+        numbers = solve(np.array(rows), target.reshape(8))
     except LinAlgError:
         return None
-    return np.append(found, 1.0).reshape(3, 3)
+    return np.append(numbers, 1.0).reshape(3, 3)
 
 
-def through(homography: Array, points: Array) -> Array:
-    """Take points (n, 2) through a homography, (n, 2)."""
-    taken = product(np.column_stack([points, np.ones(len(points))]), homography.T)
-    result: Array = taken[:, :2] / taken[:, 2:]
+def transform_points(homography: Array, points: Array) -> Array:
+    """Apply a homography to points (n, 2), (n, 2)."""
+    vectors = product(np.column_stack([points, np.ones(len(points))]), homography.T)
+    result: Array = vectors[:, :2] / vectors[:, 2:]
     return result
 
 

@@ -1,6 +1,6 @@
-"""Constant target corners of a file, given to trackers where no ``autoInit`` is called.
+"""Constant target corners of a file, set for trackers where no ``autoInit`` is called.
 
-A benchmark of the original may say once and for all where its target is seen:
+A benchmark of the original may have a constant place of its target in the image:
 
 .. code-block:: xml
 
@@ -9,7 +9,7 @@ A benchmark of the original may say once and for all where its target is seen:
       <target>cornersTopic</target> ...
     </euclideanNorm>
 
-Whoever ran it there handed these numbers to the tracker by hand.
+The user of the original entered these numbers into the tracker.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from ...benchmark.measures import EuclideanNormSpec
 from ..planning.plan import Plan
 
 PARAMETER = "corners"
-"""Of the algorithm: x, y of four corners [px], eight numbers separated by blanks."""
+"""The parameter of the algorithm: x, y of four corners [px], eight numbers separated by blanks."""
 TOPIC = "cornersTopic"
-"""Where its estimates of them go."""
+"""The topic of its estimates of the corners."""
 
 
 def known_corners(plan: Plan) -> dict[str, str]:
@@ -32,10 +32,10 @@ def known_corners(plan: Plan) -> dict[str, str]:
     It is empty when a measure initialises the algorithm itself (``publishOn``), when the file has
     no eight constants for the topic of the corners, or when the algorithm has no such parameter.
     """
-    norms = [each for each in plan.benchmark.measures if isinstance(each, EuclideanNormSpec)]
+    norms = [spec for spec in plan.benchmark.measures if isinstance(spec, EuclideanNormSpec)]
     defaults: object = getattr(plan.algorithm.cls, "PARAMETERS", None)
-    is_told = any(norm.ground_truth.publish_on is not None for norm in norms)
-    if is_told or not isinstance(defaults, Mapping) or PARAMETER not in defaults:
+    is_initialised = any(norm.ground_truth.publish_on is not None for norm in norms)
+    if is_initialised or not isinstance(defaults, Mapping) or PARAMETER not in defaults:
         return {}
     for norm in norms:
         truth = norm.ground_truth

@@ -1,4 +1,4 @@
-"""What the levels of a trial leave behind: a row each, and at its end a record of the whole."""
+"""The values of a trial to store: a row for each level, and at its end a record of the whole."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from .fingerprint import Checkpoints
 from .snapshots import Snapshot
 from .status import SIMULATION_ERROR
-from .triggered_measure import Sample, TriggeredMeasure, finite
+from .triggered_measure import Sample, TriggeredMeasure, finite_value
 from .visibility import Fact
 
 
@@ -19,31 +19,31 @@ class LevelRow:
     values: tuple[tuple[str, float], ...]
     """The level: swept parameters and values, outermost first."""
     measures: dict[str, tuple[float | None, str]]
-    """Measure -> value and unit."""
+    """The value and unit of each measure."""
     details: dict[str, tuple[float | None, str]]
-    """``measure.detail`` -> value and unit."""
+    """The value and unit of each ``measure.detail``."""
     total: float | None
     """The score."""
     status: str
     """``ok``, or the first status of docs/levels.md that applies."""
-    missing: dict[str, str]
-    """Column -> why it is null."""
+    missing_reasons: dict[str, str]
+    """The reason of each null column."""
     ended_at: float
-    """Simulation time at the end of the level [s]."""
+    """The simulation time at the end of the level [s]."""
     duration: float
-    """How long the level was measured [s]."""
+    """The duration of the measurement [s]."""
     logs: dict[str, list[Sample]]
-    """Measure -> samples: time in the level [s], then `log_headers`."""
+    """The samples of each measure: time in the level [s], then `log_headers`."""
     log_headers: dict[str, tuple[str, ...]]
-    """Measure -> columns of its samples after the time, with units."""
+    """The columns of each measure's samples after the time, with units."""
     fingerprint: str
-    """Of every body's motion and of every image, since the trial began (`fingerprint`)."""
+    """The fingerprint of all motion and images since the trial began (`fingerprint`)."""
     snapshots: tuple[Snapshot, ...]
     """The cameras' last images."""
-    refused: tuple[tuple[str, str, int], ...] = ()
-    """What came from programs that do not take part: sender, topic or service, how often."""
+    refused_messages: tuple[tuple[str, str, int], ...] = ()
+    """The refused messages of programs that do not take part: sender, topic or service, number."""
     remarks: tuple[str, ...] = ()
-    """What belongs beside its status, with the measure it is about."""
+    """The notes beside its status, with the measure that each is about."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,19 +51,19 @@ class TrialEnd:
     """The end of a trial: its constants, notes and fingerprints."""
 
     facts: dict[str, Fact]
-    """Constants of the scene, and how far the target moved in the image."""
+    """Constants of the scene, and the range of the target's motion in the image."""
     parameters: dict[str, float | str]
     """Parameters of the algorithm, defaults included."""
     streams: tuple[tuple[str, int, str], ...]
-    """Topic, number of images, SHA-256 over their pixels."""
+    """The topic, number of images and SHA-256 over their pixels of each stream."""
     notes: tuple[str, ...]
-    """What the reader of the result should know, besides the values."""
+    """Notes for the reader of the result."""
     checkpoints: Checkpoints
-    """Fingerprints on the way."""
+    """The fingerprints during the trial."""
     motion: bytes
     """The motion track (`uwsim.results.motion`)."""
     inputs: bytes = b""
-    """What a pilot did (`pilot_inputs`); empty where nobody pilots."""
+    """The inputs of a pilot (`pilot_inputs`); empty without a pilot."""
 
 
 @dataclass(frozen=True)
@@ -71,43 +71,45 @@ class Cells:
     """The values of the measures at the end of a level."""
 
     values: dict[str, float | None] = field(default_factory=dict)
-    """Measure -> value."""
+    """The value of each measure."""
     units: dict[str, str] = field(default_factory=dict)
-    """Measure -> unit."""
+    """The unit of each measure."""
     details: dict[str, tuple[float | None, str]] = field(default_factory=dict)
-    """``measure.detail`` -> value and unit."""
-    missing: dict[str, str] = field(default_factory=dict)
-    """Column -> why it is null."""
+    """The value and unit of each ``measure.detail``."""
+    missing_reasons: dict[str, str] = field(default_factory=dict)
+    """The reason of each null column."""
 
 
-def cells_of(measures: Sequence[TriggeredMeasure], status: str, why: str | None) -> Cells:
+def cells_of(measures: Sequence[TriggeredMeasure], status: str, status_reason: str | None) -> Cells:
     """Return the values of measures.
 
-    Those that the algorithm feeds are null if the row is not ok. In a ``timeout`` they keep what
-    they have: a measure that waited for estimates has no value by itself, the others do.
+    Those that the algorithm feeds are null if the row is not ok. In a ``timeout`` they keep their
+    values: a measure that waited for estimates has none, the others have one.
     """
     cells = Cells()
-    for triggered in measures:
-        name, measure = triggered.spec.name, triggered.measure
-        blank = status == SIMULATION_ERROR or (status != "ok" and measure.fed_by_algorithm)
-        if status == "timeout" and finite(triggered.value)[0] is not None:
-            blank = False
+    for triggered_measure in measures:
+        name, measure = triggered_measure.spec.name, triggered_measure.measure
+        is_blank = status == SIMULATION_ERROR or (status != "ok" and measure.fed_by_algorithm)
+        if status == "timeout" and finite_value(triggered_measure.value)[0] is not None:
+            is_blank = False
         cells.units[name] = measure.unit
-        cells.values[name], reason = (None, why) if blank else finite(triggered.value)
+        cells.values[name], reason = (
+            (None, status_reason) if is_blank else finite_value(triggered_measure.value)
+        )
         if cells.values[name] is None:
-            cells.missing[name] = reason or measure.why or "nothing to measure"
+            cells.missing_reasons[name] = reason or measure.why or "nothing to measure"
         for detail, value in measure.details.items():
             unit = "1" if detail.split(".")[-1] == "n" else measure.unit
             unit = measure.detail_units.get(detail.partition(".")[0], unit)
             unit = measure.detail_units.get(detail, unit)
-            number, reason = (None, None) if blank else finite(value)
+            number, reason = (None, None) if is_blank else finite_value(value)
             cells.details[f"{name}.{detail}"] = (number, unit)
-            if number is None and triggered.has_start_value:
+            if number is None and triggered_measure.has_start_value:
                 reason = measure.why
             if reason is not None:
-                cells.missing[f"{name}.{detail}"] = reason
-        if not blank:
-            cells.missing.update(
+                cells.missing_reasons[f"{name}.{detail}"] = reason
+        if not is_blank:
+            cells.missing_reasons.update(
                 {f"{name}.{detail}": message for detail, message in measure.reasons.items()}
             )
     return cells

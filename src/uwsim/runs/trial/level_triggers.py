@@ -1,10 +1,10 @@
 """The benchmark's startOn and stopOn, which begin and end levels.
 
 A level runs while ``startOn`` is on and ``stopOn`` is off. ``startOn`` is never reset: most types
-stay on, so the next level follows at once; a topic that says off ends the level, and the next one
-waits until it says on again. ``stopOn`` is armed anew for every level, so it ends one level and no
-more. The original never resets it: with the compatibility ``stop-once`` a stop that stays on keeps
-every later level from beginning.
+stay on, so the next level follows at once; a message ``off`` on a topic ends the level, and the
+next one waits for ``on``. ``stopOn`` is reset for every level, so it ends one level only. The
+original never resets it: with the compatibility ``stop-once`` a stop that stays on prevents every
+later level.
 """
 
 from __future__ import annotations
@@ -23,26 +23,26 @@ class LevelTriggers:
         self._stop = spec.stop_on.bind(world)
 
     def arm(self) -> None:
-        """Forget what stopped the level before.
+        """Reset the stop trigger.
 
-        The new trigger is there before the old one goes: a service is offered without a gap.
+        The new trigger is bound before the old one is closed: a service is offered without a gap.
         """
         if not self._stops_once:
-            before, self._stop = self._stop, self._spec.stop_on.bind(self._world)
-            before.close()
+            old_stop, self._stop = self._stop, self._spec.stop_on.bind(self._world)
+            old_stop.close()
 
     def may_begin(self) -> bool:
-        """Whether a level may begin now; what was stopped is no matter, as `arm` follows."""
+        """Return whether a level may begin now; a stop counts with ``stop-once`` only."""
         start, stop = self._start.is_on(), self._stop.is_on()
         return start and not (stop and self._stops_once)
 
     def is_open(self) -> bool:
-        """Whether the level may go on."""
+        """Return whether the level may continue."""
         start, stop = self._start.is_on(), self._stop.is_on()
         return start and not stop
 
-    def why_not(self, patience: float) -> str:
-        """Return why no level began within ``patience`` [s of simulation time]."""
+    def describe_wait(self, patience: float) -> str:
+        """Return the reason why no level began within ``patience`` [s of simulation time]."""
         if not self._start.is_on():
             return (
                 f"its startOn ({self._spec.start_on}) did not go on within {patience:g} s of "

@@ -8,15 +8,15 @@ from ...benchmark.measures import Measure
 def log_columns(measure: Measure) -> tuple[str, ...]:
     """Return the columns of a measure's log with their units: ``total [px]``.
 
-    That of a detail is the detail's; what has statistics among the details, and what is called
-    ``value`` or ``total``, is in the measure's own. A column that says its unit itself, or that
-    nothing is known about, stays as it is.
+    A detail has its own unit. A signal with statistics among the details, and ``value`` and
+    ``total``, have the unit of the measure. A column that states its unit itself, or whose unit is
+    unknown, is unchanged.
     """
     signals = {detail.partition(".")[0] for detail in measure.details} | {"value", "total"}
 
-    def labelled(name: str) -> str:
+    def add_unit(name: str) -> str:
         unit = measure.detail_units.get(name, measure.unit if name in signals else "1")
         is_bare = name.endswith("]") or name == "n" or unit == "1"
         return name if is_bare else f"{name} [{unit}]"
 
-    return tuple(labelled(name) for name in measure.log_header)
+    return tuple(add_unit(name) for name in measure.log_header)

@@ -1,4 +1,4 @@
-"""Making the algorithm of a trial, and asking it for its parameters."""
+"""The construction of the algorithm of a trial, and its parameters."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ...simulation import Calls, InProcessNode, what_broke
 from ...simulation.nodes.calls import Stopped
 from ..own_process.process import ProcessAlgorithm
 from ..planning.plan import Plan
-from .status import legible
+from .status import to_line
 
 
 def make_algorithm(
@@ -23,7 +23,7 @@ def make_algorithm(
     parameters: Mapping[str, float | str],
     calls: Calls,
 ) -> Algorithm:
-    """Make the algorithm; an exception of its constructor is a NeverStarted."""
+    """Construct the algorithm; raise NeverStarted for an exception of its constructor."""
     try:
         with calls:
             return program(parameters)
@@ -33,12 +33,12 @@ def make_algorithm(
             raise
         raise NeverStarted(
             f"Algorithm {plan.algorithm.name!r} cannot be made: "
-            f"{legible(what_broke(error, plan.algorithm.cls))}"
+            f"{to_line(what_broke(error, plan.algorithm.cls))}"
         ) from error
 
 
-def parameters_said(
-    plan: Plan, algorithm: Algorithm, given: Mapping[str, float | str], calls: Calls
+def reported_parameters(
+    plan: Plan, algorithm: Algorithm, user_parameters: Mapping[str, float | str], calls: Calls
 ) -> dict[str, float | int | str]:
     """Return the parameters that the algorithm reports.
 
@@ -47,31 +47,31 @@ def parameters_said(
     """
     try:
         with calls:
-            return parameters_of(algorithm, given, name=plan.algorithm.cls.__name__)
+            return parameters_of(algorithm, user_parameters, name=plan.algorithm.cls.__name__)
     except UwsimError:
         raise
     except BaseException as error:
         if is_user_interrupt(error):
             raise
-        message = legible(what_broke(error, plan.algorithm.cls))
+        message = to_line(what_broke(error, plan.algorithm.cls))
         raise RunFailed(
             f"Algorithm {plan.algorithm.name!r} cannot report its parameters: {message}"
         ) from error
 
 
 def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> tuple[str, ...]:
-    """Say which of the parameters that the user set an algorithm has never read, if any.
+    """Return a note on the parameters of the user that an algorithm has never read, if any.
 
-    Nothing is said of one that failed: it may have failed before it could read them.
+    There is no note on a failed algorithm, which may have failed before it could read them.
     """
-    given = [name for name in plan.algorithm.parameters if name != "latency_s"]
-    if not given or node.error is not None:
+    names = [name for name in plan.algorithm.parameters if name != "latency_s"]
+    if not names or node.error is not None:
         return ()
-    asked: Iterable[str] = node.parameters.names_read
+    names_read: Iterable[str] = node.parameters.names_read
     if isinstance(algorithm, ProcessAlgorithm):
         try:
-            asked = algorithm.names_read
+            names_read = algorithm.names_read
         except (RemoteError, Stopped):
             return ()
-    note = describe_unread_parameters(plan.algorithm.name, given, asked)
+    note = describe_unread_parameters(plan.algorithm.name, names, names_read)
     return (note,) if note else ()

@@ -1,4 +1,4 @@
-"""What of a scene changes now and then, between the frames of its motion: sand and markers."""
+"""The events of a scene between the frames of its motion: sand that is taken, and markers."""
 
 from __future__ import annotations
 
@@ -11,81 +11,84 @@ from ...simulation import Simulation
 from ...simulation.markers.lines import MAX_POINTS, look_of, n_points
 
 MAX_CHANGES = 100_000
-"""Of markers in a trial; those after it are not kept."""
-MAX_KEPT = 200_000
-"""Points of all shapes that are kept; of markers after it the name alone is."""
+"""The greatest number of marker changes in a trial; later ones are not stored."""
+MAX_STORED_POINTS = 200_000
+"""The greatest number of points of all shapes; later markers are stored by name only."""
 
 
 class SandLog:
-    """Notes where sand was taken between one frame and the next.
+    """A log of the places where sand was taken between one frame and the next.
 
     Args:
-        simulation: whose sand it is.
+        simulation: the simulation with the sand.
     """
 
     def __init__(self, simulation: Simulation) -> None:
         self._heaps = simulation.world.scenery.heaps
-        self._seen: list[list[Spot]] = [[] for _ in self._heaps]
+        self._known_spots: list[list[Spot]] = [[] for _ in self._heaps]
         self._versions = [heap.version for heap in self._heaps]
         self._rows: list[tuple[int, ...]] = []
 
-    def look(self, frame: int) -> None:
-        """Note what was taken until a frame."""
+    def update(self, frame: int) -> None:
+        """Record the digs until a frame."""
         for number, heap in enumerate(self._heaps):
             if heap.version == self._versions[number]:
                 continue
             self._versions[number] = heap.version
-            n = len(self._seen[number])
-            if heap.state.taken[:n] != self._seen[number]:  # it was put back meanwhile
+            n = len(self._known_spots[number])
+            if heap.state.taken[:n] != self._known_spots[number]:  # the sand was put back meanwhile
                 self._rows.append((frame, number, NO_VALUE, NO_VALUE, NO_VALUE))
                 n = 0
             self._rows += [(frame, number, *spot) for spot in heap.state.taken[n:]]
-            self._seen[number] = list(heap.state.taken)
+            self._known_spots[number] = list(heap.state.taken)
 
-    def dug(self) -> DugSand:
-        """Return all so far."""
+    def sand(self) -> DugSand:
+        """Return all digs so far."""
         return DugSand(table=np.array(self._rows, np.int32).reshape(-1, COLUMNS))
 
 
 class MarkerLog:
-    """Notes the markers that came, changed or went between one frame and the next.
+    """A log of the markers that were spawned, changed or removed between one frame and the next.
 
     Args:
-        simulation: whose markers they are.
+        simulation: the simulation with the markers.
     """
 
     def __init__(self, simulation: Simulation) -> None:
         self._world = simulation.world
         self._markers: dict[str, Marker] = {}
-        self._looks: dict[str, DrawnMarker] = {}
+        self._drawings: dict[str, DrawnMarker] = {}
         self._shapes: set[object] = set()
-        self._room, self._drawn = MAX_KEPT, 0  # points that may be kept, and that are shown now
+        # points that may be stored, and that are drawn now
+        self._n_free, self._n_drawn = MAX_STORED_POINTS, 0
         self.changes: list[MarkerChange] = []
-        """All so far."""
+        """All changes so far."""
 
-    def look(self, frame: int) -> None:
-        """Note what has changed until a frame."""
+    def update(self, frame: int) -> None:
+        """Record the changes until a frame."""
         if (is_full := len(self.changes) >= MAX_CHANGES) and not self._markers:
             return
-        shown = {} if is_full else self._world.markers.shown
-        before, self._markers = self._markers, shown
-        gone = [name for name in before if name not in shown]
-        for name in gone:
-            self._drawn -= n_points(self._looks.pop(name))
-        self.changes += [MarkerChange(frame=frame, name=name, marker=None) for name in gone]
-        for name, marker in shown.items():
-            if before.get(name) is not marker:
+        markers = {} if is_full else self._world.markers.shown
+        old_markers, self._markers = self._markers, markers
+        names = [name for name in old_markers if name not in markers]
+        for name in names:
+            self._n_drawn -= n_points(self._drawings.pop(name))
+        self.changes += [MarkerChange(frame=frame, name=name, marker=None) for name in names]
+        for name, marker in markers.items():
+            if old_markers.get(name) is not marker:
                 self._renew(name, marker)
-                self.changes.append(MarkerChange(frame=frame, name=name, marker=self._looks[name]))
+                self.changes.append(
+                    MarkerChange(frame=frame, name=name, marker=self._drawings[name])
+                )
 
     def _renew(self, name: str, marker: Marker) -> None:
-        """Draw a marker anew, with as many points as viewers take and the track may hold."""
-        if name in self._looks:
-            self._drawn -= n_points(self._looks[name])
-        room = max(0, min(MAX_POINTS - self._drawn, self._room))
-        look = look_of(marker, self._world.model.scene.world_from_localized, room)
-        if look.lines not in self._shapes:
-            self._shapes.add(look.lines)
-            self._room -= n_points(look)
-        self._drawn += n_points(look)
-        self._looks[name] = look
+        """Draw a marker anew, with as many points as viewers accept and the track may hold."""
+        if name in self._drawings:
+            self._n_drawn -= n_points(self._drawings[name])
+        n_max = max(0, min(MAX_POINTS - self._n_drawn, self._n_free))
+        drawn_marker = look_of(marker, self._world.model.scene.world_from_localized, n_max)
+        if drawn_marker.lines not in self._shapes:
+            self._shapes.add(drawn_marker.lines)
+            self._n_free -= n_points(drawn_marker)
+        self._n_drawn += n_points(drawn_marker)
+        self._drawings[name] = drawn_marker

@@ -1,4 +1,4 @@
-"""Keeps the motion of a trial: the poses of all bodies, and the scene as it changes."""
+"""The recorder of the motion of a trial: the poses of all bodies, and the changes of the scene."""
 
 from __future__ import annotations
 
@@ -24,23 +24,23 @@ CORNERS = 8
 BATCH = 300
 """Rows that are quantised at once."""
 PIXEL = 0.5
-"""Resolution of what is seen in images [px]."""
+"""The resolution of image coordinates [px]."""
 
 
 class MotionRecorder:
-    """Samples a simulation 30 times a second of simulation time.
+    """A recorder that samples a simulation 30 times a second of simulation time.
 
     Args:
-        simulation: the one; its first frame is taken by `start`.
-        measures: those of the benchmark; quadrangles that they compare in images are kept.
+        simulation: the simulation; `start` records its first frame.
+        measures: the measures of the benchmark; quadrangles that they compare are recorded.
     """
 
     def __init__(self, simulation: Simulation, measures: Sequence[MeasureSpec]) -> None:
         self._simulation = simulation
         self._state = TrackedState(simulation.world)
-        self._seen = _compared(measures)
-        self._compared: dict[str, EuclideanNorm] = {}  # camera -> the measure of this level
-        self._signals = (*self._state.signals, *_corner_signals(self._seen))
+        self._cameras = _compared_measures(measures)
+        self._measures: dict[str, EuclideanNorm] = {}  # camera -> the measure of this level
+        self._signals = (*self._state.signals, *_corner_signals(self._cameras))
         self._steps = steps_of(len(self._state.bodies), self._signals)
         self._tables: list[Table] = []  # quantised
         self._rows: list[Array] = []  # the newest, not yet quantised
@@ -48,23 +48,23 @@ class MotionRecorder:
         self._levels: list[TrackLevel] = []
         self._sand, self._markers = SandLog(simulation), MarkerLog(simulation)
         self._due = 0
-        simulation.watch(self._look)
+        simulation.watch(self._update)
 
     def start(self) -> None:
-        """Take the first frame, at step 0."""
-        self._look()
+        """Record the first frame, at step 0."""
+        self._update()
 
     def begin_level(self, measures: Iterable[TriggeredMeasure]) -> None:
-        """A level is measured from now on."""
-        by_name = {triggered.spec.name: triggered.measure for triggered in measures}
-        for camera, name in self._seen.items():
-            measure = by_name[name]
+        """Begin the measurement of a level."""
+        measures_by_name = {measure.spec.name: measure.measure for measure in measures}
+        for camera, name in self._cameras.items():
+            measure = measures_by_name[name]
             if isinstance(measure, EuclideanNorm):
-                self._compared[camera] = measure
+                self._measures[camera] = measure
 
     def end_level(self, row: LevelRow) -> None:
-        """Note a level that has just been measured."""
-        self._compared = {}
+        """Record a level whose measurement has ended."""
+        self._measures = {}
         level = TrackLevel(
             values=dict(row.values),
             began=round(row.ended_at - row.duration, 9),
@@ -77,16 +77,16 @@ class MotionRecorder:
         """Return the file of the track up to now."""
         self._pack()
         table = np.concatenate(self._tables or [np.zeros((0, len(self._steps)), np.int32)])
-        signals = switched(self._signals, table)
-        sand, markers = self._sand.dug(), self._markers.changes
+        signals = compact_lamps(self._signals, table)
+        sand, markers = self._sand.sand(), self._markers.changes
         bodies, levels = self._state.bodies, self._levels
         return track_bytes(bodies, signals, table, levels, sand=sand, markers=markers)
 
-    def _look(self) -> None:
+    def _update(self) -> None:
         while self._simulation.step >= self._due:
             self._rows.append(self._row())
-            self._sand.look(self._n_rows)
-            self._markers.look(self._n_rows)
+            self._sand.update(self._n_rows)
+            self._markers.update(self._n_rows)
             self._n_rows += 1
             self._due = round(self._n_rows / (RATE * self._simulation.timestep))
             if len(self._rows) == BATCH:
@@ -99,50 +99,50 @@ class MotionRecorder:
             self._rows = []
 
     def _row(self) -> Array:
-        corners = [self._corners(self._compared.get(camera)) for camera in self._seen]
+        corners = [self._corners(self._measures.get(camera)) for camera in self._cameras]
         return np.concatenate([self._state.row(), *corners])
 
     @staticmethod
     def _corners(measure: EuclideanNorm | None) -> list[float]:
-        """True and estimated corners in an image, (16,) [px]; NaN: none."""
-        found: list[float] = []
+        """Return the true and estimated corners in an image, (16,) [px]; NaN for none."""
+        numbers: list[float] = []
         for quad in (None, None) if measure is None else (measure.ground_truth, measure.estimate):
             is_whole = quad is not None and quad.shape == (CORNERS,)
-            found += quad.tolist() if quad is not None and is_whole else [np.nan] * CORNERS
-        return found
+            numbers += quad.tolist() if quad is not None and is_whole else [np.nan] * CORNERS
+        return numbers
 
 
-def switched(signals: Sequence[Signal], table: Table) -> tuple[Signal, ...]:
+def compact_lamps(signals: Sequence[Signal], table: Table) -> tuple[Signal, ...]:
     """Store lamps that are never dimmed as on or off: 1 or 0 instead of multiples of 0.01.
 
     Args:
-        signals: what the last columns of the table are.
+        signals: the signals of the last columns of the table.
         table: quantised rows, (frames, 7 bodies + signals); columns of such lamps are changed.
 
     Returns:
-        The signals, with the steps of the table as it is now.
+        The signals, with the steps of the changed table.
     """
-    found, full = list(signals), round(1.0 / BRIGHTNESS)
+    new_signals, n_steps = list(signals), round(1.0 / BRIGHTNESS)
     for k, signal in enumerate(signals, start=-len(signals)):
-        if signal.name.startswith(LAMP) and not (table[:, k] % full).any():
-            table[:, k] //= full
-            found[k] = replace(signal, step=1.0)
-    return tuple(found)
+        if signal.name.startswith(LAMP) and not (table[:, k] % n_steps).any():
+            table[:, k] //= n_steps
+            new_signals[k] = replace(signal, step=1.0)
+    return tuple(new_signals)
 
 
-def _compared(measures: Sequence[MeasureSpec]) -> dict[str, str]:
-    """Return camera -> name of the first measure that compares quadrangles in its images."""
-    found: dict[str, str] = {}
+def _compared_measures(measures: Sequence[MeasureSpec]) -> dict[str, str]:
+    """Return the first measure that compares quadrangles in each camera's images."""
+    names: dict[str, str] = {}
     for spec in measures:
         if isinstance(spec, EuclideanNormSpec) and isinstance(
             spec.ground_truth, CornersFromCameraSpec
         ):
-            found.setdefault(spec.ground_truth.camera, spec.name)
-    return found
+            names.setdefault(spec.ground_truth.camera, spec.name)
+    return names
 
 
 def _corner_signals(cameras: Iterable[str]) -> list[Signal]:
-    """The corners, in the order of `MotionRecorder._corners`."""
+    """Return the signals of the corners, in the order of `MotionRecorder._corners`."""
     return [
         Signal(name=f"{kind}/{camera}/{corner}/{axis}", unit="px", step=PIXEL)
         for camera in cameras

@@ -10,46 +10,46 @@ from ...topics.ros_twist_to_pat import ROSTwistToPATSpec
 from ...topics.thruster_commands import ROSThrustersToPATSpec
 
 JAW = ("jaw", "grip", "hand", "finger")
-"""What the name of a joint says that opens a hand."""
+"""The parts of the name of a joint that opens a hand."""
 
 
 def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     """Return the parameters of `uwsim.algorithms.pilot.Pilot` that the scene gives.
 
-    They are of the first vehicle that can be steered, or of the first of all; empty where the
+    They belong to the first vehicle that can be steered, or to the first of all; empty where the
     scene has no vehicle.
     """
     world = simulation.world
     if not world.vehicles:
         return {}
-    index = _first_steered(simulation)
+    index = _steered_index(simulation)
     name = world.vehicles.names[index]
-    found: dict[str, float | str] = {}
+    parameters: dict[str, float | str] = {}
     for spec in world.model.scene.ros_interfaces:
         if getattr(spec, "vehicle_name", name) != name:
             continue
         if isinstance(spec, ROSTwistToPATSpec):
-            found.setdefault("twist_topic", spec.topic)
+            parameters.setdefault("twist_topic", spec.topic)
         elif isinstance(spec, ROSOdomToPATSpec):
-            found.setdefault("odom_topic", spec.topic)
+            parameters.setdefault("odom_topic", spec.topic)
         elif isinstance(spec, ROSJointStateToArmSpec):
-            found.setdefault("joints_topic", spec.topic)
+            parameters.setdefault("joints_topic", spec.topic)
         elif isinstance(spec, ROSThrustersToPATSpec) and world.vehicles.find(name).thrusters:
-            found.setdefault("thrusters_topic", spec.topic)
-            found["n_thrusters"] = float(len(world.vehicles.find(name).thrusters))
+            parameters.setdefault("thrusters_topic", spec.topic)
+            parameters["n_thrusters"] = float(len(world.vehicles.find(name).thrusters))
     lamps = (lamp.brightness_topic for lamp in world.model.scene.vehicles[index].parts_of(LampSpec))
     if topics := " ".join(dict.fromkeys(topic for topic in lamps if " " not in topic)):
-        found["lamp_topics"] = topics
+        parameters["lamp_topics"] = topics
     joints = list(world.vehicles.find(name).joint_names)
     jaw = ""
     if joints and any(word in joints[-1].lower() for word in JAW):
         jaw = joints.pop()
     down = -float(simulation.pose(name, "W").rotation[2, 2])
-    return {**found, "joints": " ".join(joints), "jaw": jaw, "z_is_down": float(down > 0.0)}
+    return {**parameters, "joints": " ".join(joints), "jaw": jaw, "z_is_down": float(down > 0.0)}
 
 
-def _first_steered(simulation: Simulation) -> int:
-    """Return the number of the first vehicle that takes twists or commands of thrusters; or 0."""
+def _steered_index(simulation: Simulation) -> int:
+    """Return the index of the first vehicle with topics for twists or thruster commands, or 0."""
     world = simulation.world
     names = {
         spec.vehicle_name

@@ -18,7 +18,7 @@ class Snapshot:
     """A camera's last image, with the corners that were true and those that were estimated."""
 
     camera: str
-    """Name of the camera."""
+    """The name of the camera."""
     pixels: npt.NDArray[np.uint8]
     """(h, w, 3)."""
     truth: tuple[float, ...] | None
@@ -33,38 +33,38 @@ def capture(
     *,
     is_tracking: bool,
 ) -> tuple[Snapshot, ...]:
-    """Collect the last image of every camera that published one.
+    """Return the last image of every camera that published one.
 
-    An estimate is kept only if the algorithm ``is_tracking`` still: an old one is no estimate.
+    An estimate is included only if the algorithm still ``is_tracking``; an old one is not valid.
     """
-    taken: dict[str, Snapshot] = {}
+    snapshots: dict[str, Snapshot] = {}
     for images in simulation.world.images.values():
         name = images.camera.name
-        if images.last_pixels is not None and name not in taken:
+        if images.last_pixels is not None and name not in snapshots:
             truth, estimate = _corners(name, measures)
-            taken[name] = Snapshot(
+            snapshots[name] = Snapshot(
                 camera=name,
                 pixels=images.last_pixels,
                 truth=truth,
                 estimate=estimate if is_tracking else None,
             )
-    return tuple(taken.values())
+    return tuple(snapshots.values())
 
 
 def _corners(
     camera: str, measures: Sequence[tuple[MeasureSpec, Measure]]
 ) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
-    """True and estimated corners of the first measure that compares them in this camera."""
+    """Return true and estimated corners of the first measure that compares them in a camera."""
     for spec, measure in measures:
         if not isinstance(spec, EuclideanNormSpec) or not isinstance(measure, EuclideanNorm):
             continue
         truth = spec.ground_truth
         if isinstance(truth, CornersFromCameraSpec) and truth.camera == camera:
-            return _eight(measure.ground_truth), _eight(measure.estimate)
+            return _quad_numbers(measure.ground_truth), _quad_numbers(measure.estimate)
     return None, None
 
 
-def _eight(values: npt.NDArray[np.float64] | None) -> tuple[float, ...] | None:
+def _quad_numbers(values: npt.NDArray[np.float64] | None) -> tuple[float, ...] | None:
     if values is None or values.shape != (8,) or not np.isfinite(values).all():
         return None
     return tuple(values.tolist())

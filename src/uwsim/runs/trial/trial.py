@@ -1,9 +1,9 @@
-"""Executing one trial: an algorithm, a seed, and one level after the other.
+"""The execution of one trial: an algorithm, a seed, and one level after the other.
 
-*Sequential*: algorithm and scene live on from level to level. *Independent*: a level is run alone
-and begins with a prelude at the updaters' initial values: the algorithm starts, gets the place of
-its target and runs 1 s; then the level's values are ramped in over 1 s; only then is measured. A
-benchmark with ``u:prelude="false"`` has none: the level's values hold from the first image on.
+*Sequential*: algorithm and scene continue from level to level. *Independent*: a level is run alone
+and begins with a prelude at the updaters' initial values. The algorithm starts, receives the place
+of its target and runs 1 s; then the level's values are ramped in over 1 s, without measurement.
+Without the prelude (``u:prelude="false"``) the level's values hold from the first image on.
 """
 
 from __future__ import annotations
@@ -44,22 +44,22 @@ from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
 from .live_topics import LiveTopics
 from .log_columns import log_columns
-from .make_algorithm import make_algorithm, parameters_said, unread_parameters
-from .moments import Moments, all_snapshots
+from .make_algorithm import make_algorithm, reported_parameters, unread_parameters
 from .motion_recorder import MotionRecorder
-from .onlooker import Onlooker
+from .phase_images import PhaseImages, all_snapshots
 from .pilot_inputs import pilot_inputs
 from .pilot_topics import pilot_topics
-from .status import SIMULATION_ERROR, StatusMonitor, legible
+from .status import SIMULATION_ERROR, StatusMonitor, to_line
+from .trial_observer import TrialObserver
 from .trial_recorder import TrialRecorder
-from .triggered_measure import TriggeredMeasure, finite
+from .triggered_measure import TriggeredMeasure, finite_value
 from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
-SETTLING = 1.0
-"""How long an independent level runs at the initial values before the ramp [s]."""
-RAMP = 1.0
-"""How long the values of an independent level are ramped in [s]."""
+SETTLING_TIME = 1.0
+"""The time of an independent level at the initial values before the ramp [s]."""
+RAMP_TIME = 1.0
+"""The time in which the values of an independent level are ramped in [s]."""
 
 
 def execute(
@@ -68,19 +68,19 @@ def execute(
     *,
     cache: TrialCache | None = None,
     calls: Calls | None = None,
-    onlooker: Onlooker | None = None,
+    observer: TrialObserver | None = None,
     recorder: TrialRecorder | None = None,
 ) -> Iterator[LevelRow | TrialEnd]:
-    """Run a trial; yields a LevelRow as each level ends, and at last the TrialEnd.
+    """Run a trial; yield a LevelRow at the end of each level, and finally the TrialEnd.
 
     Args:
         plan: the benchmark to run.
         trial: one of its trials.
-        cache: keeps what does not change from trial to trial; without one the trial compiles its
-            scene and has a renderer of its own.
-        calls: counts those into the algorithm.
-        onlooker: looks on between the steps.
-        recorder: writes down the messages.
+        cache: the cache of scenes and renderers; without one the trial compiles its scene and has
+            its own renderer.
+        calls: the counter of calls into the algorithm.
+        observer: the observer between the steps.
+        recorder: the recorder of the messages.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
@@ -97,10 +97,10 @@ def execute(
             with (
                 nullcontext() if recorder is None else recorder.recording(simulation, trial),
                 attribute_errors_to(plan.plugins, when=partial(_moment, simulation, trial)),
-                closing(_Execution(plan, trial, simulation, program, calls, onlooker)) as running,
-                attribute_errors_to(plan.plugins, when=running.moment),
+                closing(_Execution(plan, trial, simulation, program, calls, observer)) as execution,
+                attribute_errors_to(plan.plugins, when=execution.moment),
             ):
-                yield from running.rows()
+                yield from execution.rows()
         finally:
             simulation.close()
 
@@ -119,7 +119,7 @@ class _Execution:
         simulation: Simulation,
         program: Program,
         calls: Calls,
-        onlooker: Onlooker | None,
+        observer: TrialObserver | None,
     ) -> None:
         self._plan, self._trial, self._simulation = plan, trial, simulation
         benchmark = benchmark_of_seed(plan.benchmark, trial.seed)
@@ -131,18 +131,18 @@ class _Execution:
             simulation.bus.services.withdraw(SPAWN_MARKER)
         simulation.bus.keeps_unread = False  # all who read subscribe
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
-        self._measures = benchmark.measures  # as they are bound for the next level
-        ramp_level(self._updaters, self._before())
-        for triggered in self._bind_measures():
-            triggered.close()  # the bus now keeps the messages that they read when they start
+        self._measures = benchmark.measures  # with the specs for the next level
+        ramp_level(self._updaters, self._base_level())
+        for measure in self._bind_measures():
+            measure.close()  # the bus stores the messages read at their start
         self._triggers = LevelTriggers(benchmark, simulation.world.measure_view)
-        self._live = LiveTopics(benchmark.function, self._expression, simulation)
+        self._live_topics = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
         self._calls = calls
-        self._onlooker = onlooker
-        self._inputs = pilot_inputs(plan, trial, simulation, onlooker)
-        found = {} if self._inputs is None else pilot_topics(simulation)
-        self._parameters = {**found, **known_corners(plan), **plan.algorithm.parameters}
+        self._observer = observer
+        self._inputs = pilot_inputs(plan, trial, simulation, observer)
+        scene_parameters = {} if self._inputs is None else pilot_topics(simulation)
+        self._parameters = {**scene_parameters, **known_corners(plan), **plan.algorithm.parameters}
         self._algorithm = make_algorithm(
             plan, partial(program, simulation), self._parameters, calls
         )
@@ -159,13 +159,13 @@ class _Execution:
         self._target_motion: TargetMotion | None = None
         self._floor: Floor | None = None
         self._level: Level | None = None  # the last one
-        self._level_began: int | None = None  # step in which the level began that runs
+        self._level_start: int | None = None  # step in which the level began that runs
         self._n_measured = 0  # steps of the levels so far
         has_images = trial.index == 0 and not plan.is_blind
-        self._moments = Moments(simulation) if has_images else None
+        self._phases = PhaseImages(simulation) if has_images else None
 
     def moment(self) -> str:
-        """``level fog=0.4, seed 7, at 3.02 s``."""
+        """Return ``level fog=0.4, seed 7, at 3.02 s``."""
         level = f"level {self._level}, " if self._level else ""
         return level + _moment(self._simulation, self._trial)
 
@@ -174,22 +174,22 @@ class _Execution:
         plan, simulation = self._plan, self._simulation
         simulation.advance(0.0)
         self._motion.start()
-        if self._onlooker is not None:
+        if self._observer is not None:
             pilot = None if self._inputs is None else self._parameters
-            self._onlooker.open(simulation, self._title(), pilot)
-        parameters = parameters_said(plan, self._algorithm, self._parameters, self._calls)
+            self._observer.open(simulation, self._title(), pilot)
+        parameters = reported_parameters(plan, self._algorithm, self._parameters, self._calls)
         if not plan.is_blind:
             self._facts = visibility_facts(simulation, plan, parameters)
         n_rows = 0
         try:
             for row in self._level_rows():
                 n_rows += 1
-                yield self._ended(row)
+                yield self._finish_row(row)
         except SimulationFailed as error:
             for level in self._trial.levels[n_rows:]:
-                yield self._ended(self._failed_row(level, str(error)))
-        for seen in (self._target_motion, self._floor):
-            self._facts |= {} if seen is None else seen.facts
+                yield self._finish_row(self._failed_row(level, str(error)))
+        for part in (self._target_motion, self._floor):
+            self._facts |= {} if part is None else part.facts
         yield TrialEnd(
             facts=self._facts,
             parameters=parameters,
@@ -201,14 +201,14 @@ class _Execution:
         )
 
     def _level_rows(self) -> Iterator[LevelRow]:
-        """Run the levels; raises SimulationFailed where nothing can follow."""
+        """Run the levels; raise SimulationFailed where no level can follow."""
         plan = self._plan
         self._wait("The benchmark never started")
         if not plan.is_blind:
             self._target_motion = TargetMotion(self._simulation, plan)
             self._floor = Floor(self._simulation, plan)
         floor = self._floor
-        before: Level | None = None
+        last_level: Level | None = None
         for level in self._trial.levels:
             self._level = level
             if self._trial.is_alone:
@@ -216,89 +216,89 @@ class _Execution:
                     floor.start()
                 if plan.benchmark.prelude:
                     self._prelude(level)
-            self._begin(level, before)
-            self._settle(settling_time(self._updater, level, after=before))
+            self._begin(level, last_level)
+            self._settle(settling_time(self._updater, level, after=last_level))
             if floor is not None:
                 floor.begin()
             row = self._run_level(level)
-            self._level_began = None
+            self._level_start = None
             if floor is not None:
                 floor.end()
             yield row
-            before = level
+            last_level = level
 
-    def _ended(self, row: LevelRow) -> LevelRow:
-        """Have it noted that a level is over."""
-        row = replace(row, refused=take_refused_messages(self._algorithm))
+    def _finish_row(self, row: LevelRow) -> LevelRow:
+        """Record the end of a level, and return its row with refused messages."""
+        row = replace(row, refused_messages=take_refused_messages(self._algorithm))
         self._motion.end_level(row)
-        if self._onlooker is not None:
-            self._onlooker.end_level(row)
+        if self._observer is not None:
+            self._observer.end_level(row)
         return row
 
-    def _failed_row(self, level: Level, why: str) -> LevelRow:
+    def _failed_row(self, level: Level, reason: str) -> LevelRow:
         """Return the row of a level whose simulation failed, in it or before it."""
-        began = self._simulation.step if self._level_began is None else self._level_began
-        self._level_began = None
-        measures = self._bind_measures()  # what they were is not true
-        row = self._row(level, measures, SIMULATION_ERROR, legible(why), began)
+        start_step = self._simulation.step if self._level_start is None else self._level_start
+        self._level_start = None
+        measures = self._bind_measures()  # without the values of the failed level
+        row = self._row(level, measures, SIMULATION_ERROR, to_line(reason), start_step)
         self._close_measures(measures)
         return row
 
-    def _before(self) -> Level:
-        """The values before the first level."""
+    def _base_level(self) -> Level:
+        """Return the values before the first level."""
         if self._trial.is_alone and not self._plan.benchmark.prelude:
             return self._trial.levels[0]
         return initial_level(self._updater)
 
     def _title(self) -> str:
-        """``currents, pi, seed 7``."""
+        """Return ``currents, pi, seed 7``."""
         name = Path(self._plan.benchmark.path).stem
         return f"{name}, {self._plan.algorithm.name}, seed {self._trial.seed}"
 
     def close(self) -> None:
-        """Close what updaters hold open, and let nobody look any more."""
-        if self._onlooker is not None:
-            self._onlooker.close()
+        """Close the files of updaters, and end the observation."""
+        if self._observer is not None:
+            self._observer.close()
         for updater in self._updaters:
             updater.close()
 
     def _streams(self) -> tuple[tuple[str, int, str], ...]:
-        """Topic, number and SHA-256 of the images published, by topic."""
+        """Return topic, number and SHA-256 of the images published, by topic."""
         cameras = [
             (topic, images.n_frames, images.sha256)
             for topic, images in self._simulation.world.images.items()
         ]
         return tuple(sorted([*cameras, *(s for u in self._updaters for s in u.streams)]))
 
-    def _wait(self, never: str) -> bool:
+    def _wait(self, message: str) -> bool:
         """Advance until a level may begin; return whether that took any time.
 
         Raises:
-            NeverStarted: it did not within the benchmark's patience, or the algorithm raised.
+            NeverStarted: no level began within the benchmark's patience, or the algorithm failed.
         """
         simulation, node, patience = self._simulation, self._node, self._plan.patience
-        began = simulation.time
+        start_time = simulation.time
         while not self._triggers.may_begin():
             if node.error is not None:
                 raise NeverStarted(
-                    f"{never}: algorithm {node.name!r} {node.how} before: {legible(node.error)}"
+                    f"{message}: algorithm {node.name!r} {node.how} before: {to_line(node.error)}"
                 )
-            if simulation.time - began >= patience:
-                why = self._triggers.why_not(patience)
-                doubt = f"{never}: {why}. Does algorithm {node.name!r} see to it?"
-                raise NeverStarted(" ".join([doubt, *node.unfed()]))
+            if simulation.time - start_time >= patience:
+                reason = self._triggers.describe_wait(patience)
+                question = f"{message}: {reason}. Does algorithm {node.name!r} see to it?"
+                raise NeverStarted(" ".join([question, *node.unfed()]))
             simulation.advance()
-        return simulation.time > began
+        return simulation.time > start_time
 
     def _prelude(self, level: Level) -> None:
-        """Let the algorithm settle at the initial values, then ramp in the level's."""
+        """Run the algorithm at the initial values, then ramp in the level's."""
         plan, simulation = self._plan, self._simulation
         measures = self._bind_measures()
-        settling, ramp = round(SETTLING / plan.timestep), round(RAMP / plan.timestep)
-        initial = initial_level(self._updater)
+        settling, ramp = round(SETTLING_TIME / plan.timestep), round(RAMP_TIME / plan.timestep)
+        initial_values = initial_level(self._updater)
         _tick(measures)
         for _ in range(settling):
-            ramp_level(self._updaters, initial)
+            ramp_level(self._updaters, initial_values)
             simulation.advance()
             _tick(measures)
         for i in range(1, ramp + 1):
@@ -313,76 +313,76 @@ class _Execution:
         ]
 
     def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
-        """Close them, and remember which have initialised an algorithm."""
+        """Close measures, and record which have initialised an algorithm."""
         self._measures = tuple(
-            triggered.spec.once_initialised if triggered.measure.has_initialised else triggered.spec
-            for triggered in measures
+            measure.spec.once_initialised if measure.measure.has_initialised else measure.spec
+            for measure in measures
         )
-        for triggered in measures:
-            triggered.close()
+        for measure in measures:
+            measure.close()
 
-    def _step_to(self, level: Level, before: Level | None) -> None:
-        """Bring the scene to a level; the first of a sequence is no step."""
-        if before is None and not self._trial.is_alone:
+    def _step_to(self, level: Level, last_level: Level | None) -> None:
+        """Bring the scene to a level; the first of a sequence is not a step."""
+        if last_level is None and not self._trial.is_alone:
             begin_level(self._updaters, level)
         else:
-            apply_level(self._updaters, level, after=before)
+            apply_level(self._updaters, level, after=last_level)
 
-    def _begin(self, level: Level, before: Level | None) -> None:
+    def _begin(self, level: Level, last_level: Level | None) -> None:
         """Bring the scene to a level, and wait until it may begin."""
-        self._step_to(level, before)
-        from_initial = self._before() if self._trial.is_alone else before
-        self._live.changed(level, after=from_initial)
+        self._step_to(level, last_level)
+        from_initial = self._base_level() if self._trial.is_alone else last_level
+        self._live_topics.record_change(level, last_level=from_initial)
         self._triggers.arm()
         if self._wait(f"Level {level} never began"):
-            self._step_to(level, before)
+            self._step_to(level, last_level)
             self._triggers.arm()
 
     def _settle(self, seconds: float) -> None:
         """Advance through the settling time, which is not measured."""
         for _ in range(round(seconds / self._plan.timestep)):
             self._simulation.advance()
-            self._monitor.listen(self._simulation.time)
+            self._monitor.read_reports(self._simulation.time)
 
     def _run_level(self, level: Level) -> LevelRow:
         """Run one level, with newly bound triggers and measures."""
         plan, simulation, monitor = self._plan, self._simulation, self._monitor
-        began = self._level_began = simulation.step
+        start_step = self._level_start = simulation.step
         monitor.begin_level()
         measures = self._bind_measures()
         self._motion.begin_level(measures)
-        if self._onlooker is not None:
-            self._onlooker.begin_level(level, measures)
+        if self._observer is not None:
+            self._observer.begin_level(level, measures)
         length = interval(self._updater)
         n_steps = round((MAX_TASK_DURATION if length is None else length) / plan.timestep)
-        stopped, ended = False, None
+        is_stopped, ending = False, None
         _tick(measures)
-        monitor.listen(simulation.time)
+        monitor.read_reports(simulation.time)
         for _ in range(n_steps):
             simulation.advance()
             self._n_measured += 1
             _tick(measures)
-            self._live.update(level, self._n_measured * plan.timestep, measures)
-            if self._moments is not None:
-                self._moments.look(measures)
-            monitor.listen(simulation.time)
-            stopped = not self._triggers.is_open()
-            ended = _end_of_level(measures)
-            is_over = self._trial.is_alone and monitor.failed is not None  # nothing can follow
-            if stopped or ended is not None or is_over:
+            self._live_topics.update(level, self._n_measured * plan.timestep, measures)
+            if self._phases is not None:
+                self._phases.update(measures)
+            monitor.read_reports(simulation.time)
+            is_stopped = not self._triggers.is_open()
+            ending = _end_of_level(measures)
+            is_over = self._trial.is_alone and monitor.failure is not None  # nothing can follow
+            if is_stopped or ending is not None or is_over:
                 break
-        for triggered in measures:
-            triggered.end()
-            check_values(triggered.measure)
-        if self._moments is not None:
-            self._moments.end(measures)
-        overran = MAX_TASK_DURATION if length is None and not stopped and ended is None else None
-        status, why = monitor.status(measures, overran=overran, ended=ended)
-        for triggered in measures:
+        for measure in measures:
+            measure.end()
+            check_values(measure.measure)
+        if self._phases is not None:
+            self._phases.end(measures)
+        cutoff = MAX_TASK_DURATION if length is None and not is_stopped and ending is None else None
+        status, reason = monitor.status(measures, cutoff=cutoff, ending=ending)
+        for measure in measures:
             self._notes.update(
-                (f"{triggered.spec.name}: {note}", None) for note in triggered.measure.notes
+                (f"{measure.spec.name}: {note}", None) for note in measure.measure.notes
             )
-        row = self._row(level, measures, status, why, began)
+        row = self._row(level, measures, status, reason, start_step)
         self._close_measures(measures)
         return row
 
@@ -391,55 +391,55 @@ class _Execution:
         level: Level,
         measures: list[TriggeredMeasure],
         status: str,
-        why: str | None,
-        began: int,
+        status_reason: str | None,
+        start_step: int,
     ) -> LevelRow:
         simulation = self._simulation
-        cells = cells_of(measures, status, why)
+        cells = cells_of(measures, status, status_reason)
         score = self._expression.score(cells.values)
-        total, reason = finite(score.value if status == "ok" else None)
+        total, reason = finite_value(score.value if status == "ok" else None)
         if total is None:
-            cells.missing["total"] = why or score.reason or f"the function: {reason}"
-        logged = [triggered for triggered in measures if triggered.spec.log is not None]
+            cells.missing_reasons["total"] = status_reason or score.reason or f"the function: {reason}"
+        logged_measures = [measure for measure in measures if measure.spec.log is not None]
         return LevelRow(
             values=level.values,
             measures={name: (value, cells.units[name]) for name, value in cells.values.items()},
             details=cells.details,
             total=total,
             status=status,
-            missing=cells.missing,
+            missing_reasons=cells.missing_reasons,
             ended_at=simulation.time,
-            duration=(simulation.step - began) * simulation.timestep,
-            logs={triggered.spec.name: triggered.log for triggered in logged},
+            duration=(simulation.step - start_step) * simulation.timestep,
+            logs={measure.spec.name: measure.log for measure in logged_measures},
             log_headers={
-                triggered.spec.name: log_columns(triggered.measure) for triggered in logged
+                measure.spec.name: log_columns(measure.measure) for measure in logged_measures
             },
             fingerprint=self._fingerprinter.fingerprint,
             remarks=_remarks(measures),
             snapshots=()
             if self._plan.is_blind or status == SIMULATION_ERROR
-            else all_snapshots(simulation, measures, self._moments, is_tracking=status == "ok"),
+            else all_snapshots(simulation, measures, self._phases, is_tracking=status == "ok"),
         )
 
 
 def _tick(measures: list[TriggeredMeasure]) -> None:
-    """Let every measure see the world as it is now."""
-    for triggered in measures:
-        triggered.tick()
+    """Update every measure with the current state of the world."""
+    for measure in measures:
+        measure.tick()
 
 
 def _remarks(measures: list[TriggeredMeasure]) -> tuple[str, ...]:
-    """What measures remark of a level, each remark once with the measures that make it."""
+    """Return the remarks of measures on a level, each once with the measures that make it."""
     names: dict[str, list[str]] = {}
-    for triggered in measures:
-        for remark in triggered.measure.remarks:
-            names.setdefault(remark, []).append(triggered.spec.name)
-    return tuple(f"{', '.join(found)}: {remark}" for remark, found in names.items())
+    for measure in measures:
+        for remark in measure.measure.remarks:
+            names.setdefault(remark, []).append(measure.spec.name)
+    return tuple(f"{', '.join(measure_names)}: {remark}" for remark, measure_names in names.items())
 
 
 def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:
-    """Why a measure ends the level now; None if it continues."""
-    for triggered in measures:
-        if why := triggered.measure.ends_level:
-            return why
+    """Return the reason of a measure that ends the level now; None if it continues."""
+    for measure in measures:
+        if reason := measure.measure.ends_level:
+            return reason
     return None

@@ -1,4 +1,4 @@
-"""Somebody who writes down the messages of a trial."""
+"""The protocol of a recorder of the messages of trials."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..planning.plan import Trial
 
 
 class TrialRecorder(Protocol):
-    """What records trials; it changes nothing in them, and can be sent to another process."""
+    """A recorder of trials; it changes nothing in them, and can be sent to another process."""
 
     def recording(self, simulation: Simulation, trial: Trial) -> AbstractContextManager[None]:
         """Record a trial until its end; its simulation is at step 0, and nothing is attached."""

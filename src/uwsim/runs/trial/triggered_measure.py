@@ -13,16 +13,16 @@ from ...world import World
 Sample = tuple[float | None, ...]
 
 
-def finite(value: object) -> tuple[float | None, str | None]:
-    """Return a measure's value as a result may hold it; else None, and why."""
+def finite_value(value: object) -> tuple[float | None, str | None]:
+    """Return a measure's value if a result may hold it, else None; and the reason of None."""
     if value is None:
         return None, None
     if isinstance(value, Real) and not isinstance(value, bool):
         try:
             number = value if isinstance(value, int | float) else float(value)
             if math.isfinite(number):
-                beyond = f"it gave {number:.3g}, beyond what can be reckoned with ({MAX_VALUE:g})"
-                return (number, None) if abs(number) <= MAX_VALUE else (None, beyond)
+                message = f"it gave {number:.3g}, beyond what can be reckoned with ({MAX_VALUE:g})"
+                return (number, None) if abs(number) <= MAX_VALUE else (None, message)
             return None, f"it gave {number}"
         except OverflowError:
             return None, "it gave a whole number beyond float64"
@@ -36,47 +36,47 @@ class TriggeredMeasure:
         self.spec = spec
         self.measure = spec.bind(world)
         self.log: list[Sample] = []
-        """Samples taken so far: time in the level [s], then the measure's `log_values`."""
+        """The samples so far: time in the level [s], then the measure's `log_values`."""
         self._world = world
         self._start = spec.start_on.bind(world)
         self._stop = spec.stop_on.bind(world)
-        self._asks = not (self._start.is_constant and self._stop.is_constant)
-        self._is_on = not self._asks and self._ask()
-        self._began = world.step
+        self._has_triggers = not (self._start.is_constant and self._stop.is_constant)
+        self._is_on = not self._has_triggers and self._read_triggers()
+        self._step0 = world.step
         self._was_on = False
         self._log_due = 0 if spec.log is not None else None
         self.never_started = True
-        """Whether it was off all the time so far."""
+        """A flag: it was off all the time so far."""
 
     @property
     def value(self) -> object:
         """The measure's value.
 
-        Of one that never started it is None; with the compatibility ``never-started``, as in the
-        original, what it starts with, unless that is an error there, too.
+        It is None if the measure never started. With the compatibility ``never-started``, as in the
+        original, it is the start value, unless that is an error there, too.
         """
         return self.spec.start_value if self.has_start_value else self.measure.value
 
     @property
     def has_start_value(self) -> bool:
-        """Whether its value is only a start value."""
+        """A flag: its value is only a start value."""
         is_asked = "never-started" in self._world.compatibility
         is_known = self.spec.error_flag == 0 and self.spec.start_value is not None
         return self.never_started and is_asked and is_known
 
     def tick(self) -> None:
         """Start, update or stop the measure according to its triggers."""
-        on = self._ask() if self._asks else self._is_on
-        if on and not self._was_on:
+        is_on = self._read_triggers() if self._has_triggers else self._is_on
+        if is_on and not self._was_on:
             self.never_started = False
             self.measure.start()
-        elif on:
+        elif is_on:
             self.measure.update()
         elif self._was_on:
             self.measure.went_off()
-        if on and self._log_due is not None and self._world.step - self._began >= self._log_due:
+        if is_on and self._log_due is not None and self._world.step - self._step0 >= self._log_due:
             self._take_log()
-        self._was_on = on
+        self._was_on = is_on
 
     def end(self) -> None:
         """Stop the measure with the level."""
@@ -90,14 +90,14 @@ class TriggeredMeasure:
         self._start.close()
         self._stop.close()
 
-    def _ask(self) -> bool:
+    def _read_triggers(self) -> bool:
         return self._start.is_on() and not self._stop.is_on()
 
     def _take_log(self) -> None:
         """Take a sample; the next is due at the next multiple of the period."""
         assert self.spec.log is not None
         timestep = self._world.timestep
-        elapsed = (self._world.step - self._began) * timestep
-        self.log.append((elapsed, *(finite(value)[0] for value in sample_of(self.measure))))
-        n_next = math.floor(elapsed / self.spec.log + 1e-9) + 1
+        time = (self._world.step - self._step0) * timestep
+        self.log.append((time, *(finite_value(value)[0] for value in sample_of(self.measure))))
+        n_next = math.floor(time / self.spec.log + 1e-9) + 1
         self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)

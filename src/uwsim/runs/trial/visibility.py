@@ -12,11 +12,11 @@ which falls below z at
 
 The noise of a camera is that of each of its channels, ``255 std`` grey levels. Grey is a weighted
 sum of three of them, so its noise is smaller by the norm of the weights, 0.669; ``f_star_grey`` is
-the limit with that, nearer to what a tracker of grey images meets. Not modelled: noise in the
+the limit with that, nearer to the noise for a tracker of grey images. Not modelled: noise in the
 template, 8-bit quantisation, the tracker's own error.
 
-Whether the target moves in the image is measured too: a tracker of what stands still has nothing
-to track.
+The motion of the target in the image is measured, too: a tracker of a target at rest has nothing to
+track.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ def visibility_facts(
     Returns:
         ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z``, ``f_star`` and
         ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey image.
-        The last three only of an algorithm that has the rule, by its parameter
-        ``zncc_threshold``. Empty when no measure uses corners.
+        The last three only for an algorithm with the parameter ``zncc_threshold``. Empty when no
+        measure uses corners.
     """
     for spec in plan.benchmark.measures:
         if not isinstance(spec, EuclideanNormSpec):
@@ -68,25 +68,25 @@ def visibility_facts(
         )
         assert image.range is not None
         assert image.colour is not None
-        inside = quad_mask(corners.reshape(4, 2), image.range.shape)
-        inside &= np.isfinite(image.range)
-        if not inside.any():
+        mask = quad_mask(corners.reshape(4, 2), image.range.shape)
+        mask &= np.isfinite(image.range)
+        if not mask.any():
             continue
         grey = product(image.colour[..., :3].astype(np.float64), GREY)
-        contrast = float(grey[inside].std())
-        distance = float(image.range[inside].mean())
+        contrast = float(grey[mask].std())
+        distance = float(image.range[mask].mean())
         sigma = 255.0 * camera.state.std
         sigma_grey = sigma * length(GREY)
-        given = parameters.get("zncc_threshold")
+        threshold_setting = parameters.get("zncc_threshold")
         facts: dict[str, Fact] = {
             "S": (contrast, "grey level"),
             "sigma": (sigma, "grey level"),
             "sigma_grey": (sigma_grey, "grey level"),
             "d": (distance, "m"),
         }
-        if not isinstance(given, float | int):
+        if not isinstance(threshold_setting, float | int):
             return facts
-        threshold = float(given)
+        threshold = float(threshold_setting)
         facts["z"] = (threshold, "1")
         for name, noise in (("f_star", sigma), ("f_star_grey", sigma_grey)):
             limit = fog_of_loss(contrast, noise, distance, threshold)
@@ -97,24 +97,24 @@ def visibility_facts(
 
 
 class TargetMotion:
-    """How far the first target whose corners are tracked moves in its image, while it is watched.
+    """The range of motion, in its image, of the first target whose corners are tracked.
 
-    Sampled every 16th step.
+    It is sampled every 16th step.
     """
 
-    EVERY = 16
+    SAMPLE_PERIOD = 16
 
     def __init__(self, simulation: Simulation, plan: Plan) -> None:
         self._truth = _first_truth(simulation, plan)
-        self._low = self._high = np.zeros(0)  # least and largest of each number so far [px]
+        self._low = self._high = np.zeros(0)  # the range of each number so far [px]
         self._steps = 0
         if self._truth is not None:
             simulation.watch(self.tick)
 
     def tick(self) -> None:
-        """Look at the image after one more step."""
+        """Sample the corners after one more step."""
         self._steps += 1
-        if self._steps % self.EVERY or self._truth is None:
+        if self._steps % self.SAMPLE_PERIOD or self._truth is None:
             return
         corners = self._truth.read()
         if corners is not None:
@@ -139,7 +139,7 @@ def _first_truth(simulation: Simulation, plan: Plan) -> GroundTruth | None:
 
 
 def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float) -> float | None:
-    """Fog density f* [1/m] at which the ZNCC falls to the threshold; None if it never does."""
+    """Return the fog density f* [1/m] at which the ZNCC falls to the threshold, if it does."""
     if noise <= 0.0 or distance <= 0.0 or not 0.0 < threshold < 1.0 or contrast <= 0.0:
         return None
     ratio = contrast * math.sqrt(1.0 / threshold**2 - 1.0) / noise
@@ -147,14 +147,14 @@ def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float
 
 
 def quad_mask(corners: Array, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
-    """Pixels with centres inside a convex quadrangle (4, 2) [px], (h, w) bool."""
+    """Return the mask of pixels with centres in a convex quadrangle (4, 2) [px], (h, w) bool."""
     v, u = np.mgrid[0 : shape[0], 0 : shape[1]]
     sides = [
         (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0])
         for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True)
     ]
-    stacked = np.stack(sides)
-    inside: npt.NDArray[np.bool_] = np.logical_or(
-        (stacked >= 0.0).all(axis=0), (stacked <= 0.0).all(axis=0)
+    products = np.stack(sides)
+    mask: npt.NDArray[np.bool_] = np.logical_or(
+        (products >= 0.0).all(axis=0), (products <= 0.0).all(axis=0)
     )
-    return inside
+    return mask

@@ -29,7 +29,7 @@ REPORT_DELAY = 1.0
 
 
 class LiveSession:
-    """The viewers of simulations, one after the other (`uwsim.runs.trial.onlooker.Onlooker`).
+    """The viewers of simulations, one after the other (`uwsim.runs.trial.trial_observer`).
 
     Args:
         server: the server of the pages.

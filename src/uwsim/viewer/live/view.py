@@ -113,7 +113,7 @@ class LiveView:
         """Publish that a level is over."""
         self._send_samples()
         self._measures = ()
-        reason = row.missing.get("total", "")
+        reason = row.missing_reasons.get("total", "")
         self._levels[-1] |= {"status": row.status, "why": reason, "end": row.ended_at}
         self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
 

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from uwsim.base.geometry import Pose
-from uwsim.runs.trial.moments import DISTANCE, observer, with_inset
+from uwsim.runs.trial.phase_images import DISTANCE, observer_pose, with_inset
 
 DOWN = np.diag([1.0, -1.0, -1.0])  # x ahead, y to starboard, z down, in a world with z up
 
 
 def test_the_observer_looks_at_the_point_from_starboard_and_above() -> None:
     at = np.array([1.0, 2.0, -3.0])
-    found = observer(Pose(np.zeros(3), DOWN), at)
+    found = observer_pose(Pose(np.zeros(3), DOWN), at)
     away = found.position - at
     assert np.linalg.norm(away) == pytest.approx(DISTANCE)
     assert away[1] < 0.0  # starboard is -y here

@@ -1,4 +1,4 @@
-"""Somebody who looks on while a trial runs, and may hand in what a pilot does."""
+"""The protocol of an observer of trials, which may supply a pilot's inputs."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from .level_row import LevelRow
 from .triggered_measure import TriggeredMeasure
 
 
-class Onlooker(Protocol):
-    """What looks at a trial between its steps; it changes nothing but by the pilot's inputs."""
+class TrialObserver(Protocol):
+    """An observer of a trial between its steps, which changes only the pilot's inputs."""
 
     def open(
         self,
@@ -20,22 +20,22 @@ class Onlooker(Protocol):
         title: str,
         parameters: Mapping[str, float | str] | None = None,
     ) -> None:
-        """A trial begins; its simulation is at step 0.
+        """Begin a trial, whose simulation is at step 0.
 
         Args:
-            simulation: the one.
-            title: of the trial.
-            parameters: of the pilot; None: nobody pilots.
+            simulation: the simulation of the trial.
+            title: the title of the trial.
+            parameters: the parameters of the pilot; None without a pilot.
         """
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
-        """A level is measured from now on."""
+        """Begin the measurement of a level."""
 
     def end_level(self, row: LevelRow) -> None:
-        """A level is over."""
+        """End a level."""
 
     def pilot(self) -> Sequence[float] | None:
-        """Return what a pilot does now (`uwsim.algorithms.pilot.AXES`); None: nobody pilots."""
+        """Return the pilot's inputs (`uwsim.algorithms.pilot.AXES`); None without a pilot."""
 
     def close(self) -> None:
-        """The trial is over; its simulation is about to be closed."""
+        """End the trial, before its simulation is closed."""
