@@ -92,5 +92,5 @@ def test_the_summary_of_one_repeat_has_no_limits_but_those_of_the_rate() -> None
 
 def test_the_old_name_of_the_intervals_works_and_warns() -> None:
     with pytest.warns(DeprecationWarning, match="use 'intervals_of'"):
-        found = per_level(two_seeds(), "total")
-    assert found == intervals_of(two_seeds(), "total")
+        found = per_level(two_seeds(), "corners")
+    assert found == intervals_of(two_seeds(), "corners")

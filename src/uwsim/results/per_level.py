@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 
-from ..base.deprecation import deprecated
+from ..base.deprecation import deprecated_name
 from ..statistics import Interval, Rate, mean_interval, rate
 from .result import Result
 
@@ -97,7 +97,7 @@ def intervals_of(result: Result, column: str, *, confidence: float = 0.95) -> li
     return intervals
 
 
-@deprecated("intervals_of")
+@deprecated_name("intervals_of")
 def per_level(result: Result, column: str, *, confidence: float = 0.95) -> list[LevelInterval]:
     """Call `intervals_of`, whose old name this is."""
     return intervals_of(result, column, confidence=confidence)

@@ -62,6 +62,8 @@ def hash_algorithm(plan: Plan) -> dict[str, str] | None:
 
 def _hash_files(files: Mapping[str, Path]) -> list[InputFile]:
     """Hash and record files that are read later, or by other processes."""
-    hashes = [InputFile(portable_name(name), compute_hash(path), path) for name, path in files.items()]
+    hashes = [
+        InputFile(portable_name(name), compute_hash(path), path) for name, path in files.items()
+    ]
     record(hashes)
     return hashes

@@ -399,7 +399,9 @@ class _Execution:
         score = self._expression.score(cells.values)
         total, reason = finite_value(score.value if status == "ok" else None)
         if total is None:
-            cells.missing_reasons["total"] = status_reason or score.reason or f"the function: {reason}"
+            cells.missing_reasons["total"] = (
+                status_reason or score.reason or f"the function: {reason}"
+            )
         logged_measures = [measure for measure in measures if measure.spec.log is not None]
         return LevelRow(
             values=level.values,
