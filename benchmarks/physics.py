@@ -160,7 +160,7 @@ def settled(box: str) -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
 
 def in_the_tank() -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
     path = Path(str(files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
-    scene = read_scene(path).nominal
+    scene = read_scene(path).nominal_scene
     tank, box = scene.objects
     box = replace(box, is_solid=None)
     tank = replace(tank, physics=PhysicsSpec(mass=0.0, collision_shape_type="trimesh"))

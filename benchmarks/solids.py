@@ -41,7 +41,7 @@ import uwsim
 from uwsim.scene.reader import read_scene
 uwsim.load
 began = time.process_time()
-simulation = uwsim.load(read_scene(sys.argv[1]).nominal)
+simulation = uwsim.load(read_scene(sys.argv[1]).nominal_scene)
 opened = time.process_time() - began
 steps.drive(simulation, 1, 50)
 batches = sorted(steps.drive(simulation, 1, 40) for _ in range(9))

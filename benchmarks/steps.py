@@ -196,7 +196,7 @@ def row(name: str) -> dict[str, object]:
     with tempfile.TemporaryDirectory() as folder:
         path = written(name, Path(folder))
         began = time.process_time()
-        scene = read_scene(path).nominal
+        scene = read_scene(path).nominal_scene
         simulation = uwsim.load(scene)
         built = time.process_time() - began
         drive(simulation, n_vehicles, 2)

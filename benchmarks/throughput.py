@@ -82,7 +82,7 @@ def measure() -> dict[str, object]:
         two = wall_s(benchmark, "two", 2, None)
         outs = ("one-thread", "one", "two")
         results = {(folder / out / "result.json").read_bytes() for out in outs}
-    scene = read_scene(find("currents-scene.xml")).nominal
+    scene = read_scene(find("currents-scene.xml")).nominal_scene
     pool = RendererPool()
     return {
         "levels": LEVELS,

@@ -55,14 +55,14 @@ def page() -> str:
     """Return ``docs/dialect.md``."""
     from uwsim.scene.reader import ROOT
     from uwsim.scene.spec import SceneSpec
-    from uwsim.scene.unsupported import limit_of
+    from uwsim.scene.unsupported import describe_limit
 
     parts = [HEAD]
     done: set[type] = set()
     for parent, name, cls in _specs("", ROOT, SceneSpec):
         if cls not in done:
             done.add(cls)
-            limit = limit_of(parent, clark(name))
+            limit = describe_limit(parent, clark(name))
             parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
     return "\n".join([*parts, _plausibility_warnings(), _old_names()])
 
@@ -87,7 +87,7 @@ def _plausibility_warnings() -> str:
 
 def _old_names() -> str:
     """Elements of files from 2011 to 2019."""
-    from uwsim.scene.legacy import ANYWHERE, RULES
+    from uwsim.scene.legacy import ANY_PARENT_RULES, RULES
 
     by_parent: dict[str, list[str]] = {}
     for parent, element in RULES:
@@ -98,7 +98,7 @@ def _old_names() -> str:
         "ignored; `uwsim check` reports each.", "",
         "| in | old elements |", "|---|---|",
     ]  # fmt: skip
-    for parent, elements in [*sorted(by_parent.items()), ("anything", list(ANYWHERE))]:
+    for parent, elements in [*sorted(by_parent.items()), ("anything", list(ANY_PARENT_RULES))]:
         where = parent if parent == "anything" else f"`{parent}`"
         lines.append(f"| {where} | " + ", ".join(f"`{each}`" for each in sorted(elements)) + " |")
     return "\n".join(lines) + "\n"
@@ -172,7 +172,7 @@ def _section(
         limit: how far it is simulated; empty: wholly.
         homes: where the sections of specs are; of others under their own name on this page.
     """
-    from uwsim.scene.unsupported import limit_of
+    from uwsim.scene.unsupported import describe_limit
 
     doc = (inspect.getdoc(cls) or "").strip()
     module = sys.modules[cls.__module__].__doc__ or ""
@@ -188,7 +188,7 @@ def _section(
     lines += ["| element | content | default | meaning |", "|---|---|---|---|"]
     for field in fields_of(cls):
         mark = " (attribute)" if field.xml.attribute else ""
-        part = "" if title is not None else limit_of(name, clark(field.label))
+        part = "" if title is not None else describe_limit(name, clark(field.label))
         meaning = _markdown(field.doc) + (f" *({part})*" if part else "")
         cells = (f"`{field.label}`{mark}", _kind(field, homes), _default(field), meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")

@@ -12,7 +12,7 @@ from tests.support.opened import open_scene
 from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main
 from uwsim.scene.reader import read_scene
-from uwsim.scene.unsupported import UNSUPPORTED
+from uwsim.scene.unsupported import UNSIMULATED_ELEMENTS
 
 
 def said(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -69,7 +69,7 @@ def test_fins_and_the_drag_law_of_each_link_are_listed(capsys: pytest.CaptureFix
 def test_topics_have_type_direction_and_rate_and_those_that_do_nothing_say_so(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(UNSUPPORTED, ("rosInterfaces", "DVLSensorToROS"), "DVLSensorToROS")
+    monkeypatch.setitem(UNSIMULATED_ELEMENTS, ("rosInterfaces", "DVLSensorToROS"), "DVLSensorToROS")
     text = bundled_files("scenes")["currents-scene"].read_text()
     dvl = "<name>dvl</name> <relativeTo>base_link</relativeTo>"
     text = text.replace("<virtualCamera>", f"<dvlSensor>{dvl}</dvlSensor><virtualCamera>", 1)

@@ -20,7 +20,7 @@ from uwsim.cli.options.descriptions import first_line, head_comment, without_tit
 from uwsim.model.robots import find_file
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
-from uwsim.scene.unsupported import UNSUPPORTED
+from uwsim.scene.unsupported import UNSIMULATED_ELEMENTS
 from uwsim.scene.urdf.reader import read_urdf
 
 YOUR_OWN = Path(__file__).parents[2] / "docs" / "your-own-vehicle.md"
@@ -55,7 +55,7 @@ def test_a_misspelt_kind_is_reported_with_the_right_one(capsys: pytest.CaptureFi
 def dvl_read_only(monkeypatch: pytest.MonkeyPatch) -> None:
     """Make the DVL an element that is read and not simulated."""
     for place in (("vehicle", "dvlSensor"), ("rosInterfaces", "DVLSensorToROS")):
-        monkeypatch.setitem(UNSUPPORTED, place, place[1])
+        monkeypatch.setitem(UNSIMULATED_ELEMENTS, place, place[1])
 
 
 @pytest.mark.usefixtures("dvl_read_only")

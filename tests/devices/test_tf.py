@@ -97,7 +97,7 @@ def test_a_transform_that_is_none_is_left_out() -> None:
 
 def test_a_vehicle_in_water_follows_the_same_in_steps_taken_one_by_one(tmp_path: Path) -> None:
     def end(*, at_once: bool) -> np.ndarray:
-        scene = read_scene(scene_file("currents-scene", ())).nominal
+        scene = read_scene(scene_file("currents-scene", ())).nominal_scene
         vehicle = replace(scene.vehicles[0], parts=(), tf=TfSpec(tf_id="leader"))
         with open_scene(replace(scene, vehicles=(vehicle,), ros_interfaces=())) as simulation:
             x, y, z = vehicle.position

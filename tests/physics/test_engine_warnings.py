@@ -29,7 +29,7 @@ SCENE = Path(str(resources.files("uwsim") / "data" / "scenes" / "currents-scene.
 
 
 def diverge() -> None:
-    simulation = open_scene(read_scene(SCENE).nominal, is_blind=True)
+    simulation = open_scene(read_scene(SCENE).nominal_scene, is_blind=True)
     simulation.world.engine._data.qvel[0] = 1e12
     try:
         simulation.advance()

@@ -81,7 +81,7 @@ def test_every_error_of_a_file_is_reported_at_once_with_its_line(tmp_path: Path)
         "2: link 'base_lnk': added mass has 3 numbers; expected 6 or 36",
         "3: link 'base_link': added mass is not positive semi-definite: its least eigenvalue is -1",
         "3: <mss> is not an element of <body>. Did you mean mass?",
-        "4: two <body> for the link 'base_link'; only one may be",
+        "4: two <body> for the link 'base_link'; only one is allowed",
         "4: <linearDamping> contains 'x'; expected numbers",
         "5: <quadraticDamping> contains '1e10'; no quantity is beyond 1e+09",
         "4: <shape> is 'bocks'; expected one of 'sphere', 'ellipsoid', 'box'",
@@ -180,7 +180,7 @@ def test_fins_and_thrust_at_speed_are_read_and_their_faults_have_lines(tmp_path:
     assert found.thrusters[1].advance == (0.0, 0.45, 0.9, 0.0)
     (rudder,) = found.fins
     assert rudder.slope == pytest.approx(1 / (1 / (1.8 * np.pi) + 1 / (2 * np.pi)))
-    assert rudder.induced == pytest.approx(1 / (1.8 * np.pi))
+    assert rudder.induced_drag_slope == pytest.approx(1 / (1.8 * np.pi))
     first = text.splitlines().index(thruster.splitlines()[0]) + 1
     for old, new, line, said in (
         ("0 0.45, 0.9 0", "0 0.45 0.9", first, "advance has 3 numbers; expected 2 to 12 pairs"),

@@ -88,5 +88,5 @@ def test_a_wrapper_with_a_name_and_no_device_is_an_error(tmp_path: Path) -> None
     (error,) = [each for each in check_file(file) if each.severity == "error"]
     assert (error.line, error.message) == (
         2,
-        "<name> in <simulatedDevice>, which has no device in it",
+        "<name> in <simulatedDevice>, which has no device",
     )

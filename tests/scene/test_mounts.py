@@ -13,7 +13,7 @@ from uwsim import schema
 from uwsim.base.geometry import Pose, rotation_from_rpy
 from uwsim.checks import check_file
 from uwsim.devices.object_picker import ObjectPickerSpec
-from uwsim.scene.mounts import MountFrames, in_words
+from uwsim.scene.mounts import MountFrames, describe_axis
 from uwsim.scene.reader import read_scene
 from uwsim.scene.settings import apply_setting
 from uwsim.scene.urdf.robot import JointSpec, LinkSpec, RobotSpec, VisualSpec
@@ -79,7 +79,7 @@ def test_the_directions_of_a_vehicle_are_a_sailors(stand: MountFrames) -> None:
 def test_a_camera_looks_where_the_word_says_with_the_top_of_its_image_as_nodding_leaves_it(
     word: str, top: str, visual: bool, stand: MountFrames
 ) -> None:
-    ahead, up = stand.looks(camera(word), visual=visual)
+    ahead, up = stand.viewing_axes(camera(word), visual=visual)
     assert ahead == pytest.approx(stand.directions[word], abs=1e-12)
     assert up == pytest.approx(stand.directions[top], abs=1e-12)
 
@@ -92,7 +92,7 @@ def test_a_camera_looks_at_a_point_of_l_with_the_worlds_up_on_top(
     stand = replace(stand, vehicle=replace(stand.vehicle, scale_factor=scale))
     point = (4.0, -2.0, 5.0)
     spec = camera(point)
-    ahead, up = stand.looks(spec)
+    ahead, up = stand.viewing_axes(spec)
     base = stand.world_from_base
     base_from_eye = base.inverse() @ stand.world_from_link("arm")
     eye = base.transform(np.array(scale) * base_from_eye.transform(np.array([spec.position])))[0]
@@ -106,7 +106,7 @@ def test_a_camera_that_looks_straight_down_at_a_point_has_the_bow_on_top() -> No
     stand = MountFrames(replace(VEHICLE, orientation=(0.0, 0.0, 0.6)), ROBOT, NED)
     eye = NED.inverse() @ stand.world_from_link("base")
     x, y, z = eye.position
-    ahead, up = stand.looks(camera((x, y, z + 2.0), relative_to="base", position=(0.0,) * 3))
+    ahead, up = stand.viewing_axes(camera((x, y, z + 2.0), relative_to="base", position=(0.0,) * 3))
     assert ahead == pytest.approx([0.0, 0.0, -1.0])
     assert up == pytest.approx(stand.directions["forward"])
 
@@ -134,7 +134,7 @@ def test_without_lookat_the_angles_say() -> None:
 
 def test_a_point_in_the_camera_itself_is_no_direction_and_no_nan() -> None:
     stand = MountFrames(replace(VEHICLE, position=(0.0,) * 3), ROBOT, Pose.identity())
-    ahead, _ = stand.looks(camera((0.0, 0.0, 0.0), relative_to="base", position=(0.0,) * 3))
+    ahead, _ = stand.viewing_axes(camera((0.0, 0.0, 0.0), relative_to="base", position=(0.0,) * 3))
     assert ahead == pytest.approx(stand.directions["forward"])
 
 
@@ -143,7 +143,7 @@ def test_words_for_directions_say_how_far_off() -> None:
 
     def nodded(degrees: float) -> str:
         angle = math.radians(degrees)
-        return in_words(np.array([math.cos(angle), 0.0, -math.sin(angle)]), words)
+        return describe_axis(np.array([math.cos(angle), 0.0, -math.sin(angle)]), words)
 
     assert [nodded(angle) for angle in (0.0, 2.0, 45.0, 70.0)] == [
         "forward", "forward, 2 deg off", "between forward and down", "down, 20 deg off"
@@ -225,7 +225,7 @@ def test_the_recipes_of_the_conventions_page_look_where_they_say() -> None:
         for column, stand in zip(columns, ("z down, L is NED", "z up"), strict=True):
             r, p, y = (schema.parse_number(word.strip()) for word in column.split(","))
             spec = camera(None, orientation=(r, p, y), relative_to="base")
-            ahead, up = STANDS[stand].looks(spec)
+            ahead, up = STANDS[stand].viewing_axes(spec)
             words = STANDS[stand].directions
             if looks in words:
                 assert ahead == pytest.approx(words[looks], abs=1e-9), row

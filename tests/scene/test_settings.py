@@ -121,7 +121,7 @@ def test_settings_are_applied_in_order() -> None:
     [
         ("hull.lenght=3", "there is no <lenght>. Did you mean 'length'?"),
         ("hull=3", "<hull> is not a value; its parts are length, isWet, decks"),
-        ("hull[a].length=3", "<hull> stands once"),
+        ("hull[a].length=3", "<hull> occurs once"),
         ("hull.length=long", "<length> is 'long'; expected a number"),
         ("hull.length.x=1", "<length> is a value"),
         ("hull.length=nan", "expected a number"),
@@ -133,7 +133,7 @@ def test_settings_are_applied_in_order() -> None:
         ("lamp[sten].power=3", "Did you mean 'stern'?"),
         ("lamp[bow]=3", "<lamp> is not a value"),
         ("lamp[bow].power=-3", "expected a number >= 0 [W]"),
-        ("lamp[bow].colour=1 2", "wants 3 numbers"),
+        ("lamp[bow].colour=1 2", "needs 3 numbers"),
         ("lamp[bow].colour.z=1", "<colour> has <r>, <g>, <b>"),
         ("fittings.horn.power=3", "No element of <fittings> is called 'horn'"),
         ("fittings=3", "cannot be set from here"),

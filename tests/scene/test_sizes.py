@@ -42,7 +42,7 @@ def sonar(step: str, kind: str) -> str:
 def test_an_image_may_have_8k_and_no_more(kind: str, tmp_path: Path) -> None:
     assert diagnostics(camera(7680, 4320, kind), tmp_path) == []
     assert diagnostics(camera(16384, 16384, kind), tmp_path) == [
-        "an image of 16384 x 16384 pixels; at most 33 million are drawn"
+        "an image of 16384 x 16384 pixels; expected at most 33 million"
     ]
 
 
@@ -68,7 +68,7 @@ def test_a_camera_whose_planes_are_swapped_is_an_error(kind: str, tmp_path: Path
 def test_all_images_together_have_a_largest_size(tmp_path: Path) -> None:
     assert diagnostics(camera(7680, 4320) * 3, tmp_path) == []
     assert diagnostics(camera(7680, 4320) * 5, tmp_path) == [
-        "with this one, the images of the scene have 166 million pixels; at most 133 are drawn"
+        "with this one, the images of the scene have 166 million pixels; expected at most 133"
     ]
 
 
@@ -77,7 +77,7 @@ def test_a_fan_of_beams_has_a_largest_number(kind: str, tmp_path: Path) -> None:
     assert diagnostics(sonar("0.1", kind), tmp_path) == []
     for step in ("1e-9", "5e-324"):
         (said,) = diagnostics(sonar(step, kind), tmp_path)
-        assert said.endswith("are more than 100000 beams")
+        assert said.endswith("are too many beams; expected at most 100000")
 
 
 def imaging(kind: str, **fields: object) -> str:
@@ -109,4 +109,4 @@ def test_sonars_have_a_largest_size(
     kind: str, fields: dict[str, object], said: str, tmp_path: Path
 ) -> None:
     (found,) = diagnostics(imaging(kind, **fields), tmp_path)
-    assert found.startswith(f"{said}; at most")
+    assert found.startswith(f"{said}; expected at most")

@@ -16,7 +16,7 @@ from uwsim.errors import SceneError
 from uwsim.scene.reader import read_scene
 from uwsim.scene.settings import apply_setting
 from uwsim.scene.spec import SceneSpec
-from uwsim.scene.variation import draw, varied
+from uwsim.scene.variation import apply_variations, draw
 from uwsim.sensors.virtual_camera import VirtualCameraSpec
 
 BASE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-scene.xml"
@@ -43,7 +43,7 @@ def scene(folder: Path, *variations: str, vehicle: str = "") -> SceneSpec:
 
 
 def box_x(spec: SceneSpec, seed: int) -> float:
-    return varied(spec, seed).objects[1].position[0]
+    return apply_variations(spec, seed).objects[1].position[0]
 
 
 def test_every_seed_has_a_scene_of_its_own_and_always_the_same(tmp_path: Path) -> None:
@@ -58,7 +58,7 @@ def test_every_seed_has_a_scene_of_its_own_and_always_the_same(tmp_path: Path) -
 
 def test_all_else_stays_as_the_file_says(tmp_path: Path) -> None:
     spec = scene(tmp_path, UNIFORM)
-    back = apply_setting(varied(spec, 3), "object[blackbox].position.x", "2")
+    back = apply_setting(apply_variations(spec, 3), "object[blackbox].position.x", "2")
     assert back == read_scene(BASE)
 
 
@@ -67,7 +67,7 @@ def test_one_variation_more_changes_no_other(tmp_path: Path) -> None:
     for seed in range(5):
         alone = box_x(scene(tmp_path, UNIFORM), seed)
         assert box_x(scene(tmp_path, other, UNIFORM), seed) == alone
-    both = varied(scene(tmp_path, other, UNIFORM), 0).objects[1].position
+    both = apply_variations(scene(tmp_path, other, UNIFORM), 0).objects[1].position
     assert (both[0] - 1.9) / 0.2 != pytest.approx((both[1] - 0.3) / 0.1)
 
 
@@ -76,7 +76,7 @@ def test_a_value_has_one_stream_however_its_path_is_written(tmp_path: Path) -> N
     short = "<u:path>vehicle.virtualCamera.std</u:path>"
     bounds = "<u:low>0</u:low> <u:high>0.1</u:high>"
     stds = [
-        varied(scene(tmp_path, f"<u:uniform> {path} {bounds} </u:uniform>"), 7)
+        apply_variations(scene(tmp_path, f"<u:uniform> {path} {bounds} </u:uniform>"), 7)
         .vehicles[0]
         .parts_of(VirtualCameraSpec)[0]
         .std
@@ -103,7 +103,8 @@ def test_whole_numbers_are_drawn_whole_bounds_included(tmp_path: Path) -> None:
       <u:low>320</u:low> <u:high>323</u:high> </u:uniform>"""
     spec = scene(tmp_path, whole)
     found = [
-        varied(spec, seed).vehicles[0].parts_of(VirtualCameraSpec)[0].resw for seed in range(80)
+        apply_variations(spec, seed).vehicles[0].parts_of(VirtualCameraSpec)[0].resw
+        for seed in range(80)
     ]
     assert set(found) == {320, 321, 322, 323}
     assert all(type(width) is int for width in found)
@@ -113,8 +114,8 @@ def test_whole_numbers_are_drawn_whole_bounds_included(tmp_path: Path) -> None:
 def test_one_number_of_a_list_varies(tmp_path: Path) -> None:
     path = "vehicle.jointValues.3"
     spec = scene(tmp_path, uniform(path, "1", "1.4"))
-    before = spec.nominal.vehicles[0].joint_values
-    drawn = [varied(spec, seed).vehicles[0].joint_values for seed in range(5)]
+    before = spec.nominal_scene.vehicles[0].joint_values
+    drawn = [apply_variations(spec, seed).vehicles[0].joint_values for seed in range(5)]
     assert len({values[2] for values in drawn}) == 5
     assert all(1.0 <= values[2] <= 1.4 for values in drawn)
     assert {(*values[:2], *values[3:]) for values in drawn} == {(*before[:2], *before[3:])}
@@ -125,7 +126,7 @@ def test_what_has_no_name_is_chosen_by_its_axis_or_number(tmp_path: Path) -> Non
     path = "<u:path>vehicle.sway[x].phase</u:path>"
     uniform = f"<u:uniform> {path} <u:low>-M_PI</u:low> <u:high>M_PI</u:high> </u:uniform>"
     spec = scene(tmp_path, uniform, vehicle=SWAY)
-    assert varied(spec, 1).vehicles[0].parts_of(SwaySpec)[0].phase != 0.5
+    assert apply_variations(spec, 1).vehicles[0].parts_of(SwaySpec)[0].phase != 0.5
     [drawn] = draw(spec, 1)
     assert (drawn.path, drawn.unit) == ("vehicle[girona500].sway[x].phase", "rad")
     assert drawn.drawn_from == "uniform -3.14159 to 3.14159"
@@ -174,7 +175,7 @@ def uniform(path: str, low: str = "0", high: str = "1") -> str:
         (uniform("object[blackbox].position.x", "2", "1"), "<u:low> 2 is not below <u:high> 1"),
         (uniform("vehicle.virtualCamera.std", "-1", "1"), "expected a number >= 0 and <= 10"),
         (uniform("vehicle.virtualCamera.std", "0", "11"), "expected a number >= 0 and <= 10"),
-        (uniform("vehicle.virtualCamera.resw", "0.5", "9"), "it is a whole number, and 0.5 is"),
+        (uniform("vehicle.virtualCamera.resw", "0.5", "9"), "it is an integer, and 0.5 is"),
         (uniform("object[blackbox].physics.mass"), "the file has no <physics> here"),
         (
             f"<u:normal> {X} <u:mean>0</u:mean> <u:deviation>0.1</u:deviation> <u:low>1</u:low> "

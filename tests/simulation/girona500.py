@@ -28,7 +28,7 @@ def make(
     change: Callable[[VehicleSpec], VehicleSpec] = lambda vehicle: vehicle,
     data_path: tuple[Path, ...] = (),
 ) -> Simulation:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = change(replace(scene.vehicles[0], parts=()))
     simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=objects, ros_interfaces=interfaces),

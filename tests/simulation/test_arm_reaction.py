@@ -36,7 +36,7 @@ def adrift(tmp_path: Path, *, has_drag: bool) -> Simulation:
         if not has_drag:
             text = re.sub(r"<(linear|quadratic)Damping>.*?</\1Damping>", "", text)
         (folder / name.replace("g500_physical", "adrift")).write_text(text)
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = replace(scene.vehicles[0], parts=(), dynamics="adrift")
     simulation = open_scene(
         replace(

@@ -49,7 +49,7 @@ def test_a_mesh_that_is_sheared_lies_within_its_box() -> None:
 
 
 def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     black_box = next(thing for thing in scene.objects if thing.name == "blackbox")
     sizes = []
     for scale, quirks in (
@@ -72,7 +72,7 @@ def test_the_box_of_a_scaled_object_is_scaled_except_in_the_original() -> None:
 
 
 def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
-    body = open_scene(read_scene(SCENE).nominal).world.bodies.find("blackbox")
+    body = open_scene(read_scene(SCENE).nominal_scene).world.bodies.find("blackbox")
     place, turn = body.world_from_body.position, body.world_from_body.rotation
     body.world_from_body.position[:] = np.nan
     body.world_from_body.rotation[:] = np.nan
@@ -82,7 +82,7 @@ def test_what_an_object_that_never_moves_hands_out_is_a_copy() -> None:
 
 def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_it() -> None:
     assert compatibility(["uwsim"]) == COMPATIBILITY.keys() - {"visual-frames"}
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     looks = {}
     for name in ("", "uwsim", "visual-frames"):
         asked = compatibility([name] if name else [])
@@ -94,7 +94,7 @@ def test_all_quirks_of_the_original_leave_a_camera_where_scenes_since_2014_put_i
 
 
 def test_a_link_of_which_nothing_is_seen_has_its_own_frame_for_a_visual_one() -> None:
-    simulation = open_scene(read_scene(SCENE).nominal)
+    simulation = open_scene(read_scene(SCENE).nominal_scene)
     link, visual = (
         simulation.world.bodies.find(f"girona500/end_effector{at}") for at in ("", "@visual")
     )

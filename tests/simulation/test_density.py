@@ -23,7 +23,7 @@ PROFILE = ProfileSpec(depth=(0.0, 10.0), density=(1000.0, 1025.0))
 
 
 def two(ocean: OceanStateSpec, *, turned: bool = False) -> SceneSpec:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     girona = replace(scene.vehicles[0], parts=())
     rexrov = VehicleSpec(name="rexrov", file="rexrov.urdf", dynamics="rexrov")
     vehicles = (rexrov, girona) if turned else (girona, rexrov)

@@ -21,7 +21,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scen
 
 
 def make(velocity_loop: str = "water") -> Simulation:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = replace(scene.vehicles[0], velocity_loop=velocity_loop, parts=())
     simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=scene.ros_interfaces[1:])
@@ -156,7 +156,7 @@ def test_a_body_beyond_100_m_s_or_100_rad_s_ends_the_run(dof: int) -> None:
 
 
 def test_an_integrator_may_be_chosen() -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     simulation = open_scene(scene, integrator="RK4", is_blind=True)
     assert simulation.world.engine._model.opt.integrator == 1
     with pytest.raises(BadSetting, match="expected implicitfast or RK4"):
@@ -165,14 +165,14 @@ def test_an_integrator_may_be_chosen() -> None:
 
 @pytest.mark.parametrize("timestep", [0.021, 0.05, 0.0, -0.002, float("nan"), float("inf")])
 def test_a_step_that_the_physics_does_not_bear_is_refused(timestep: float) -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     said = "expected 0.02 s at most" if 0.0 < timestep < 1.0 else "expected a time > 0"
     with pytest.raises(BadSetting, match=said):
         open_scene(scene, timestep=timestep, is_blind=True)
 
 
 def test_without_a_simulated_vehicle_a_step_may_be_long() -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = replace(scene.vehicles[0], dynamics=None, parts=())
     still = replace(scene, vehicles=(vehicle,), ros_interfaces=())
     open_scene(still, timestep=0.05, is_blind=True).close()
@@ -202,7 +202,7 @@ class Asked:
 
 
 def test_water_is_asked_only_where_it_acts() -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = replace(scene.vehicles[0], parts=())
     simulation = open_scene(replace(scene, vehicles=(vehicle,)), is_blind=True)
     simulation.advance(0.0)

@@ -97,13 +97,13 @@ def test_any_position_leaves_a_finite_angle(value: float, dynamics: str, tmp_pat
 @pytest.mark.parametrize("limit", ['<limit lower="-1" upper="2"/>', '<limit lower="-1.5"/>'])
 def test_bounds_of_less_than_a_turn_hold_as_in_the_original(limit: str, tmp_path: Path) -> None:
     (tmp_path / "boat.urdf").write_text(robot("wrist", limit))
-    (wrist,) = read_urdf(tmp_path / "boat.urdf").movable
+    (wrist,) = read_urdf(tmp_path / "boat.urdf").movable_joints
     assert wrist.has_stops
-    assert wrist.clamped(-9.0) == wrist.lower
+    assert wrist.clamp(-9.0) == wrist.lower
 
 
 @pytest.mark.parametrize("kind", ["revolute", "prismatic"])
 def test_other_joints_keep_their_stops_however_wide(kind: str, tmp_path: Path) -> None:
     (tmp_path / "boat.urdf").write_text(robot("wrist", '<limit lower="-9" upper="9"/>', kind))
-    (wrist,) = read_urdf(tmp_path / "boat.urdf").movable
-    assert (wrist.clamped(20.0), wrist.clamped(-20.0)) == (9.0, -9.0)
+    (wrist,) = read_urdf(tmp_path / "boat.urdf").movable_joints
+    assert (wrist.clamp(20.0), wrist.clamp(-20.0)) == (9.0, -9.0)

@@ -113,7 +113,9 @@ def test_energy_is_the_integral_of_the_published_thrusts_and_efforts(
     laws = [partial(thruster_power, power_table(one, vehicle.density)) for one in vehicle.thrusters]
     drawn = [[law(t) for law, t in zip(laws, actuators.thrusts(), strict=True)]]  # [W]
     works = np.zeros(5)  # [J]
-    dampings = np.array([servo_gains(one)[1] for one in simulation.world.model.robots[0].movable])
+    dampings = np.array(
+        [servo_gains(one)[1] for one in simulation.world.model.robots[0].movable_joints]
+    )
     for _ in range(1500):
         simulation.advance()
         energy.update()

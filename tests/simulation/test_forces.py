@@ -31,7 +31,7 @@ from uwsim.simulation import Simulation
 from uwsim.simulation.world_views.force_view import ForceView
 from uwsim.world import Attachment, ForceWorld
 
-NOMINAL = read_scene(SCENE).nominal
+NOMINAL = read_scene(SCENE).nominal_scene
 BLACKBOX = next(thing for thing in NOMINAL.objects if thing.name == "blackbox")
 GIRONA = replace(NOMINAL.vehicles[0], parts=())
 STEP = 0.002  # [s]

@@ -41,7 +41,7 @@ class Grasp:
         parts: tuple[Spec, ...] = (),
         topics: tuple[InterfaceSpec, ...] = (),
     ) -> None:
-        scene = read_scene(SCENE).nominal
+        scene = read_scene(SCENE).nominal_scene
         vehicle = replace(scene.vehicles[0], parts=parts, joint_values=(*ARM, OPEN))
         self.place = vehicle.localized_from_base
         robot = read_urdf(SCENE.parent / "g500ARM5.urdf")

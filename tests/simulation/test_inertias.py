@@ -26,7 +26,7 @@ def said(folder: Path, *, robot: str = ROBOT, scene: str = SCENE) -> list[str]:
     (folder / "box.obj").write_text(BOX)
     (folder / "scene.xml").write_text(scene)
     with pytest.raises(SceneError) as caught:
-        open_scene(read_scene(folder / "scene.xml").nominal, is_blind=True)
+        open_scene(read_scene(folder / "scene.xml").nominal_scene, is_blind=True)
     return [
         f"{Path(each.file or '').name}:{each.line}: {each.message}"
         for each in caught.value.diagnostics

@@ -24,7 +24,7 @@ def slewing(folder: Path, dynamics: str) -> Simulation:
     text = (SCENE.parent / "g500ARM5.urdf").read_text()
     assert text.count(SLEW) == 1
     (folder / "own.urdf").write_text(text.replace(SLEW, SLEW + dynamics))
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = replace(scene.vehicles[0], parts=(), file="own.urdf")
     arm = ROSJointStateToArmSpec(topic="/arm", vehicle_name="girona500")
     simulation = open_scene(

@@ -39,7 +39,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def scene(file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> SceneSpec:
     """The scene, and an empty cache on the disk."""
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    return read_scene(file).nominal
+    return read_scene(file).nominal_scene
 
 
 def track(scene: SceneSpec) -> str:

@@ -146,7 +146,7 @@ def test_a_current_of_uwsim_that_a_program_sets_ends_no_run(
 
 def beside_a_drifter(*, is_read: bool = False, is_simulated: bool = True) -> Simulation:
     """A vehicle, simulated or not, and one that drifts, whose motion a sensor may read."""
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     first = replace(scene.vehicles[0], parts=())
     first = first if is_simulated else replace(first, dynamics=None)
     imu = ImuSpec(name="imu", relative_to="base_link")
@@ -250,7 +250,7 @@ def test_water_that_comes_to_rest_is_still() -> None:
 
 @pytest.mark.parametrize("at_once", [True, False])
 def test_a_run_that_fails_ends_at_the_step_that_failed(*, at_once: bool) -> None:
-    simulation = open_scene(read_scene(SCENE).nominal, is_blind=True)
+    simulation = open_scene(read_scene(SCENE).nominal_scene, is_blind=True)
     simulation.advance(0.01)
     data = simulation.world.engine._data
     data.qfrc_applied[3] = 4e6  # soon it spins too fast

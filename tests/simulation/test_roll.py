@@ -13,7 +13,7 @@ DISTANCE = 2.2  # what the controller takes for that of the box [m]
 
 def rolls(kp: float, seconds: float) -> np.ndarray:
     """Roll every 0.1 s [deg] of a vehicle that keeps over the box, from a start 0.3 m beside it."""
-    simulation = open_scene(read_scene(SCENE).nominal)
+    simulation = open_scene(read_scene(SCENE).nominal_scene)
     camera = simulation.world.sensors.camera("bowtech1")
     box = simulation.world.bodies.find("blackbox").world_from_body.position + np.array(
         [0.0, 0.3, 0.0]

@@ -18,7 +18,7 @@ STEPS = [0.002, 0.005, 0.01]
 
 
 def make(timestep: float = 0.002) -> Simulation:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = replace(scene.vehicles[0], parts=())
     simulation = open_scene(
         replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(TWIST, ARM)),

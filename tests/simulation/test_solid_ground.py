@@ -82,7 +82,7 @@ def test_something_with_physics_that_is_no_solid_is_passed_through_and_hangs_whe
 
 
 def test_two_simulated_vehicles_meet_in_open_water() -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     one = replace(scene.vehicles[0], parts=(), orientation=(0.0, 0.0, 0.0))
     other = replace(one, name="other", position=(6.0, 1.5, 1.515))
     simulation = open_scene(

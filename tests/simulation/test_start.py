@@ -57,7 +57,7 @@ def check_joints(scene: SceneSpec, n_steps: int = 0) -> None:
             expected = [
                 min(max(value, joint.lower), joint.upper)
                 for joint, value in zip(
-                    robot.movable, [*vehicle.joint_values, *[0.0] * 99], strict=False
+                    robot.movable_joints, [*vehicle.joint_values, *[0.0] * 99], strict=False
                 )
             ]
             assert simulation.world.vehicles.find(vehicle.name).joints == pytest.approx(
@@ -88,7 +88,7 @@ def test_nobody_moves_the_joints_of_a_kinematic_vehicle(name: str) -> None:
 
 
 def test_beside_a_simulated_vehicle_the_joints_of_a_kinematic_one_stay() -> None:
-    scene = read_scene(DATA / "currents-scene.xml").nominal
+    scene = read_scene(DATA / "currents-scene.xml").nominal_scene
     simulated = scene.vehicles[0]
     plain = replace(simulated, name="other", position=(6.0, 1.5, 2.0), dynamics=None)
     with begun(replace(scene, vehicles=(simulated, plain))) as simulation:

@@ -214,7 +214,7 @@ def test_a_force_that_leans_the_hull_is_asked_for_as_far_as_it_rights_itself() -
 def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() -> None:
     import mujoco
 
-    scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal
+    scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal_scene
     simulation = open_scene(scene)
     model, data = simulation.world.engine._model, simulation.world.engine._data
     vehicle = read_vehicle(find_vehicle("g500_physical"))
@@ -259,7 +259,7 @@ def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_pa
     assert "surge (-40 to 40 N), pitch (-24 to 24 N m), yaw (-24 to 24 N m)" in said
     assert "sway is driven only together with yaw; heave is driven only together with pitch" in said
     assert "depth is held by pitching while it moves ahead" in said
-    assert said.endswith("If that is meant: <u:accept>thrust</u:accept>")
+    assert said.endswith("If intended: <u:accept>thrust</u:accept>")
     scene = (tmp_path / "scene.xml").read_text()
     (tmp_path / "scene.xml").write_text(
         scene.replace("</u:dynamics>", "</u:dynamics> <u:accept>thrust</u:accept>")
@@ -271,7 +271,7 @@ def test_what_thrusters_cannot_give_is_reported_at_the_start_and_by_check(tmp_pa
 def test_nothing_is_reported_of_the_bundled_scene() -> None:
     assert (
         model_warnings(
-            open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal).world.model
+            open_scene(read_scene(DATA / "scenes" / "currents-scene.xml").nominal_scene).world.model
         )
         == []
     )

@@ -34,7 +34,7 @@ def box(x: float, y: float, depth: float, **physics: object) -> ObjectSpec:
 
 def play(*objects: ObjectSpec, vehicle: bool = True, **params: object) -> Simulation:
     """The Girona 500 stands at L (3, 1.5, 1.515), looks along y and is not simulated."""
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     plain = replace(scene.vehicles[0], parts=(), dynamics=None)
     simulation = open_scene(
         replace(
@@ -163,7 +163,7 @@ def test_the_same_scene_falls_to_the_same_bits() -> None:
 
 
 def test_without_enable_physics_everything_stands_still() -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     plain = replace(scene.vehicles[0], parts=(), dynamics=None)
     simulation = open_scene(
         replace(scene, vehicles=(plain,), objects=(box(7.0, 1.5, 1.0, mass=2.0),))

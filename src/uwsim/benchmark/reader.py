@@ -158,7 +158,7 @@ class _Reader:
                 spec,
                 self.diagnostics,
                 find=locate_in_benchmark,
-                also=functools.partial(same_levels, spec),
+                check_bound=functools.partial(same_levels, spec),
             )
         check_names(found, updater, self.diagnostics)
         function = None if spec is None else spec.function

@@ -13,7 +13,7 @@ from typing import Any
 from ..errors import BadSetting, did_you_mean
 from ..scene.settings import Place, Step, locate, overlaps
 from ..scene.spec import SceneSpec
-from ..scene.variation import Draw, draw, varied
+from ..scene.variation import Draw, apply_variations, draw
 from ..schema import fields_of
 from .spec import BenchmarkSpec
 from .updaters import UPDATERS, SceneUpdaterSpec, chain, interval
@@ -96,7 +96,7 @@ def apply_updater_setting(benchmark: BenchmarkSpec, path: str, value: str) -> Be
 
 def benchmark_of_seed(benchmark: BenchmarkSpec, seed: int) -> BenchmarkSpec:
     """Return the benchmark with what varies drawn for a seed."""
-    return varied(benchmark, seed, find=locate_in_benchmark)
+    return apply_variations(benchmark, seed, find=locate_in_benchmark)
 
 
 def updater_draws(benchmark: BenchmarkSpec, seed: int) -> tuple[Draw, ...]:

@@ -40,7 +40,7 @@ def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
     for spec, node in zip(specs, nodes, strict=True):
         if spec.target not in vehicles:
             continue
-        joints = benchmark.model.robots[vehicles.index(spec.target)].movable
+        joints = benchmark.model.robots[vehicles.index(spec.target)].movable_joints
         for values, parent in zip(spec.arm_position, node.iterfind("armPosition"), strict=True):
             if len(values) > len(joints):
                 diagnostics.warning(
@@ -49,7 +49,7 @@ def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
                     f"({', '.join(joint.name for joint in joints)}); the rest is not used",
                 )
             for joint, value, child in zip(joints, values, parent.iterfind("joint"), strict=False):
-                limited_value = joint.clamped(value)
+                limited_value = joint.clamp(value)
                 if limited_value != value:
                     message = f"joint {joint.name!r} at {value:g} is limited to {limited_value:g}"
                     diagnostics.warning(child, message)

@@ -17,7 +17,7 @@ from ..model.placement import set_on_floor
 from ..model.resolved_scene import ResolvedScene
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.object import PhysicsSpec
-from ..scene.spec import SceneSpec, stands_on_floor
+from ..scene.spec import SceneSpec, has_floor_placement
 from ..scene.urdf.robot import RobotSpec
 from ..schema import Diagnostics, Document, Spec, diagnostic_at
 from ..topics.thruster_commands import AutopilotTopicSpec
@@ -138,7 +138,7 @@ class CheckedScene(Subject):
             not self.diagnostics.has_errors
             and (
                 bool(scene.ocean_state.currents or scene.vehicles or scene.has_uwsim_physics)
-                or stands_on_floor(scene)
+                or has_floor_placement(scene)
                 or any(isinstance(spec, AutopilotTopicSpec) for spec in scene.ros_interfaces)
             )
         )

@@ -70,7 +70,7 @@ def info(
             spec = apply_setting(spec, name, value)
     wrong.raise_errors()
     simulation = Simulation(
-        compile_scene(spec.nominal, data_path=folders), is_blind=True, runs_code=False
+        compile_scene(spec.nominal_scene, data_path=folders), is_blind=True, runs_code=False
     )
     try:
         found = inventory(

@@ -75,10 +75,10 @@ def documents(kind: str, entries: Mapping[str, str]) -> list[dict[str, str]]:
 
 def limit_in(kind: str, name: str) -> str:
     """Say how far something is simulated; an empty text: wholly, or it is nothing to simulate."""
-    from ..scene.unsupported import limit_of
+    from ..scene.unsupported import describe_limit
 
     parent = {"sensors": "vehicle", "devices": "vehicle", "interfaces": "rosInterfaces"}.get(kind)
-    return "" if parent is None else limit_of(parent, clark(name))
+    return "" if parent is None else describe_limit(parent, clark(name))
 
 
 def scenes(tables: Tables) -> dict[str, str]:

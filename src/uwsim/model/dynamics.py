@@ -218,7 +218,7 @@ class NameResolution:
     def _trim(self, index: int, density: float) -> None:
         """Change a vehicle's set to another density of water, and report the effect."""
         dynamics = self.dynamics[index]
-        self.dynamics[index] = dynamics.in_water(density)
+        self.dynamics[index] = dynamics.scale_to_density(density)
         if self._scene.ocean_state.profile is not None:
             density = self._scene.ocean_state.profile.density_at(self._depth(index))
         lift = GRAVITY * (density - dynamics.density) * sum(body.volume for body in dynamics.bodies)

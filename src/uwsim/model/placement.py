@@ -19,7 +19,7 @@ from ..base.numerics.linear import length, product
 from ..errors import Diagnostic, SceneError
 from ..scene.object import ObjectSpec, PhysicsSpec
 from ..scene.on_floor import OnFloorSpec
-from ..scene.spec import SceneSpec, stands_on_floor
+from ..scene.spec import SceneSpec, has_floor_placement
 from ..scene.urdf.kinematics import link_poses
 from ..scene.vehicle import VehicleSpec
 from ..schema import diagnostic_at
@@ -39,7 +39,7 @@ def set_on_floor(resolved_scene: ResolvedScene) -> SceneSpec:
         SceneError: there is no ground under a body; with an error for each.
     """
     scene = resolved_scene.scene
-    if not stands_on_floor(scene):
+    if not has_floor_placement(scene):
         return scene
     floor = Floor(resolved_scene)
     diagnostics: list[Diagnostic] = []
@@ -67,7 +67,7 @@ def ground_faces(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Arr
     """Return the triangles of the ground in W, (n, 3, 3) [m], by the number of their object."""
     faces = {}
     for i, spec in enumerate(scene.objects):
-        is_fixed = spec.is_touched(in_water=True) and not spec.solid.is_loose
+        is_fixed = spec.has_contacts(in_water=True) and not spec.solid.is_loose
         if spec.on_floor is None and (is_fixed or spec.is_ground):
             faces[i] = fixed_faces(scene, i, spec.solid, data_path)
     return faces

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from ..scene.hydrodynamics import VehicleHydrodynamics
-from ..scene.ocean_state import MILD, OceanStateSpec
+from ..scene.ocean_state import DEFAULT_TEMPERATURE, OceanStateSpec
 from ..scene.seawater import sea_water_density
 
-SEA_DENSITY = sea_water_density(MILD, 35.0)
+SEA_DENSITY = sea_water_density(DEFAULT_TEMPERATURE, 35.0)
 """The density of water if the scene and the sets give none [kg/m3]."""
 
 

@@ -15,7 +15,7 @@ from ..model.robots import read_robots
 from ..model.scene_model import SceneModel
 from ..scene.sim_params import Integrator
 from ..scene.spec import SceneSpec, with_integrator
-from ..scene.variation import varied
+from ..scene.variation import apply_variations
 from ..world import TIMESTEP
 from .engine_model import compile_engine_model
 
@@ -55,7 +55,7 @@ def compile_scene(
         )
     folders = tuple(map(Path, data_path))
     source = with_integrator(scene, integrator)
-    drawn = varied(source, seed)
+    drawn = apply_variations(source, seed)
     read = ResolvedScene(scene=drawn, robots=read_robots(drawn, folders), data_path=folders)
     placed = replace(read, scene=set_on_floor(read))
     dynamics = read_dynamics(placed)

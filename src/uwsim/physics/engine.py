@@ -299,7 +299,7 @@ class Engine:
 
     def _set_first_joints(self, scene: SceneSpec) -> None:
         for index, vehicle in enumerate(scene.vehicles):
-            n_joints = len(self._robots[index].movable)
+            n_joints = len(self._robots[index].movable_joints)
             values = np.zeros(n_joints)  # (n,) [rad or m]
             given = vehicle.joint_values[:n_joints]
             values[: len(given)] = given
@@ -326,7 +326,7 @@ class Engine:
 
 def joint_places(model: mujoco.MjModel, robot: RobotSpec, index: int) -> npt.NDArray[np.intp]:
     """Where the joint vector of a vehicle lies in ``qpos``, (n,)."""
-    names = [vehicle_joint(index, joint.name) for joint in robot.movable]
+    names = [vehicle_joint(index, joint.name) for joint in robot.movable_joints]
     return np.array([model.joint(name).qposadr[0] for name in names], dtype=np.intp)
 
 

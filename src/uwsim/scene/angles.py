@@ -1,6 +1,6 @@
 """Angles of more than a turn: likely degrees instead of radians.
 
-An angle that is meant is the same within one turn, and can be written so.
+An intended angle of more than a turn can be written as the equal angle within one turn.
 """
 
 from __future__ import annotations
@@ -8,19 +8,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-MORE_THAN_A_TURN = 6.3
-"""Nobody writes a turn with more digits than are needed [rad]."""
+MAX_PLAUSIBLE_ANGLE = 6.3
+"""The angle above which values are likely degrees: a turn has fewer digits in files [rad]."""
 
 
-def degrees_for_radians(values: Sequence[float]) -> str:
-    """Describe angles as if they were degrees; None where none is beyond a turn."""
-    if all(abs(value) <= MORE_THAN_A_TURN for value in values):
+def describe_degrees(values: Sequence[float]) -> str:
+    """Describe angles as if they were degrees; empty if none is beyond a turn."""
+    if all(abs(value) <= MAX_PLAUSIBLE_ANGLE for value in values):
         return ""
-    turned = _list([math.radians(value) for value in values])
-    within = _list([math.remainder(value, math.tau) for value in values])
+    radians = _list([math.radians(value) for value in values])
+    reduced_values = _list([math.remainder(value, math.tau) for value in values])
     return (
-        f"{_list(values)} in radians, more than a turn; as degrees it would be {turned}, "
-        f"else write {within}, which is the same"
+        f"{_list(values)} in radians, more than a turn; if these are degrees write {radians}, "
+        f"else write {reduced_values}, which is equal"
     )
 
 

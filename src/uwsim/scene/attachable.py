@@ -1,4 +1,4 @@
-"""The bodies of a scene that a force can act on, by name."""
+"""The bodies of a scene on which a force can act, by name."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ class AttachableBody:
     index: int
     """The number of the vehicle or object in the scene."""
     link: str = ""
-    """The link; empty of an object."""
+    """The link; empty for an object."""
 
 
 def attachable_bodies(
     scene: SceneSpec, robots: Mapping[int, RobotSpec]
 ) -> dict[str, AttachableBody]:
-    """Return ``vehicle`` (its base), ``vehicle/link`` and objects; of one name the first.
+    """Return ``vehicle`` (its base), ``vehicle/link`` and objects; the first of equal names.
 
     Args:
         scene: the scene.
@@ -37,13 +37,13 @@ def attachable_bodies(
         bodies.setdefault(vehicle, AttachableBody("vehicle", index, robot.root))
         for link in robot.links:
             bodies.setdefault(f"{vehicle}/{link.name}", AttachableBody("vehicle", index, link.name))
-    for index, thing in enumerate(scene.objects):
-        bodies.setdefault(thing.name, AttachableBody("object", index))
+    for index, spec in enumerate(scene.objects):
+        bodies.setdefault(spec.name, AttachableBody("object", index))
     return bodies
 
 
 def is_moved_by_forces(scene: SceneSpec, body: AttachableBody) -> bool:
-    """Whether a body is simulated: on a vehicle with ``u:dynamics``, or a loose object."""
+    """Return whether a body is simulated: a vehicle with ``u:dynamics``, or a loose object."""
     if body.kind == "vehicle":
         return scene.vehicles[body.index].dynamics is not None
     is_simulated = scene.is_dynamic or scene.has_uwsim_physics

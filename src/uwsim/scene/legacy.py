@@ -1,7 +1,7 @@
-"""Converts obsolete elements of existing scene files before they are read.
+"""Conversion of obsolete elements of existing scene files before they are read.
 
-What UWSim called otherwise in its first years, or had and dropped, becomes what it is called
-today, with a warning; so the specs know only one dialect.
+Elements that UWSim renamed or removed since its first years are converted to today's, with a
+warning, so that the specs have one dialect only.
 """
 
 from __future__ import annotations
@@ -15,32 +15,33 @@ from ..schema import NAMESPACE, Diagnostics, parse_number
 
 U = f"{{{NAMESPACE}}}"
 BEAM_RANGE = "10"
-"""Of the multibeams in the original's scenes; those of March 2013 had none [m]."""
+"""The range of the multibeams in the original's scenes; those of March 2013 had none [m]."""
 
-Rule = Callable[[etree._Element, etree._Element, Diagnostics], None]
+Node = etree._Element
+Rule = Callable[[Node, Node, Diagnostics], None]
 
 
-def upgrade(root: etree._Element, diagnostics: Diagnostics) -> None:
-    """Rewrite every old element below ``root`` in place; a warning each."""
+def upgrade(root: Node, diagnostics: Diagnostics) -> None:
+    """Rewrite every old element below ``root`` in place, with a warning for each."""
     for node in list(root.iter("*")):
         parent = node.getparent()
         if parent is None:
             continue
-        rule = RULES.get((str(parent.tag), str(node.tag))) or ANYWHERE.get(str(node.tag))
+        rule = RULES.get((str(parent.tag), str(node.tag))) or ANY_PARENT_RULES.get(str(node.tag))
         if rule is not None:
             rule(node, parent, diagnostics)
 
 
-def _drop(why: str) -> Rule:
-    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-        diagnostics.warning(node, f"<{node.tag}> in <{parent.tag}> {why}; ignored")
+def _drop(reason: str) -> Rule:
+    def rule(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+        diagnostics.warning(node, f"<{node.tag}> in <{parent.tag}> {reason}; ignored")
         _remove(node)
 
     return rule
 
 
-def _visualize(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-    """``<visualize>`` of an odometry input is a ``<showTrajectory>`` of its vehicle."""
+def _visualize(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+    """Convert ``<visualize>`` of an odometry input to a ``<showTrajectory>`` of its vehicle."""
     style = _text(node)
     vehicle = _text(parent.find("vehicleName"))
     root = parent.getroottree().getroot()
@@ -50,148 +51,147 @@ def _visualize(node: etree._Element, parent: etree._Element, diagnostics: Diagno
         return
     params = root.find("simParams")
     if params is None:
-        params = _new(root, "simParams", line=node.sourceline)
-    trajectory = _new(params, "showTrajectory", line=node.sourceline)
-    _new(trajectory, "target", vehicle, line=node.sourceline)
-    _new(trajectory, "lineStyle", style, line=node.sourceline)
+        params = _add(root, "simParams", line=node.sourceline)
+    trajectory = _add(params, "showTrajectory", line=node.sourceline)
+    _add(trajectory, "target", vehicle, line=node.sourceline)
+    _add(trajectory, "lineStyle", style, line=node.sourceline)
 
 
-def _numpixels(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-    """``<numpixels>`` beams over ``<fieldOfView>`` degrees become first, last and step."""
-    wide = parent.find("fieldOfView")
-    beams, angle = parse_number(_text(node)), parse_number(_text(wide))
-    if wide is None or beams is None or angle is None or beams < 2:
+def _convert_numpixels(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+    """Convert ``<numpixels>`` beams over ``<fieldOfView>`` degrees to first, last and step."""
+    field_of_view = parent.find("fieldOfView")
+    n_beams, angle = parse_number(_text(node)), parse_number(_text(field_of_view))
+    if field_of_view is None or n_beams is None or angle is None or n_beams < 2:
         diagnostics.error(node, "<numpixels> needs two beams or more and a <fieldOfView> [deg]")
         return
     message = "<numpixels> and <fieldOfView> are read as initAngle, finalAngle, angleIncr"
     if parent.find("range") is None:
         message += f"; there is no <range>: {BEAM_RANGE} m, as in the original's scenes"
-        _new(parent, "range", BEAM_RANGE, line=node.sourceline)
+        _add(parent, "range", BEAM_RANGE, line=node.sourceline)
     diagnostics.warning(node, message)
     for name, value in (
         ("initAngle", -angle / 2),
         ("finalAngle", angle / 2),
-        ("angleIncr", angle / (beams - 1)),
+        ("angleIncr", angle / (n_beams - 1)),
     ):
-        _new(parent, name, repr(value), line=node.sourceline)
+        _add(parent, name, repr(value), line=node.sourceline)
     _remove(node)
-    _remove(wide)
+    _remove(field_of_view)
 
 
-def _factor(kind: str) -> Rule:
-    """An axis whose factor is 0 is locked: its limits are equal."""
+def _convert_factor(kind: str) -> Rule:
+    """Return the rule for factors of axes: a factor of 0 locks an axis, with equal limits."""
 
-    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-        locked = [parse_number(_text(node.find(axis))) == 0 for axis in "xyz"]
+    def rule(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+        locks = [parse_number(_text(node.find(axis))) == 0 for axis in "xyz"]
         diagnostics.warning(node, f"<{node.tag}> is read as min{kind}Limit and max{kind}Limit")
-        for name, free in ((f"min{kind}Limit", "1"), (f"max{kind}Limit", "0")):
+        for name, bound in ((f"min{kind}Limit", "1"), (f"max{kind}Limit", "0")):
             if parent.find(name) is None:
-                limit = _new(parent, name, line=node.sourceline)
-                for axis, is_locked in zip("xyz", locked, strict=True):
-                    _new(limit, axis, "0" if is_locked else free, line=node.sourceline)
+                limit = _add(parent, name, line=node.sourceline)
+                for axis, is_locked in zip("xyz", locks, strict=True):
+                    _add(limit, axis, "0" if is_locked else bound, line=node.sourceline)
         _remove(node)
 
     return rule
 
 
-def _current(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-    """``<current>`` of the benchmarks of 2013: today's ``currentForceUpdater``, at one level."""
+def _convert_current(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+    """Convert ``<current>`` of the benchmarks of 2013 to a ``<u:uwsimSinusoid>``."""
     diagnostics.warning(
         node, "<current> is read as <u:current> <u:uwsimSinusoid>, its <forceModule> as <u:speed>"
     )
-    current = _new(parent, f"{U}current", line=node.sourceline)
-    sinusoid = _new(current, f"{U}uwsimSinusoid", line=node.sourceline)
-    for old, new in SINUSOID.items():
-        child = node.find(old)
+    current = _add(parent, f"{U}current", line=node.sourceline)
+    sinusoid = _add(current, f"{U}uwsimSinusoid", line=node.sourceline)
+    for old_name, new_name in SINUSOID_ELEMENTS.items():
+        child = node.find(old_name)
         text = _text(child)
-        is_no_period = new.endswith("Period") and parse_number(text) == 0
-        if child is not None and text and not is_no_period:  # a period of 0: nothing varies
-            _new(sinusoid, U + new, text, line=child.sourceline)
+        is_no_period = new_name.endswith("Period") and parse_number(text) == 0
+        if child is not None and text and not is_no_period:  # a period of 0: no variation
+            _add(sinusoid, U + new_name, text, line=child.sourceline)
     _remove(node)
 
 
-def _wrapper(kept: str = "") -> Rule:
-    """The elements in a wrapper are read as siblings of it.
+def _unwrap(kept_tag: str = "") -> Rule:
+    """Return the rule that moves the elements in a wrapper to its parent.
 
-    The original takes any device in one, and its interface; of the wrapper that its grammar knows
-    the echoes stay in it.
+    The original accepts any device in one, and its interface; the echoes remain in the wrapper of
+    its grammar.
     """
 
-    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-        _hand_down(node, diagnostics)
+    def rule(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+        _move_to_device(node, diagnostics)
         is_first = parent.find(str(node.tag)) is node
-        moved = [
-            child
-            for child in node
-            if isinstance(child.tag, str) and not (kept and is_first and _stays(child, kept))
+        keeps_echo = bool(kept_tag) and is_first
+        elements = [child for child in node if isinstance(child.tag, str)]
+        moved_children = [
+            child for child in elements if not (keeps_echo and _is_kept(child, kept_tag))
         ]
-        if moved:
-            names = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in moved))
+        if moved_children:
+            names = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in moved_children))
             diagnostics.warning(node, f"{names} in <{node.tag}>: read as in <{parent.tag}>")
-        for place, child in enumerate(moved, start=parent.index(node) + 1):
+        for place, child in enumerate(moved_children, start=parent.index(node) + 1):
             parent.insert(place, child)
         is_empty = not any(isinstance(child.tag, str) for child in node)
-        if is_empty and not (kept and is_first):
+        if is_empty and not keeps_echo:
             _remove(node)
 
     return rule
 
 
-def _hand_down(wrapper: etree._Element, diagnostics: Diagnostics) -> None:
+def _move_to_device(wrapper: Node, diagnostics: Diagnostics) -> None:
     """Move a name, a topic or a text of a wrapper, as in files of June 2013, into its device.
 
-    Without an element of a device, ``<type>`` says which it is. Of several devices the first has
-    the name; one that has its own keeps it.
+    Without an element of a device, ``<type>`` gives its kind. Of several devices the first gets
+    the name, unless it has one.
     """
-    own = [child for child in wrapper if child.tag in OF_DEVICES]
-    devices = [
-        child for child in wrapper if isinstance(child.tag, str) and child.tag not in OF_DEVICES
-    ]
-    if not own:
+    device_elements = [child for child in wrapper if child.tag in DEVICE_ELEMENTS]
+    elements = [child for child in wrapper if isinstance(child.tag, str)]
+    devices = [child for child in elements if child.tag not in DEVICE_ELEMENTS]
+    if not device_elements:
         return
-    kind = next((_text(child) for child in own if child.tag == "type"), "")
+    kind = next((_text(child) for child in device_elements if child.tag == "type"), "")
     if not devices and kind:
         is_interface = wrapper.tag in ("SimulatedDeviceROS", "SimulatedDevicesROS")
         name = f"{kind.removesuffix('ROS')}{'ROS' * is_interface}"
-        if NAME_OF_ELEMENT.fullmatch(name):
-            devices = [_new(wrapper, name, line=wrapper.sourceline)]
-    names = ", ".join(f"<{child.tag}>" for child in own)
+        if ELEMENT_NAME.fullmatch(name):
+            devices = [_add(wrapper, name, line=wrapper.sourceline)]
+    names = ", ".join(f"<{child.tag}>" for child in device_elements)
     if not devices:
-        diagnostics.error(wrapper, f"{names} in <{wrapper.tag}>, which has no device in it")
+        diagnostics.error(wrapper, f"{names} in <{wrapper.tag}>, which has no device")
     else:
         diagnostics.warning(wrapper, f"{names} of <{wrapper.tag}>: read as in <{devices[0].tag}>")
-    for child in own:
+    for child in device_elements:
         wrapper.remove(child)
         if devices and child.tag != "type" and devices[0].find(child.tag) is None:
             devices[0].append(child)
 
 
-def _stays(child: etree._Element, kept: str) -> bool:
-    """Whether a child of a wrapper may stay: an echo; of the echoes' interfaces the first."""
+def _is_kept(child: Node, kept_tag: str) -> bool:
+    """Return whether a child remains in a wrapper: an echo; of the echoes' interfaces the first."""
     wrapper = child.getparent()
-    is_only = kept == "echo" or (wrapper is not None and wrapper.find(kept) is child)
-    return child.tag == kept and is_only
+    is_only = kept_tag == "echo" or (wrapper is not None and wrapper.find(kept_tag) is child)
+    return child.tag == kept_tag and is_only
 
 
-def _rename(new: str) -> Rule:
-    def rule(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-        diagnostics.warning(node, f"<{node.tag}> is an old name of <{new}>")
-        node.tag = new
+def _rename(new_tag: str) -> Rule:
+    def rule(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+        diagnostics.warning(node, f"<{node.tag}> is an old name of <{new_tag}>")
+        node.tag = new_tag
 
     return rule
 
 
-def _comms_device(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-    """``<CommsDevice>`` is a ``<CustomCommsDevice>`` with other names."""
+def _convert_comms_device(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+    """Convert ``<CommsDevice>`` to a ``<CustomCommsDevice>`` with other names."""
     diagnostics.warning(node, "<CommsDevice> is an old name of <CustomCommsDevice>")
     node.tag = "CustomCommsDevice"
-    for old, new in (("name", "dccommsId"), ("trTime", "intrinsicDelay")):
-        child = node.find(old)
+    for old_name, new_name in (("name", "dccommsId"), ("trTime", "intrinsicDelay")):
+        child = node.find(old_name)
         if child is not None:
-            child.tag = new
+            child.tag = new_name
     for name in ("txChannelId", "rxChannelId"):
         if node.find(name) is None:
-            _new(node, name, _text(node.find("channelId")) or "0", line=node.sourceline)
+            _add(node, name, _text(node.find("channelId")) or "0", line=node.sourceline)
     _remove(node.find("channelId"))
     for child in list(node):
         rule = RULES.get(("CustomCommsDevice", str(child.tag)))
@@ -199,7 +199,7 @@ def _comms_device(node: etree._Element, parent: etree._Element, diagnostics: Dia
             rule(child, node, diagnostics)
 
 
-def _max_bit_rate(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
+def _convert_max_bit_rate(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
     diagnostics.warning(node, "<maxBitRate> is an old name of <bitrate>")
     if parent.find("bitrate") is None:
         node.tag = "bitrate"
@@ -207,34 +207,32 @@ def _max_bit_rate(node: etree._Element, parent: etree._Element, diagnostics: Dia
         _remove(node)
 
 
-def _packet_errors(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-    """``<minPktErrRatio>`` and ``<pktErrRatioIncPerMeter>`` become an error expression."""
-    least, more = parent.find("minPktErrRatio"), parent.find("pktErrRatioIncPerMeter")
+def _convert_packet_errors(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+    """Convert ``<minPktErrRatio>`` and ``<pktErrRatioIncPerMeter>`` to an error expression."""
+    min_ratio, slope = parent.find("minPktErrRatio"), parent.find("pktErrRatioIncPerMeter")
     diagnostics.warning(node, f"<{node.tag}> is read as <rateErrorModel>")
     if parent.find("rateErrorModel") is None:
-        model = _new(parent, "rateErrorModel", line=node.sourceline)
-        _new(model, "errorUnit", "packet", line=node.sourceline)
-        formula = f"{_text(least) or '0'}+{_text(more) or '0'}*m"
-        _new(model, "errorRateExpr", formula, line=node.sourceline)
-    _remove(least)
-    _remove(more)
+        model = _add(parent, "rateErrorModel", line=node.sourceline)
+        _add(model, "errorUnit", "packet", line=node.sourceline)
+        formula = f"{_text(min_ratio) or '0'}+{_text(slope) or '0'}*m"
+        _add(model, "errorRateExpr", formula, line=node.sourceline)
+    _remove(min_ratio)
+    _remove(slope)
 
 
-def _mac_protocol(node: etree._Element, parent: etree._Element, diagnostics: Diagnostics) -> None:
-    """``<macProtocol>`` once was its name alone."""
+def _convert_mac_protocol(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
+    """Convert ``<macProtocol>`` with a name as text to one with a ``<name>``."""
     if len(node) == 0 and (name := _text(node)):
         diagnostics.warning(node, f"<macProtocol> {name} is read as <macProtocol> <name>")
         node.text = None
-        _new(node, "name", name, line=node.sourceline)
+        _add(node, "name", name, line=node.sourceline)
 
 
-def _text(node: etree._Element | None) -> str:
+def _text(node: Node | None) -> str:
     return "" if node is None else (node.text or "").strip()
 
 
-def _new(
-    parent: etree._Element, tag: str, text: str | None = None, *, line: object
-) -> etree._Element:
+def _add(parent: Node, tag: str, text: str | None = None, *, line: object) -> Node:
     node = etree.SubElement(parent, tag)
     node.text = text
     if isinstance(line, int):
@@ -242,13 +240,13 @@ def _new(
     return node
 
 
-def _remove(node: etree._Element | None) -> None:
+def _remove(node: Node | None) -> None:
     parent = None if node is None else node.getparent()
     if node is not None and parent is not None:
         parent.remove(node)
 
 
-SINUSOID = {
+SINUSOID_ELEMENTS = {
     "forceModule": "speed",
     "forceVariation": "speedVariation",
     "forcePeriod": "speedPeriod",
@@ -260,16 +258,16 @@ SINUSOID = {
     "directionPeriod/phi": "phiPeriod",
     "random": "random",
 }
-"""Element of a ``<current>`` -> of a ``<u:uwsimSinusoid>``."""
+"""The element of a ``<u:uwsimSinusoid>`` for each element of a ``<current>``."""
 
-OF_DEVICES = ("name", "type", "info", "topic", "rate")
-"""Elements that files of June 2013 have in a wrapper and not in the device in it."""
-NAME_OF_ELEMENT = re.compile(r"[A-Za-z]\w{0,40}")
+DEVICE_ELEMENTS = ("name", "type", "info", "topic", "rate")
+"""The elements that files of June 2013 have in a wrapper instead of its device."""
+ELEMENT_NAME = re.compile(r"[A-Za-z]\w{0,40}")
 
-ANYWHERE: dict[str, Rule] = {
+ANY_PARENT_RULES: dict[str, Rule] = {
     "includesFixedAndMimic": _drop("had no effect"),
 }
-"""Obsolete element, whatever its parent -> its conversion."""
+"""The conversion of obsolete elements with any parent."""
 
 FORKS: dict[tuple[str, str], Rule] = {
     ("camera", "oculus"): _drop("is of a fork with head-mounted displays"),
@@ -283,30 +281,30 @@ FORKS: dict[tuple[str, str], Rule] = {
     ("vehicle", "vehiclePhysics"): _drop("is of a fork with devices of its own; not simulated"),
     ("vehicle", "vehicleMass"): _drop("is of a fork with devices of its own; not simulated"),
 }
-"""(parent, element) of forks of UWSim -> what to do with it."""
+"""The conversion of (parent, element) of forks of UWSim."""
 
 RULES: dict[tuple[str, str], Rule] = {
     **FORKS,
     ("ROSOdomToPAT", "visualize"): _visualize,
-    ("oceanState", "current"): _current,
+    ("oceanState", "current"): _convert_current,
     ("simParams", "disableTextures"): _drop("was an option of UWSim's first years"),
     ("simParams", "physicsWater"): _drop("is Bullet's fluid, removed from UWSim in 2014"),
     ("simParams", "eye_in_hand"): _drop("never had an effect"),
     ("structuredLightProjector", "visible"): _drop("had no effect since 2013"),
-    ("multibeamSensor", "numpixels"): _numpixels,
-    ("physics", "linearFactor"): _factor("Linear"),
-    ("physics", "angularFactor"): _factor("Angular"),
-    ("vehicle", "simulatedDevices"): _wrapper(kept="echo"),
-    ("vehicle", "simulatedDevice"): _wrapper(),
-    ("rosInterfaces", "SimulatedDeviceROS"): _wrapper(kept="echoROS"),
-    ("rosInterfaces", "SimulatedDevicesROS"): _wrapper(),
+    ("multibeamSensor", "numpixels"): _convert_numpixels,
+    ("physics", "linearFactor"): _convert_factor("Linear"),
+    ("physics", "angularFactor"): _convert_factor("Angular"),
+    ("vehicle", "simulatedDevices"): _unwrap(kept_tag="echo"),
+    ("vehicle", "simulatedDevice"): _unwrap(),
+    ("rosInterfaces", "SimulatedDeviceROS"): _unwrap(kept_tag="echoROS"),
+    ("rosInterfaces", "SimulatedDevicesROS"): _unwrap(),
     ("rosInterfaces", "CommsDeviceROS"): _rename("CustomCommsDeviceROS"),
-    ("vehicle", "CommsDevice"): _comms_device,
-    ("CustomCommsDevice", "maxBitRate"): _max_bit_rate,
+    ("vehicle", "CommsDevice"): _convert_comms_device,
+    ("CustomCommsDevice", "maxBitRate"): _convert_max_bit_rate,
     ("CustomCommsDevice", "bitrateSd"): _drop("was dropped from UWSim-NET"),
-    ("CustomCommsDevice", "minPktErrRatio"): _packet_errors,
-    ("CustomCommsDevice", "pktErrRatioIncPerMeter"): _packet_errors,
-    ("CustomCommsDevice", "macProtocol"): _mac_protocol,
-    ("AcousticCommsDevice", "macProtocol"): _mac_protocol,
+    ("CustomCommsDevice", "minPktErrRatio"): _convert_packet_errors,
+    ("CustomCommsDevice", "pktErrRatioIncPerMeter"): _convert_packet_errors,
+    ("CustomCommsDevice", "macProtocol"): _convert_mac_protocol,
+    ("AcousticCommsDevice", "macProtocol"): _convert_mac_protocol,
 }
-"""(parent, old element) -> what to do with it."""
+"""The conversion of (parent, old element)."""

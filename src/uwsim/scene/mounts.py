@@ -1,7 +1,7 @@
 """Poses and viewing directions of sensors and devices on their links.
 
-A mount is fixed: ``<u:lookAt>`` is worked out once, for the vehicle where the file puts it and its
-joints as in the file, and then moves with its link as ``<orientation>`` would.
+A mount is fixed: ``<u:lookAt>`` is computed once, for the vehicle's pose and joint values in the
+file, and then moves with its link as ``<orientation>`` does.
 """
 
 from __future__ import annotations
@@ -23,10 +23,10 @@ from .urdf.kinematics import link_poses
 from .urdf.robot import RobotSpec
 from .vehicle import VehicleSpec
 
-ALONG_X = (RangeSensorSpec, ObjectPickerSpec, SonarSpec)
-"""These look along +x, a DVL along +z, the others along -z."""
-STRAIGHT = 1e-3
-"""Sine of the angle to the vertical below which a camera looks straight up or down."""
+X_FORWARD_SPECS = (RangeSensorSpec, ObjectPickerSpec, SonarSpec)
+"""The specs that point along +x; a DVL points along +z, all others along -z."""
+MIN_TILT_SINE = 1e-3
+"""The sine of the angle to the vertical below which a camera looks straight up or down."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,27 +34,27 @@ class MountFrames:
     """A vehicle at its pose in the file, from which mounts are computed.
 
     Args:
-        vehicle: its spec.
-        robot: its links and joints.
-        world_from_localized: the scene's offset.
+        vehicle: the spec of the vehicle.
+        robot: the links and joints of the vehicle.
+        world_from_localized: the offset of the scene.
     """
 
     vehicle: VehicleSpec
     robot: RobotSpec
     world_from_localized: Pose
-    _of_parts: dict[tuple[int, bool], Pose] = field(default_factory=dict, init=False)
+    _part_poses: dict[tuple[int, bool], Pose] = field(default_factory=dict, init=False)
 
     @cached_property
     def world_from_base(self) -> Pose:
-        """Where its base is, without its scale."""
+        """The pose of the base, without its scale."""
         return self.world_from_localized @ self.vehicle.localized_from_base
 
     @cached_property
     def directions(self) -> dict[str, Array]:
-        """Unit vectors in W of what the words mean: each is one of the base's axes.
+        """The unit vectors in W of the direction words: each is one of the base's axes.
 
-        Forward is +x. Down is +z or -z, whichever of them points down as the vehicle stands, so
-        that the words hold for bases with z down and with z up.
+        Forward is +x. Down is the one of +z and -z that points down at the vehicle's pose, so that
+        the words are valid for bases with z down and with z up.
         """
         axes = self.world_from_base.rotation
         forward = axes[:, 0]
@@ -70,7 +70,7 @@ class MountFrames:
         }
 
     def world_from_link(self, link: str, *, visual: bool = False) -> Pose:
-        """Where a link is, without any scale; its visual frame if asked for."""
+        """Return the pose of a link, or of its visual frame, without any scale."""
         base_from_link = self._base_from_links[link]
         return self.world_from_base @ base_from_link @ link_from_frame(self.robot, link, visual)
 
@@ -80,30 +80,30 @@ class MountFrames:
 
     @cached_property
     def _parts(self) -> frozenset[int]:
-        """The identities of what the vehicle carries: the same as long as there is this object."""
+        """The identities of the vehicle's parts, which are valid as long as this object exists."""
         return frozenset(map(id, self.vehicle.parts))
 
     def link_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
-        """Its pose in its link's frame; of a part of the vehicle it is computed once.
+        """Return the pose in its link's frame; for a part of the vehicle it is computed once.
 
         Args:
-            spec: of what is mounted.
-            visual: whether the file gives its place in the visual frame of the link.
+            spec: the spec of the mounted part.
+            visual: True if the file gives its pose in the visual frame of the link.
 
         Raises:
             KeyError: there is no such link.
         """
-        if (key := (id(spec), visual)) in self._of_parts:
-            return self._of_parts[key]
+        if (key := (id(spec), visual)) in self._part_poses:
+            return self._part_poses[key]
         link_from_part = link_from_frame(
             self.robot, spec.relative_to, visual
         ) @ self.frame_from_mounted(spec, visual=visual)
         if id(spec) in self._parts:
-            self._of_parts[key] = link_from_part
+            self._part_poses[key] = link_from_part
         return link_from_part
 
     def frame_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
-        """Its pose in its link's frame, or in the link's visual frame.
+        """Return the pose in its link's frame, or in the link's visual frame.
 
         Raises:
             KeyError: there is no such link.
@@ -113,101 +113,103 @@ class MountFrames:
             return Pose.from_rpy(spec.position, spec.orientation)
         world_from_frame = self.world_from_link(spec.relative_to, visual=visual)
         eye = world_from_frame.transform(np.array([spec.position]))[0]  # W, without scale
-        ahead, top = self._view(self._scaled(eye), look_at)
-        axes = camera_axes(ahead, top)
-        if isinstance(spec, ALONG_X):
-            axes = axes_along_x(ahead, top)
+        forward, top = self._view(self._apply_scale(eye), look_at)
+        axes = camera_axes(forward, top)
+        if isinstance(spec, X_FORWARD_SPECS):
+            axes = axes_along_x(forward, top)
         elif isinstance(spec, DvlSensorSpec):
-            axes = axes_along_z(ahead, top)
+            axes = axes_along_z(forward, top)
         return Pose(np.array(spec.position), product(world_from_frame.rotation.T, axes))
 
-    def _scaled(self, point: Array) -> Array:
-        """A point of the vehicle without its scale, where its scale puts it, in W, (3,) [m]."""
+    def _apply_scale(self, point: Array) -> Array:
+        """Apply the vehicle's scale to a point of the vehicle in W, (3,) [m]."""
         base, scale = self.world_from_base, np.array(self.vehicle.scale_factor)
-        own = rotate_back(base.rotation, point - base.position)
-        placed: Array = base.position + rotate(base.rotation, scale * own)
-        return placed
+        base_point = rotate_back(base.rotation, point - base.position)
+        scaled_point: Array = base.position + rotate(base.rotation, scale * base_point)
+        return scaled_point
 
     def world_axes(self, spec: Mounted, *, visual: bool = False) -> Array:
-        """Axes of its frame in W, as columns, (3, 3)."""
+        """Return the axes of a mounted frame in W, as columns, (3, 3)."""
         frame = self.world_from_link(spec.relative_to, visual=visual).rotation
         return product(frame, self.frame_from_mounted(spec, visual=visual).rotation)
 
     def world_from_mounted(self, spec: Mounted) -> Pose:
-        """Where it is, with the scale of its vehicle."""
+        """Return the pose of a mounted part, with the scale of its vehicle."""
         link = self.world_from_link(spec.relative_to)
         place = link.transform(np.array([spec.position]))[0]
-        return Pose(self._scaled(place), self.world_axes(spec))
+        return Pose(self._apply_scale(place), self.world_axes(spec))
 
-    def looks(self, spec: Mounted, *, visual: bool = False) -> tuple[Array, Array]:
-        """Unit vectors in W: where it looks, and the top of its image, (3,) each.
+    def viewing_axes(self, spec: Mounted, *, visual: bool = False) -> tuple[Array, Array]:
+        """Return unit vectors in W: the viewing direction, and the top of the image, (3,) each.
 
-        Of a DVL the second is its x axis.
+        For a DVL the second is its x axis.
         """
         axes = self.world_axes(spec, visual=visual)
         if isinstance(spec, DvlSensorSpec):
             return axes[:, 2], axes[:, 0]
-        return (axes[:, 0], axes[:, 2]) if isinstance(spec, ALONG_X) else (-axes[:, 2], axes[:, 1])
+        if isinstance(spec, X_FORWARD_SPECS):
+            return axes[:, 0], axes[:, 2]
+        return -axes[:, 2], axes[:, 1]
 
     def _view(self, eye: Array, look_at: LookAt) -> tuple[Array, Array]:
-        """Where to look and what is up there, in W, (3,) each."""
+        """Return the viewing direction and the direction of the image's top, in W, (3,) each."""
         words = self.directions
         if isinstance(look_at, str):
-            ahead = words[look_at]
-            return ahead, _top(look_at, words)
+            forward = words[look_at]
+            return forward, _top(look_at, words)
         point = self.world_from_localized.transform(np.array([look_at]))[0]
-        apart = point - eye
-        distance = length(apart)
+        offset = point - eye
+        distance = length(offset)
         if distance == 0.0:
             return words["forward"], words["up"]
-        ahead = apart / distance
-        if math.hypot(*ahead[:2].tolist()) < STRAIGHT:
-            return ahead, _top("up" if ahead[2] > 0.0 else "down", words)
-        return ahead, np.array([0.0, 0.0, 1.0])
+        forward = offset / distance
+        if math.hypot(*forward[:2].tolist()) < MIN_TILT_SINE:
+            return forward, _top("up" if forward[2] > 0.0 else "down", words)
+        return forward, np.array([0.0, 0.0, 1.0])
 
 
 def link_from_frame(robot: RobotSpec, link: str, visual: bool) -> Pose:
-    """The frame of a mount on a link: the link's own, or its visual one."""
-    found = robot.link(link)
-    if not visual or found is None or found.visual is None:
+    """Return the frame of a mount on a link: the link's own, or its visual one."""
+    link_spec = robot.link(link)
+    if not visual or link_spec is None or link_spec.visual is None:
         return Pose.identity()
-    return Pose.from_rpy(found.visual.position, found.visual.rpy)
+    return Pose.from_rpy(link_spec.visual.position, link_spec.visual.rpy)
 
 
-def camera_axes(ahead: Array, top: Array) -> Array:
-    """Axes of a camera, as columns, (3, 3): it looks along -z, up in its image is ``top``."""
-    right = np.cross(ahead, top)
-    if length(right) < STRAIGHT:  # the top is where it looks: any other will do
-        right = np.cross(ahead, np.eye(3)[int(np.argmin(np.abs(ahead)))])
+def camera_axes(forward: Array, top: Array) -> Array:
+    """Return the axes of a camera, as columns, (3, 3): it looks along -z, ``top`` is up."""
+    right = np.cross(forward, top)
+    if length(right) < MIN_TILT_SINE:  # the top is the viewing direction: choose another
+        right = np.cross(forward, np.eye(3)[int(np.argmin(np.abs(forward)))])
     right /= length(right)
-    return np.column_stack([right, np.cross(right, ahead), -ahead])
+    return np.column_stack([right, np.cross(right, forward), -forward])
 
 
-def axes_along_x(ahead: Array, top: Array) -> Array:
-    """Axes of what looks along +x, as columns, (3, 3); ``top`` is on the side of +z."""
-    right, up, _ = camera_axes(ahead, top).T
-    return np.column_stack([ahead, -right, up])
+def axes_along_x(forward: Array, top: Array) -> Array:
+    """Return the axes of a part along +x, as columns, (3, 3); ``top`` is on the side of +z."""
+    right, up, _ = camera_axes(forward, top).T
+    return np.column_stack([forward, -right, up])
 
 
-def axes_along_z(ahead: Array, top: Array) -> Array:
-    """Axes of what looks along +z, as columns, (3, 3); ``top`` is on the side of +x."""
-    right, up, _ = camera_axes(ahead, top).T
-    return np.column_stack([up, right, ahead])
+def axes_along_z(forward: Array, top: Array) -> Array:
+    """Return the axes of a part along +z, as columns, (3, 3); ``top`` is on the side of +x."""
+    right, up, _ = camera_axes(forward, top).T
+    return np.column_stack([up, right, forward])
 
 
 def _top(word: str, words: dict[str, Array]) -> Array:
-    """The top of the image of a camera that is nodded from forward to where it looks."""
+    """Return the image's top of a camera that is pitched from forward to its direction."""
     return words[{"down": "forward", "up": "aft"}.get(word, "up")]
 
 
-def in_words(ahead: Array, directions: dict[str, Array]) -> str:
-    """Where a unit vector points: ``down``, ``down, 2 deg off`` or ``between down and port``."""
+def describe_axis(vector: Array, directions: dict[str, Array]) -> str:
+    """Describe a unit vector: ``down``, ``down, 2 deg off`` or ``between down and port``."""
     angles = {
-        word: math.degrees(math.acos(min(max(dot(ahead, axis), -1.0), 1.0)))
+        word: math.degrees(math.acos(min(max(dot(vector, axis), -1.0), 1.0)))
         for word, axis in directions.items()
     }
-    first, second = sorted(angles, key=lambda word: angles[word])[:2]
-    off = round(angles[first])
-    if off == 0:
-        return first
-    return f"{first}, {off} deg off" if off <= 30 else f"between {first} and {second}"
+    word_1, word_2 = sorted(angles, key=lambda word: angles[word])[:2]
+    angle = round(angles[word_1])
+    if angle == 0:
+        return word_1
+    return f"{word_1}, {angle} deg off" if angle <= 30 else f"between {word_1} and {word_2}"

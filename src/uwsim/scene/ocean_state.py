@@ -14,18 +14,18 @@ from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED_BY_DTD, Numbers, Original
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
-MILD = 15.0
-"""Temperature of water of which only the salinity is given [degrees Celsius]."""
+DEFAULT_TEMPERATURE = 15.0
+"""The default temperature of water with a salinity only [degrees Celsius]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FogSpec(Spec):
-    """A ``<fog>``: how visibility falls with distance."""
+    """A ``<fog>``: the decrease of visibility with distance."""
 
     density: float = element(default=0.1, original=REQUIRED_BY_DTD, minimum=0, maximum=1e6)
-    """At a distance d the share ``1 - exp(-(density d)^2)`` of what is there is lost [1/m]."""
+    """The density: the share ``1 - exp(-(density d)^2)`` of light is lost at a distance d [1/m]."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb", original=REQUIRED_BY_DTD)
-    """What replaces what cannot be seen [0..1]."""
+    """The colour that replaces the lost light [0..1]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -33,34 +33,34 @@ class ProfileSpec(Spec):
     """A ``<u:profile>``: stratified water, linear between levels, constant above and below them."""
 
     depth: Numbers = element(namespaced=True, minimum=0.0)
-    """Depth of the levels below the surface, rising, two or more [m]."""
+    """The depth of the levels below the surface, rising, two or more [m]."""
     density: Numbers = element(namespaced=True, default=(), minimum=100.0, maximum=20000.0)
-    """Density of the water at each level [kg/m3]."""
+    """The density of the water at each level [kg/m3]."""
     temperature: Numbers = element(namespaced=True, default=(), minimum=-2.0, maximum=40.0)
-    """Instead of the density: temperature at each level, for EOS-80 [degrees Celsius]."""
+    """The temperature at each level instead of the density, for EOS-80 [degrees Celsius]."""
     salinity: Numbers = element(namespaced=True, default=(), minimum=0.0, maximum=42.0)
-    """Salinity at each level, with the temperature; without: 0 [g/kg]."""
+    """The salinity at each level, with the temperature; without: 0 [g/kg]."""
 
     @property
     def levels(self) -> tuple[tuple[float, float], ...]:
-        """Depth [m] and density [kg/m3] of each level."""
+        """The depth [m] and density [kg/m3] of each level."""
         densities = self.density or tuple(
             map(sea_water_density, self.temperature, self.salinity or (0.0,) * len(self.depth))
         )
         return tuple(zip(self.depth, densities, strict=True))
 
     def errors(self) -> list[str]:
-        """Say what is wrong with the levels."""
+        """Return the errors of the levels."""
         n = len(self.depth)
         if n < 2 or any(b <= a for a, b in pairwise(self.depth)):
             return [f"<u:depth> has {n} depths; expected 2 or more, rising [m]"]
         if bool(self.density) == bool(self.temperature):
             return ["expected one of <u:density> and <u:temperature>, a number for each depth"]
-        given = {"density": self.density, "temperature": self.temperature}
-        given["salinity"] = self.salinity
+        columns = {"density": self.density, "temperature": self.temperature}
+        columns["salinity"] = self.salinity
         return [
             f"<u:{name}> has {len(numbers)} numbers; expected {n}, one for each depth"
-            for name, numbers in given.items()
+            for name, numbers in columns.items()
             if numbers and len(numbers) != n
         ]
 
@@ -75,44 +75,44 @@ class OceanStateSpec(Spec):
     """An ``<oceanState>``: the surface and the water."""
 
     windx: float = element(default=0.04, original=Original(is_window_setting=True))
-    """Wind along x; not normalised, its length scales the waves [1]."""
+    """The wind along x; not normalised, its length scales the waves [1]."""
     windy: float = element(default=0.04, original=Original(is_window_setting=True))
-    """Wind along y; not normalised, its length scales the waves [1]."""
+    """The wind along y; not normalised, its length scales the waves [1]."""
     wind_speed: float = element(default=12.0, original=Original(is_window_setting=True))
-    """Wind speed of the wave spectrum [m/s]."""
+    """The wind speed of the wave spectrum [m/s]."""
     depth: float = element(default=1000.0, original=Original(is_window_setting=True))
-    """Depth of the water, for the speed of waves only: it is no floor [m]."""
+    """The depth of the water, for the speed of waves only: it is no floor [m]."""
     reflection_damping: float = element(default=0.35, original=Original(is_window_setting=True))
-    """Factor on waves that run against the wind [1]."""
+    """The factor on waves that run against the wind [1]."""
     wave_scale: float = element(default=1e-7, original=Original(is_window_setting=True))
-    """Amplitude of the wave spectrum [1]."""
+    """The amplitude of the wave spectrum [1]."""
     is_not_choppy: bool = element(
         default=False, original=Original(invalid_flag_value=True, is_window_setting=True)
     )
-    """Whether waves move points only up and down."""
+    """A flag: waves move points only up and down."""
     choppy_factor: float = element(default=2.5, original=Original(is_window_setting=True))
-    """Horizontal displacement of points by waves [1]."""
+    """The horizontal displacement of points by waves [1]."""
     crest_foam_height: float = element(default=2.2, original=Original(is_window_setting=True))
-    """Height from which crests foam; read and not used, as in the original [m]."""
+    """The height from which crests foam; read and not used, as in the original [m]."""
     ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """Height of the water surface in the world, z up [m]."""
+    """The height of the water surface in the world, z up [m]."""
     fog: FogSpec = element(default=FogSpec())
-    """How visibility falls with distance."""
+    """The decrease of visibility with distance."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb")
-    """Light scattered into the view by the water [0..1]."""
+    """The light that the water scatters into the view [0..1]."""
     attenuation: Triple = element(
         default=(0.015, 0.0075, 0.005), parts="rgb", minimum=0, maximum=1e6
     )
-    """Loss of red, green and blue light on its way [1/m]."""
+    """The loss of red, green and blue light per distance [1/m]."""
     density: float | None = element(namespaced=True, default=None, minimum=100.0, maximum=20000.0)
-    """Of the water that vehicles and things float in [kg/m3]; when absent that of temperature and
-    salinity, and without these the density that the vehicles' sets are given for."""
+    """The density of the water [kg/m3]; when absent that of temperature and salinity, and without
+    these that of the vehicles' sets."""
     temperature: float | None = element(namespaced=True, default=None, minimum=-2.0, maximum=40.0)
-    """Of the water, for its density by EOS-80 [degrees Celsius]; 15 if only salinity is given."""
+    """The temperature, for the density by EOS-80 [degrees Celsius]; 15 with salinity only."""
     salinity: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=42.0)
-    """Of the water, for its density [g/kg]; 0 if only temperature is given, 35 in the sea."""
+    """The salinity, for the density by EOS-80 [g/kg]; 0 if only temperature is given, 35 at sea."""
     profile: ProfileSpec | None = element(namespaced=True, default=None)
-    """Density over depth, instead of the three above."""
+    """The density over depth, instead of the three above."""
     currents: tuple[CurrentSpec, ...] = element(
         "current", namespaced=True, default=(),
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
@@ -122,18 +122,18 @@ class OceanStateSpec(Spec):
     @property
     def sea_water(self) -> SeaWater:
         """The water as an acoustic medium; sea water where the file gives no salinity."""
-        warmth = MILD if self.temperature is None else self.temperature
-        fresh = 0.0 if self.temperature is not None else SeaWater.salinity
-        return SeaWater(warmth, fresh if self.salinity is None else self.salinity)
+        temperature = DEFAULT_TEMPERATURE if self.temperature is None else self.temperature
+        default_salinity = 0.0 if self.temperature is not None else SeaWater.salinity
+        return SeaWater(temperature, default_salinity if self.salinity is None else self.salinity)
 
     @property
     def water_density(self) -> float | None:
-        """Density at the surface [kg/m3]; None if the file gives none."""
+        """The density at the surface [kg/m3]; None if the file gives none."""
         if self.profile is not None:
             return self.profile.density_at(0.0)
         if self.density is not None:
             return self.density
         if self.temperature is None and self.salinity is None:
             return None
-        warmth = MILD if self.temperature is None else self.temperature
-        return sea_water_density(warmth, self.salinity or 0.0)
+        temperature = DEFAULT_TEMPERATURE if self.temperature is None else self.temperature
+        return sea_water_density(temperature, self.salinity or 0.0)

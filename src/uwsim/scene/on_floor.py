@@ -1,4 +1,4 @@
-"""Placing vehicles and objects on the ground, ``<u:onFloor>``.
+"""Placement of vehicles and objects on the ground, ``<u:onFloor>``.
 
 .. code-block:: xml
 
@@ -14,22 +14,22 @@ from dataclasses import dataclass
 from ..schema import Spec, element
 
 MAX_CLEARANCE = 1e4
-"""[m]"""
+"""The greatest distance from the ground [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class OnFloorSpec(Spec):
-    """A ``<u:onFloor>``: it stands on the ground at the x and y of its ``<position>``.
+    """A ``<u:onFloor>``: placement on the ground at the x and y of its ``<position>``.
 
-    Whatever height the position says; that chooses the floor where several lie one over another:
-    the next one below it. The ground is `terrain` and other scenery that is solid and fixed. What
-    stands on it touches it with its collision shape, an object without `<physics>` with the hull of
-    its mesh. `<u:onFloor/>` is enough.
+    Of several floors, one over another, the next one below the height of the position is chosen.
+    The ground is `terrain` and other scenery that is solid and fixed. The contacts of a placed body
+    are those of its collision shape, for an object without `<physics>` of the hull of its mesh.
+    `<u:onFloor/>` is sufficient.
     """
 
     clearance: float = element(
         namespaced=True, default=0.0, minimum=-MAX_CLEARANCE, maximum=MAX_CLEARANCE
     )
-    """Height above the ground; below 0 it is sunk in [m]."""
+    """The height above the ground; below 0 it is sunk in [m]."""
     align_to_slope: bool = element(namespaced=True, default=False)
-    """Whether it leans as the ground under it does; else its orientation stays."""
+    """A flag: it has the slope of the ground under it; else its orientation does not change."""

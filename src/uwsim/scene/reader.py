@@ -1,4 +1,4 @@
-"""Reads a scene file into a `SceneSpec`, or reports every error."""
+"""Reader of a scene file: a `SceneSpec`, or every error."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .variation import check_variations
 from .xacro import parse_expanded
 
 ROOT = "UWSimScene"
-"""Name of the root element."""
+"""The name of the root element."""
 
 
 def read_scene(
@@ -27,8 +27,8 @@ def read_scene(
 
     Args:
         path: the file.
-        data_path: further folders in which included files are looked for.
-        arguments: values of xacro arguments of the scene and its robots, by name.
+        data_path: the further folders that are searched for included files.
+        arguments: the values of xacro arguments of the scene and its robots, by name.
 
     Raises:
         SceneError: with every error of the file.
@@ -43,7 +43,7 @@ def read_scene(
 
 
 def read_document(document: Document, diagnostics: Diagnostics) -> SceneSpec | None:
-    """Read a scene that is already parsed; None when its errors leave nothing to build on."""
+    """Read a scene that is already parsed; None if its errors leave no root element."""
     check_head(document, ROOT, diagnostics)
     if document.root.tag != ROOT:
         return None

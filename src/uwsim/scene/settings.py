@@ -1,14 +1,14 @@
 """Settings from the command line: ``--set oceanState.fog.density=0.4`` changes one value of a spec.
 
-A path is element names joined by dots; ``[name]`` chooses among equals, and may be left out where
-there is only one: ``vehicle[girona500].virtualCamera[bowtech1].std``. What has no name is chosen by
-its axis (``sway[x]``), or by its number from 1 (``oceanState.current.gaussMarkov[2]``). The value
-is read by the same rules as in a file. Three numbers are set together (``position=1 2 3``) or one
-by one (``position.x=1``), a list as a whole (``jointValues=0 0 2.2 0 0.8``) or by its numbers from
-1 (``jointValues.3=2.2``).
+A path is element names joined by dots; ``[name]`` chooses among elements of one name, and is
+optional if there is only one: ``vehicle[girona500].virtualCamera[bowtech1].std``. An element
+without a name is chosen by its axis (``sway[x]``), or by its number from 1
+(``oceanState.current.gaussMarkov[2]``). The value is read by the same rules as in a file. Three
+numbers are set together (``position=1 2 3``) or one by one (``position.x=1``), a list as a whole
+(``jointValues=0 0 2.2 0 0.8``) or by its numbers from 1 (``jointValues.3=2.2``).
 
-What is behind ``vehicle[NAME].hydrodynamics`` leads into the hydrodynamics file of a vehicle:
-``vehicle[girona500].hydrodynamics.body[base_link].mass``. It is looked up when that file is read.
+A path below ``vehicle[NAME].hydrodynamics`` refers to the hydrodynamics file of a vehicle:
+``vehicle[girona500].hydrodynamics.body[base_link].mass``. It is resolved when that file is read.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from .. import schema
 from ..errors import BadSetting, UnknownName, did_you_mean
 
 T = TypeVar("T")
-OF_XACRO = "xacro."
-"""Beginning of the settings that are xacro arguments, which hold when the file is read."""
+XACRO_PREFIX = "xacro."
+"""The prefix of settings that are xacro arguments, which apply when the file is read."""
 HYDRODYNAMICS = "hydrodynamics"
-"""What leads from a vehicle into its hydrodynamics file."""
+"""The name in a path that leads from a vehicle into its hydrodynamics file."""
 _PART = re.compile(r"([^\[\].=]+)(?:\[([^\]]*)\])?(?:\.|$)")
 
 
@@ -37,13 +37,13 @@ class Place:
     """The value that a path refers to."""
 
     steps: tuple[Step, ...]
-    """From the whole down to the spec that has the value."""
+    """The steps from the root spec to the spec that has the value."""
     leaf: Any
-    """That spec."""
+    """The spec that has the value."""
     field: schema.Field
-    """The value's field in it."""
+    """The field of the value in that spec."""
     rest: tuple[str, ...]
-    """What the path says behind it: a letter of a triple."""
+    """The names of the path after the field: a letter of a triple."""
 
     @property
     def path(self) -> str:
@@ -53,23 +53,23 @@ class Place:
 
     @property
     def is_number(self) -> bool:
-        """Whether it is one number."""
+        """A flag: the value is one number."""
         is_scalar = self.field.kind in ("float", "int") and not self.field.is_repeated
         return (is_scalar and not self.rest) or (self.has_parts and len(self.rest) == 1)
 
     @property
     def has_parts(self) -> bool:
-        """Whether it is several numbers, of which one can be chosen."""
+        """A flag: the value has several numbers, of which one can be chosen."""
         return self.field.kind == "triple" or _is_list(self.field)
 
     @property
-    def is_whole(self) -> bool:
-        """Whether it is a whole number."""
+    def is_integer(self) -> bool:
+        """A flag: the value is an integer."""
         return self.field.kind == "int"
 
     @property
     def kind(self) -> str:
-        """What it is, in words."""
+        """The kind of value, in words."""
         if self.field.kind == "triple":
             return f"three numbers; choose one, .{self.field.xml.parts[0]}"
         words = {"str": "text", "bool": "a flag", "word": "a word"}
@@ -81,15 +81,15 @@ class Place:
 
     @property
     def unit(self) -> str:
-        """Its unit, as far as its documentation names one."""
+        """The unit, if the documentation of the field has one."""
         return self.field.unit
 
     def with_value(self, text: str) -> Any:
-        """Return a copy of the whole with another value here; BadSetting if it is invalid."""
-        changed = _with_value(self.leaf, self.field, list(self.rest), text)
+        """Return a copy of the root spec with another value; BadSetting if it is invalid."""
+        new_spec = _with_value(self.leaf, self.field, list(self.rest), text)
         for step in reversed(self.steps):
-            changed = step.put(changed)
-        return changed
+            new_spec = step.with_inner(new_spec)
+        return new_spec
 
 
 @dataclass(frozen=True)
@@ -106,28 +106,28 @@ class HydrodynamicsPlace(Place):
 
     @property
     def is_number(self) -> bool:
-        """Whether it is one number; what it is in truth shows when the file is read."""
+        """A flag: the value is one number; its kind is checked when the file is read."""
         return True
 
     @property
-    def is_whole(self) -> bool:
-        """Whether it is a whole number."""
+    def is_integer(self) -> bool:
+        """A flag: the value is an integer."""
         return False
 
     @property
     def unit(self) -> str:
-        """Its unit, which is not known here."""
+        """The unit, which is unknown before the file is read."""
         return ""
 
     def with_value(self, text: str) -> Any:
-        """Return a copy of the whole in which the number is set."""
-        others = tuple(each for each in self.leaf.hydrodynamics if each[0] != self.number)
-        changed = dataclasses.replace(
-            self.leaf, hydrodynamics=(*others, (self.number, " ".join(text.split())))
+        """Return a copy of the root spec in which the number is set."""
+        other_entries = tuple(entry for entry in self.leaf.hydrodynamics if entry[0] != self.number)
+        new_spec = dataclasses.replace(
+            self.leaf, hydrodynamics=(*other_entries, (self.number, " ".join(text.split())))
         )
         for step in reversed(self.steps):
-            changed = step.put(changed)
-        return changed
+            new_spec = step.with_inner(new_spec)
+        return new_spec
 
 
 @dataclass(frozen=True)
@@ -135,91 +135,91 @@ class Step:
     """A step from a spec to a nested one."""
 
     spec: Any
-    """The outer one."""
+    """The outer spec."""
     field: str
-    """Its field that holds the inner one."""
+    """The field of the outer spec that has the inner one."""
     index: int | None
-    """Where in a tuple; None: the field is the inner one itself."""
+    """The index in a tuple; None: the field is the inner spec itself."""
     name: str
-    """What a path says for it; empty: nothing."""
+    """The name of the step in a path; empty for none."""
 
-    def put(self, inner: Any) -> Any:
-        """Return the outer spec with another inner one."""
+    def with_inner(self, new_value: Any) -> Any:
+        """Return the outer spec with another inner spec."""
         if self.index is not None:
             entries = getattr(self.spec, self.field)
-            inner = (*entries[: self.index], inner, *entries[self.index + 1 :])
-        return dataclasses.replace(self.spec, **{self.field: inner})
+            new_value = (*entries[: self.index], new_value, *entries[self.index + 1 :])
+        return dataclasses.replace(self.spec, **{self.field: new_value})
 
 
 def xacro_arguments(settings: Iterable[tuple[str, object]]) -> dict[str, str]:
     """Return the xacro arguments among settings: ``xacro.depth`` is the argument ``depth``."""
     return {
-        name.removeprefix(OF_XACRO): str(value)
+        name.removeprefix(XACRO_PREFIX): str(value)
         for name, value in settings
-        if name.startswith(OF_XACRO)
+        if name.startswith(XACRO_PREFIX)
     }
 
 
 def apply_setting(spec: T, path: str, value: str) -> T:
-    """Return a copy of ``spec`` in which the value that ``path`` leads to is ``value``.
+    """Return a copy of ``spec`` with another value at ``path``.
 
-    Variations (``u:vary``) of that value, of a part of it or of something around it are dropped.
+    Variations (``u:vary``) of that value, of a part of it or of an element around it are removed.
     A xacro argument (`xacro_arguments`) changes nothing here.
 
     Raises:
-        BadSetting: a path that leads nowhere or a value that cannot stand there; names what can.
+        BadSetting: an unknown path or an invalid value; names the valid ones.
     """
-    if path.startswith(OF_XACRO):
+    if path.startswith(XACRO_PREFIX):
         return spec
     try:
         place = locate(spec, path)
-        changed = place.with_value(value)
+        new_spec = place.with_value(value)
     except BadSetting as error:
         raise BadSetting(f"--set {path}={value}: {error}") from None
-    if varied := getattr(changed, "vary", ()):
-        kept = tuple(v for v in varied if not overlaps(locate(spec, v.path), place))
-        changed = dataclasses.replace(changed, vary=kept)
-    return cast(T, changed)
+    if variations := getattr(new_spec, "vary", ()):
+        other_variations = tuple(v for v in variations if not overlaps(locate(spec, v.path), place))
+        new_spec = dataclasses.replace(new_spec, vary=other_variations)
+    return cast(T, new_spec)
 
 
 def locate(spec: Any, path: str) -> Place:
-    """Find where a path leads in ``spec``; raises BadSetting for an unknown path."""
+    """Resolve a path in ``spec``; raise BadSetting for an unknown path."""
     parts = _parts(path)
     steps: list[Step] = []
     while True:
-        (name, chosen), parts = parts[0], parts[1:]
+        (name, key), parts = parts[0], parts[1:]
         if name == HYDRODYNAMICS and hasattr(spec, HYDRODYNAMICS):
             return _hydrodynamics_place(tuple(steps), spec, parts)
         field = _field(type(spec), name)
         current = getattr(spec, field.name)
         index: int | None = None
         if field.kind == "choice" and parts:
-            (name, chosen), parts = parts[0], parts[1:]
+            (name, key), parts = parts[0], parts[1:]
             kinds = {tag.rpartition("}")[2]: kind for tag, kind in field.type.items()}
             name = name.removeprefix("u:")
             if name not in kinds:
                 raise BadSetting(str(UnknownName(f"element of <{field.label}>", name, kinds)))
             kind = kinds[name]
-            index = _index(current, [isinstance(entry, kind) for entry in current], name, chosen)
+            index = _index(current, [isinstance(entry, kind) for entry in current], name, key)
             name = f"{field.label.removeprefix('u:')}.{name}"
         elif field.kind == "spec" and (field.is_repeated or field.is_member):
             name = field.label.removeprefix("u:")
             fits = [not field.is_member or isinstance(entry, field.type) for entry in current]
-            index = _index(current, fits, name, chosen)
-        elif chosen is not None:
-            raise BadSetting(f"<{name}> stands once; leave [{chosen}] out.")
+            index = _index(current, fits, name, key)
+        elif key is not None:
+            raise BadSetting(f"<{name}> occurs once; remove [{key}].")
         elif field.kind == "spec":
             name = field.label.removeprefix("u:")
             if current is None:
                 raise BadSetting(f"the file has no <{name}> here.")
         else:
             return Place(tuple(steps), spec, field, tuple(name for name, _ in parts))
-        inner = current if index is None else current[index]
+        inner_spec = current if index is None else current[index]
         if not parts:
-            raise BadSetting(_inside(name, type(inner)))
-        key = "" if index is None else f"[{_key(current, index)}]"
-        steps.append(Step(spec, field.name, index, name + key))
-        spec = inner
+            raise BadSetting(_parts_message(name, type(inner_spec)))
+        key_text = "" if index is None else f"[{_key(current, index)}]"
+        steps.append(Step(spec, field.name, index, name + key_text))
+        spec = inner_spec
 
 
 def _hydrodynamics_place(
@@ -235,22 +235,22 @@ def _hydrodynamics_place(
     return HydrodynamicsPlace(steps, vehicle, field, (), number)
 
 
-def overlaps(one: Place, other: Place) -> bool:
-    """Whether two places share a value."""
-    first, second = (place.path.split(".") for place in (one, other))
-    return all(a == b for a, b in zip(first, second, strict=False))
+def overlaps(left: Place, right: Place) -> bool:
+    """Return whether two places share a value."""
+    left_names, right_names = (place.path.split(".") for place in (left, right))
+    return all(a == b for a, b in zip(left_names, right_names, strict=False))
 
 
 def _parts(path: str) -> list[tuple[str, str | None]]:
-    """``a.b[c].d`` as [("a", None), ("b", "c"), ("d", None)]."""
+    """Split ``a.b[c].d`` into [("a", None), ("b", "c"), ("d", None)]."""
     parts: list[tuple[str, str | None]] = []
-    at = 0
-    while at < len(path) or not parts:
-        match = _PART.match(path, at)
+    position = 0
+    while position < len(path) or not parts:
+        match = _PART.match(path, position)
         if match is None or (match.end() == len(path) and path.endswith(".")):
             raise BadSetting("not a path; expected names joined by dots, as in a.b[name].c.")
         parts.append((match[1], match[2]))
-        at = match.end()
+        position = match.end()
     return parts
 
 
@@ -264,43 +264,45 @@ def _field(cls: type, name: str) -> schema.Field:
     return field
 
 
-def _inside(name: str, cls: type) -> str:
+def _parts_message(name: str, cls: type) -> str:
     names = ", ".join(field.label for field in schema.fields_of(cls))
     return f"<{name}> is not a value; its parts are {names}."
 
 
-def _index(entries: Sequence[Any], fits: Sequence[bool], name: str, chosen: str | None) -> int:
-    """Find the one entry that ``name[chosen]`` means: by its name, else by its number from 1."""
-    found = [index for index, fit in enumerate(fits) if fit]
-    names = [_name_of(entries[index]) for index in found]
-    if chosen is not None:
-        if chosen in names:
-            return found[names.index(chosen)]
-        if chosen.isdecimal() and 1 <= int(chosen) <= len(found) and not all(names):
-            return found[int(chosen) - 1]
-        raise BadSetting(str(UnknownName(f"<{name}>", chosen, names)))
-    if len(found) != 1:
-        shown = [each or str(number) for number, each in enumerate(names, start=1)]
+def _index(entries: Sequence[Any], fits: Sequence[bool], name: str, key: str | None) -> int:
+    """Return the index of the entry ``name[key]``: by its name, else by its number from 1."""
+    indices = [index for index, fit in enumerate(fits) if fit]
+    names = [_name_of(entries[index]) for index in indices]
+    if key is not None:
+        if key in names:
+            return indices[names.index(key)]
+        if key.isdecimal() and 1 <= int(key) <= len(indices) and not all(names):
+            return indices[int(key) - 1]
+        raise BadSetting(str(UnknownName(f"<{name}>", key, names)))
+    if len(indices) != 1:
+        keys = [key_text or str(number) for number, key_text in enumerate(names, start=1)]
         message = (
-            f"choose one: {', '.join(f'{name}[{each}]' for each in shown)}" if found else "none"
+            f"choose one: {', '.join(f'{name}[{key_text}]' for key_text in keys)}"
+            if indices
+            else "none"
         )
-        raise BadSetting(f"the file has {len(found)} <{name}>; {message}.")
-    return found[0]
+        raise BadSetting(f"the file has {len(indices)} <{name}>; {message}.")
+    return indices[0]
 
 
 def _name_of(entry: Any) -> str:
-    """What chooses an entry among equals: its name, or the axis or link that it is about."""
+    """Return the key of an entry: its name, or its axis or link."""
     names = (getattr(entry, name, None) for name in ("name", "axis", "link"))
     return str(next((name for name in names if name is not None), ""))
 
 
 def _key(entries: Sequence[Any], index: int) -> str:
-    """What a path in full says for an entry: its name, or its number among those of its kind."""
+    """Return the key of an entry in a full path: its name, or its number among its kind."""
     entry = entries[index]
-    same = [other for other in entries if type(other) is type(entry)]
+    siblings = [other for other in entries if type(other) is type(entry)]
     name = _name_of(entry)
-    is_first = next(other for other in same if _name_of(other) == name) is entry
-    return name if name and is_first else str(1 + [id(o) for o in same].index(id(entry)))
+    is_first = next(other for other in siblings if _name_of(other) == name) is entry
+    return name if name and is_first else str(1 + [id(o) for o in siblings].index(id(entry)))
 
 
 def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> Any:
@@ -322,7 +324,7 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
     elif field.kind not in ("str", "float", "int", "bool", "word"):
         raise BadSetting(f"<{field.label}> cannot be set from here; change the file.")
     elif not text and field.kind != "str":
-        raise BadSetting(f"nothing behind the '='; expected {field.expected} for <{field.label}>.")
+        raise BadSetting(f"nothing after the '='; expected {field.expected} for <{field.label}>.")
     elif field.xml.attribute:
         node.set(field.tag, text)
     elif field.xml.text:
@@ -332,21 +334,21 @@ def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> A
     else:
         etree.SubElement(node, field.tag).text = text
     diagnostics = schema.Diagnostics("")
-    given = {
-        each.name: getattr(spec, each.name)
-        for each in dataclasses.fields(spec)
-        if each.init and each.name != field.name
+    known_fields = {
+        spec_field.name: getattr(spec, spec_field.name)
+        for spec_field in dataclasses.fields(spec)
+        if spec_field.init and spec_field.name != field.name
     }
-    changed = schema.read(type(spec), node, diagnostics, known_fields=given)
-    if changed is None or diagnostics.to_list():
+    new_spec = schema.read(type(spec), node, diagnostics, known_fields=known_fields)
+    if new_spec is None or diagnostics.to_list():
         raise BadSetting(
             "; ".join(diagnostic.message for diagnostic in diagnostics.to_list()) or "no value."
         )
-    return changed
+    return new_spec
 
 
 def _is_list(field: schema.Field) -> bool:
-    """Whether a field is a list of numbers in one element."""
+    """Return whether a field is a list of numbers in one element."""
     return field.kind == "numbers" or (field.xml.item is not None and field.kind == "float")
 
 
@@ -364,12 +366,12 @@ def _with_number(current: Any, field: schema.Field, rest: list[str], text: str) 
 
 def _write_list(node: etree._Element, field: schema.Field, text: str) -> None:
     """Write a list of numbers: in one text, or an element each."""
-    listed, words = etree.SubElement(node, field.tag), text.replace(",", " ").split()
+    list_node, words = etree.SubElement(node, field.tag), text.replace(",", " ").split()
     if field.xml.item is None:
-        listed.text = " ".join(words)
+        list_node.text = " ".join(words)
         return
     for word in words:
-        etree.SubElement(listed, field.xml.item).text = word
+        etree.SubElement(list_node, field.xml.item).text = word
 
 
 def _write_triple(
@@ -384,10 +386,9 @@ def _write_triple(
     if not rest:
         words = text.replace(",", " ").split()
         if len(words) != len(letters):
-            words_too = f", or one of {', '.join(field.words)}" if field.words else ""
-            raise BadSetting(
-                f"<{field.label}> wants {len(letters)} numbers, as in '1 2 3'{words_too}."
-            )
+            alternatives = f", or one of {', '.join(field.words)}" if field.words else ""
+            count = len(letters)
+            raise BadSetting(f"<{field.label}> needs {count} numbers, as in '1 2 3'{alternatives}.")
     elif len(rest) > 1 or rest[0] not in letters or current is None or isinstance(current, str):
         raise BadSetting(f"<{field.label}> has {', '.join(f'<{letter}>' for letter in letters)}.")
     else:

@@ -13,27 +13,27 @@ from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .spec import SceneSpec
 
 MAX_PIXELS = 7680 * 4320
-"""Largest image of a camera [px]: 8K. Drawing it takes about 1 GB."""
+"""The size of the largest image of a camera [px]: 8K. It needs about 1 GB to draw."""
 MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
-"""Of all cameras of a scene [px]."""
+"""The greatest number of pixels of all cameras of a scene [px]."""
 MAX_BEAMS = 100_000
-"""Most beams of one sensor."""
+"""The greatest number of beams of one sensor."""
 MAX_CELLS = 20_000_000
-"""Most bins of all beams of a sonar, or of all pings that it keeps: 80 MB."""
+"""The greatest number of bins of all beams of a sonar, or of all pings that it keeps: 80 MB."""
 MAX_RAYS = 1_000_000
-"""Most rays of a ping of a sonar."""
+"""The greatest number of rays of a ping of a sonar."""
 
 
 def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Report cameras, fans of beams and sonars that are too large, or see nothing."""
+    """Report cameras, fans of beams and sonars that are too large, or have no view."""
     n_all = 0
     for image in _cameras(scene):
         n = image.resw * image.resh
         if n > MAX_PIXELS:
             diagnostics.error(
                 image,
-                f"an image of {image.resw} x {image.resh} pixels; at most "
-                f"{MAX_PIXELS / 1e6:.0f} million are drawn",
+                f"an image of {image.resw} x {image.resh} pixels; expected at most "
+                f"{MAX_PIXELS / 1e6:.0f} million",
             )
             continue
         n_all += n
@@ -41,7 +41,7 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             diagnostics.error(
                 image,
                 f"with this one, the images of the scene have {n_all / 1e6:.0f} million pixels; "
-                f"at most {MAX_PIXELS_IN_ALL / 1e6:.0f} are drawn",
+                f"expected at most {MAX_PIXELS_IN_ALL / 1e6:.0f}",
             )
             break
     for camera in _cameras(scene):
@@ -57,9 +57,11 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
             diagnostics.error(
                 fan,
                 f"from {fan.init_angle:g} to {fan.final_angle:g} degrees in steps of "
-                f"{fan.angle_incr:g} are more than {MAX_BEAMS} beams",
+                f"{fan.angle_incr:g} are too many beams; expected at most {MAX_BEAMS}",
             )
-    for sonar in (each for vehicle in scene.vehicles for each in vehicle.parts_of(SonarSpec)):
+    for sonar in (
+        sonar_spec for vehicle in scene.vehicles for sonar_spec in vehicle.parts_of(SonarSpec)
+    ):
         for error in _sonar_errors(sonar):
             diagnostics.error(sonar, error)
 
@@ -69,13 +71,13 @@ def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:
         yield f"<minRange> is {sonar.min_range:g}; expected less than <range>, {sonar.range:g} m"
     if sonar.n_cells > MAX_CELLS:
         yield (
-            f"{sonar.bins} bins of {sonar.n_cells // sonar.bins} beams or pings; at most "
-            f"{MAX_CELLS / 1e6:.0f} million are kept in all"
+            f"{sonar.bins} bins of {sonar.n_cells // sonar.bins} beams or pings; expected at most "
+            f"{MAX_CELLS / 1e6:.0f} million in all"
         )
     if sonar.n_rays > MAX_RAYS:
         yield (
-            f"{sonar.n_rays // sonar.rows} columns of {sonar.rows} rays; at most "
-            f"{MAX_RAYS / 1e6:.0f} million rays are cast in a ping"
+            f"{sonar.n_rays // sonar.rows} columns of {sonar.rows} rays; expected at most "
+            f"{MAX_RAYS / 1e6:.0f} million rays in a ping"
         )
 
 

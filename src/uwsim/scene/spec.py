@@ -10,10 +10,10 @@
       <rosInterfaces> ... </rosInterfaces>
     </UWSimScene>
 
-The fields stand in the order of the original grammar. Positions and angles keep the numbers and
-the frame of the file, L; the properties that return a `Pose` know which of UWSim's two Euler
-orders holds where. Where the original leaves a value uninitialised, the default is that of its
-own macro library.
+The fields have the order of the original grammar. Positions and angles have the numbers and the
+frame of the file, L; the properties that return a `Pose` apply the one of UWSim's two Euler orders
+that is valid for the element. For a value that the original leaves uninitialised, the default is
+that of its macro library.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ from .vehicle import VehicleSpec
 
 @dataclass(frozen=True, kw_only=True)
 class NedOriginSpec(Spec):
-    """A ``<nedOrigin>``: where on Earth the origin of W is, for ``<fdm>`` and GPS."""
+    """A ``<nedOrigin>``: the position on Earth of the origin of W, for ``<fdm>`` and GPS."""
 
     lat: float = element(
         default=0.0,
@@ -48,38 +48,38 @@ class NedOriginSpec(Spec):
         maximum=90,
         original=Original(allows_trailing_text=True, is_required=True),
     )
-    """Latitude [deg]."""
+    """The latitude [deg]."""
     lon: float = element(
         default=0.0,
         minimum=-360,
         maximum=360,
         original=Original(allows_trailing_text=True, is_required=True),
     )
-    """Longitude [deg]."""
+    """The longitude [deg]."""
 
     @property
     def place(self) -> Geodetic:
-        """The place on the ellipsoid."""
+        """The position on the ellipsoid."""
         return Geodetic(latitude=math.radians(self.lat), longitude=math.radians(self.lon))
 
 
 @dataclass(frozen=True, kw_only=True)
 class NetTracingScriptSpec(Spec):
-    """A ``<netTracingScript>``: what becomes of each packet is published on ``/network/trace``.
+    """A ``<netTracingScript>``: the events of each packet are published on ``/network/trace``.
 
-    As std_msgs/String: time [s], device, what happens, sender and number of the packet, its size.
+    As std_msgs/String: time [s], device, event, sender and number of the packet, its size.
     """
 
     class_name: str = element(default="", original=REQUIRED_BY_DTD)
-    """Name of a plug-in of the original: read and not used."""
+    """The name of a plug-in of the original: read and not used."""
     lib_path: str = ""
-    """Library that holds it: read and not used."""
+    """The library of the plug-in: read and not used."""
     log_to_file: str = ""
-    """Read and not used: a scene writes no files."""
+    """The log file: read and not used, as a scene writes no files."""
     log_to_console: bool = True
-    """Read and not used."""
+    """The log to the console: read and not used."""
     async_log: bool = True
-    """Read and not used."""
+    """The asynchronous log: read and not used."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,99 +95,99 @@ class SceneSpec(Spec):
     )
     """The viewer's camera."""
     ned_origin: NedOriginSpec | None = None
-    """Where on Earth the scene lies."""
+    """The position of the scene on Earth."""
     net_tracing_script: NetTracingScriptSpec | None = None
-    """Watches the network simulation."""
+    """The trace of the network simulation."""
     custom_comms_channels: tuple[CustomCommsChannelSpec, ...] = element(
         "CustomCommsChannel", default=()
     )
-    """Channels described by delays."""
+    """The channels with given delays."""
     acoustic_comms_channels: tuple[AcousticCommsChannelSpec, ...] = element(
         "AcousticCommsChannel", default=()
     )
-    """Acoustic channels."""
+    """The acoustic channels."""
     vehicles: tuple[VehicleSpec, ...] = element("vehicle", default=())
     """The robots."""
     objects: tuple[ObjectSpec, ...] = element("object", default=())
-    """Everything else."""
+    """The objects in the water."""
     ros_interfaces: tuple[InterfaceSpec, ...] = element(choice=INTERFACES, default=())
-    """Topics in and out."""
+    """The topics in and out."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
-    """Values that are drawn anew for each seed."""
+    """The values that are drawn anew for each seed."""
     forces: tuple[ForceSpec, ...] = element(
         namespaced=True, default=(),
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in FORCES.items()},
     )  # fmt: skip
     """Forces on bodies besides those of the water."""
     path: str = dataclasses.field(default="", compare=False, metadata={"path": True})
-    """The file it was read from."""
+    """The file from which it was read."""
     is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})
-    """Whether it names the original's DTD: models that are nowhere are then labelled boxes."""
+    """A flag: it names the original's DTD; labelled boxes then replace missing models."""
 
     expansion: Expansion = dataclasses.field(
         default=Expansion(), compare=False, metadata={"path": True}
     )
-    """What is known of its xacro: the arguments from outside hold for its robots, too."""
+    """The xacro expansion; the caller's arguments apply to its robots, too."""
 
     @property
-    def nominal(self) -> SceneSpec:
-        """The same without variations: as the file says, whatever the seed."""
+    def nominal_scene(self) -> SceneSpec:
+        """The same scene without variations: as in the file, for any seed."""
         return dataclasses.replace(self, vary=())
 
     @cached_property
     def world_from_localized(self) -> Pose:
-        """W from L: the offset in ``simParams``."""
+        """The pose of L in W: the offset in ``simParams``."""
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)
 
     @property
     def earth_origin(self) -> Geodetic | None:
-        """Where on Earth the origin of W is: x east, y north; None if the scene does not say."""
+        """The position on Earth of W's origin: x east, y north; None if the scene gives none."""
         return None if self.ned_origin is None else self.ned_origin.place
 
     @property
     def is_dynamic(self) -> bool:
-        """Whether a vehicle is simulated."""
+        """A flag: a vehicle is simulated."""
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)
 
     @property
     def is_original_physics(self) -> bool:
-        """Whether the original's physics is asked for: ``enablePhysics``, nothing in water."""
+        """A flag: the original's physics is requested: ``enablePhysics``, nothing in water."""
         return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
     def has_uwsim_physics(self) -> bool:
-        """Whether objects move by the original's physics."""
+        """A flag: objects move by the original's physics."""
         return self.is_original_physics and any(
             physics.is_loose for physics in self.solid_objects.values()
         )
 
     @property
     def simulated_solids(self) -> dict[int, PhysicsSpec]:
-        """What can be touched besides vehicles in simulated water, by number.
+        """The solid objects in simulated water, by number.
 
         Objects with ``<physics>`` or ``u:solid`` 1, and ``terrain``; nothing with ``u:solid`` 0.
         """
         is_dynamic = self.is_dynamic
         return {
-            i: thing.solid
-            for i, thing in enumerate(self.objects)
-            if thing.is_touched(in_water=is_dynamic)
+            i: spec.solid
+            for i, spec in enumerate(self.objects)
+            if spec.has_contacts(in_water=is_dynamic)
         }
 
     @property
     def solid_objects(self) -> dict[int, PhysicsSpec]:
-        """What can be touched, by number: `simulated_solids`; by the original's physics all.
+        """The objects with contacts, by number: `simulated_solids`; all in the original's physics.
 
-        All, too, and fixed, where nothing is solid: there the original ends when asked for
-        contacts. Nothing with ``u:solid`` 0.
+        If nothing is solid, all are, and fixed, as the original ends on a request for contacts.
+        Never those with ``u:solid`` 0.
         """
-        objects = {i: thing for i, thing in enumerate(self.objects) if thing.is_solid is not False}
+        objects = {i: spec for i, spec in enumerate(self.objects) if spec.is_solid is not False}
         if self.is_original_physics:
-            return {i: thing.solid for i, thing in objects.items()}
+            return {i: spec.solid for i, spec in objects.items()}
         if solids := self.simulated_solids:
             return solids
         return {
-            i: dataclasses.replace(thing.solid, is_kinematic=True) for i, thing in objects.items()
+            i: dataclasses.replace(spec.solid, is_kinematic=True) for i, spec in objects.items()
         }
 
 
@@ -203,12 +203,12 @@ def with_integrator(scene: SceneSpec, integrator: Integrator | None) -> SceneSpe
         raise BadSetting(
             f"The integrator is {integrator!r}; expected {' or '.join(get_args(Integrator))}."
         )
-    changed = dataclasses.replace(scene.sim_params, integrator=integrator)
-    return dataclasses.replace(scene, sim_params=changed)
+    sim_params = dataclasses.replace(scene.sim_params, integrator=integrator)
+    return dataclasses.replace(scene, sim_params=sim_params)
 
 
-def stands_on_floor(scene: SceneSpec) -> bool:
-    """Whether anything is to be set on the ground."""
+def has_floor_placement(scene: SceneSpec) -> bool:
+    """Return whether a vehicle or object is to be set on the ground."""
     floors = [vehicle.on_floor for vehicle in scene.vehicles]
-    floors += [thing.on_floor for thing in scene.objects]
+    floors += [spec.on_floor for spec in scene.objects]
     return any(floor is not None for floor in floors)

@@ -24,15 +24,15 @@ FAMILIES: dict[str, dict[str, type]] = {
     "rosInterfaces": {n: spec for n, spec in INTERFACES.items() if n != "SimulatedDeviceROS"},
     "SimulatedDeviceROS": {"echoROS": INTERFACES["echoROS"]},
 }
-"""Element -> the parts that may stand in it; those without ``bind`` are not simulated."""
+"""The parts that an element may contain; those without ``bind`` are not simulated."""
 
 
 def _is_simulated(spec: type) -> bool:
-    """Whether a sensor, device or interface does anything."""
+    """Return whether a sensor, device or interface is simulated."""
     return spec.is_simulated() if issubclass(spec, InterfaceSpec) else hasattr(spec, "bind")
 
 
-UNSUPPORTED: dict[tuple[str, str], str] = {
+UNSIMULATED_ELEMENTS: dict[tuple[str, str], str] = {
     **{("oceanState", name): "waves" for name in WAVES},
     ("simParams", "disableShaders"): "the window",
     ("simParams", "enablePhysics"): "physics of contacts",
@@ -48,23 +48,23 @@ UNSUPPORTED: dict[tuple[str, str], str] = {
         if not _is_simulated(spec)
     },
 }
-"""(parent, element) -> what it belongs to."""
+"""The feature to which (parent, element) belongs."""
 
-FALL = (("simParams", "enablePhysics"), ("simParams", "gravity"))
-"""Simulated where ``enablePhysics`` is 1 and no vehicle has ``u:dynamics``."""
-LIMITS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
-"""Of an object's physics; not simulated."""
+ORIGINAL_PHYSICS_ELEMENTS = (("simParams", "enablePhysics"), ("simParams", "gravity"))
+"""The elements that are simulated if ``enablePhysics`` is 1 and no vehicle has ``u:dynamics``."""
+LIMIT_ELEMENTS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
+"""The limits of an object's physics, which are not simulated."""
 
-OFF = {"disableShaders": "0", "enablePhysics": "0", "showpath": "0"}
-"""An element with this text asks for nothing."""
+DISABLED_TEXTS = {"disableShaders": "0", "enablePhysics": "0", "showpath": "0"}
+"""The text with which an element has no effect."""
 
 
 READ_ONLY = "read, not simulated yet"
-FALLS_ALONE = "simulated where no vehicle has u:dynamics"
+ONLY_WITHOUT_DYNAMICS = "simulated where no vehicle has u:dynamics"
 
 
-def limit_of(parent: str, name: str) -> str:
-    """Describe what of an element below ``parent`` is not simulated; empty: nothing."""
-    if (parent, name) in FALL:
-        return FALLS_ALONE
-    return READ_ONLY if (parent, name) in UNSUPPORTED else ""
+def describe_limit(parent: str, name: str) -> str:
+    """Describe the part of an element below ``parent`` that is not simulated; empty for none."""
+    if (parent, name) in ORIGINAL_PHYSICS_ELEMENTS:
+        return ONLY_WITHOUT_DYNAMICS
+    return READ_ONLY if (parent, name) in UNSIMULATED_ELEMENTS else ""

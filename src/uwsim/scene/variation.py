@@ -12,10 +12,10 @@ r"""vary: values that are drawn at random for each seed; an extension of the dia
       </u:normal>
     </u:vary>
 
-A path is that of ``--set`` (`uwsim.scene.settings`) and leads to one number; whole numbers are
-drawn as such. Each number has a random stream of its own under the run's seed, called
-``vary/<path>``: one variation more changes no other, and every level of a seed has the same scene.
-``--set`` on a varied value, or on something around it, puts the variation out of force.
+A path is that of ``--set`` (`uwsim.scene.settings`) to one number; integers are drawn as integers.
+Each number has a separate random stream of the run's seed, ``vary/<path>``: an additional variation
+changes no other, and every level of a seed has the same scene. ``--set`` on a varied value, or on
+an element around it, removes the variation.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ from .settings import Place, locate, overlaps
 
 T = TypeVar("T")
 Find = Callable[[Any, str], Place]
-BOUNDS = 3.0
-"""Where a normal distribution without bounds is cut off, in deviations."""
+N_DEVIATIONS = 3.0
+"""The default bounds of a normal distribution, in deviations."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,16 +43,16 @@ class VariationSpec(Spec, abc.ABC):
     """The spec of one value that is drawn for each seed."""
 
     path: str = element(namespaced=True)
-    """Which value, as ``--set`` names it: ``vehicle[girona500].position.x``."""
+    """The path of the value, as in ``--set``: ``vehicle[girona500].position.x``."""
 
     @property
     @abc.abstractmethod
     def bounds(self) -> tuple[float, float]:
-        """Least and largest value that can be drawn, in the unit of the value."""
+        """The least and greatest value that can be drawn, in the unit of the value."""
 
     @property
     @abc.abstractmethod
-    def shown(self) -> str:
+    def description(self) -> str:
         """The distribution in words, without the unit: ``uniform 1.95 to 2.05``."""
 
     @abc.abstractmethod
@@ -60,28 +60,28 @@ class VariationSpec(Spec, abc.ABC):
         """Return the value below which ``share`` (0..1) of the distribution lies."""
 
     def diagnostic(self) -> str | None:
-        """What is wrong with the distribution as a whole."""
+        """Return the error of the distribution as a whole; None if it is valid."""
         low, high = self.bounds
         return None if low < high else f"<u:low> {low:g} is not below <u:high> {high:g}"
 
 
 @dataclass(frozen=True, kw_only=True)
 class UniformSpec(VariationSpec):
-    """A ``<u:uniform>``: every value between two bounds is as likely; bounds included."""
+    """A ``<u:uniform>``: a uniform distribution between two bounds, bounds included."""
 
     low: float = element(namespaced=True)
-    """Least value, in the unit of the value that varies."""
+    """The least value, in the unit of the value that varies."""
     high: float = element(namespaced=True)
-    """Largest value, in the unit of the value that varies."""
+    """The greatest value, in the unit of the value that varies."""
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """As given."""
+        """The bounds, as given."""
         return self.low, self.high
 
     @property
-    def shown(self) -> str:
-        """``uniform 1.95 to 2.05``."""
+    def description(self) -> str:
+        """The distribution in words, ``uniform 1.95 to 2.05``."""
         return f"uniform {self.low:g} to {self.high:g}"
 
     def quantile(self, share: float) -> float:
@@ -91,30 +91,30 @@ class UniformSpec(VariationSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class NormalSpec(VariationSpec):
-    """A ``<u:normal>``: a normal distribution, cut off at bounds.
+    """A ``<u:normal>``: a normal distribution, truncated at bounds.
 
-    What lies beyond the bounds is not moved to them; it is never drawn.
+    Values beyond the bounds are never drawn; they are not clamped.
     """
 
     mean: float = element(namespaced=True)
-    """Mean before it is cut off, in the unit of the value that varies."""
+    """The mean before truncation, in the unit of the value that varies."""
     deviation: float = element(namespaced=True, above=0.0)
-    """Standard deviation before it is cut off, in the unit of the value that varies."""
+    """The standard deviation before truncation, in the unit of the value that varies."""
     low: float | None = element(namespaced=True, default=None)
-    """Least value; without it the mean less three deviations."""
+    """The least value; without it the mean less three deviations."""
     high: float | None = element(namespaced=True, default=None)
-    """Largest value; without it the mean and three deviations."""
+    """The greatest value; without it the mean and three deviations."""
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """As given, else three deviations from the mean."""
-        reach = BOUNDS * self.deviation
+        """The bounds as given, else three deviations from the mean."""
+        reach = N_DEVIATIONS * self.deviation
         low = self.mean - reach if self.low is None else self.low
         return low, self.mean + reach if self.high is None else self.high
 
     @property
-    def shown(self) -> str:
-        """``normal 0.1 ± 0.01, 0.07 to 0.13``."""
+    def description(self) -> str:
+        """The distribution in words, ``normal 0.1 ± 0.01, 0.07 to 0.13``."""
         low, high = self.bounds
         return f"normal {self.mean:g} ± {self.deviation:g}, {low:g} to {high:g}"
 
@@ -122,22 +122,23 @@ class NormalSpec(VariationSpec):
         """Invert the distribution function between its values at the bounds."""
         from scipy.special import ndtr, ndtri
 
-        below, above = (float(ndtr(self._score(bound))) for bound in self.bounds)
-        value = self.mean + self.deviation * float(ndtri(below + share * (above - below)))
+        lower_share, upper_share = (float(ndtr(self._score(bound))) for bound in self.bounds)
+        value = self.mean + self.deviation * float(
+            ndtri(lower_share + share * (upper_share - lower_share))
+        )
         low, high = self.bounds
         return min(max(value, low), high)
 
     def diagnostic(self) -> str | None:
-        """Bounds in the wrong order, or where nothing is ever drawn."""
-        if wrong := super().diagnostic():
-            return wrong
+        """Return the error of bounds in the wrong order, or of bounds far from the mean."""
+        if error := super().diagnostic():
+            return error
         low, high = map(self._score, self.bounds)
-        if low > 2.0 * BOUNDS or high < -2.0 * BOUNDS:
-            return f"its bounds are more than {2 * BOUNDS:g} deviations from <u:mean>"
+        if low > 2.0 * N_DEVIATIONS or high < -2.0 * N_DEVIATIONS:
+            return f"its bounds are more than {2 * N_DEVIATIONS:g} deviations from <u:mean>"
         return None
 
     def _score(self, value: float) -> float:
-        """How many deviations from the mean."""
         return (value - self.mean) / self.deviation
 
 
@@ -145,7 +146,7 @@ DISTRIBUTIONS: dict[str, type[VariationSpec]] = {
     f"{{{NAMESPACE}}}normal": NormalSpec,
     f"{{{NAMESPACE}}}uniform": UniformSpec,
 }
-"""Element in ``<u:vary>`` -> its spec, in alphabetical order."""
+"""The spec of each element in ``<u:vary>``, in alphabetical order."""
 
 
 @dataclass(frozen=True)
@@ -155,9 +156,9 @@ class Draw:
     path: str
     """The value's full path: `uwsim.scene.settings.Place.path`."""
     value: float
-    """What was drawn; a whole number where the value is one."""
+    """The drawn value; an integer where the value is one."""
     unit: str
-    """Its unit, as far as its documentation names one."""
+    """The unit, if the documentation of the field has one."""
     drawn_from: str
     """The distribution in words."""
 
@@ -166,37 +167,36 @@ def draw(spec: Any, seed: int, *, find: Find = locate) -> tuple[Draw, ...]:
     """Draw a value for each variation of ``spec``, in their order.
 
     Args:
-        spec: a scene, or a benchmark; its variations are right (`check_variations`).
-        seed: the run's seed.
-        find: where a path leads in it.
+        spec: a scene, or a benchmark, with valid variations (`check_variations`).
+        seed: the seed of the run.
+        find: the function that resolves a path in the spec.
     """
     return tuple(
-        Draw(place.path, value, place.unit, variation.shown)
+        Draw(place.path, value, place.unit, variation.description)
         for variation, place, value in _values(spec, seed, find)
     )
 
 
-def varied(spec: T, seed: int, *, find: Find = locate) -> T:
-    """Return the scene, or benchmark, of a seed: its variations are drawn, and none is left."""
+def apply_variations(spec: T, seed: int, *, find: Find = locate) -> T:
+    """Return the scene, or benchmark, of a seed, with its variations drawn and removed."""
     if not spec.vary:  # type: ignore[attr-defined]
         return spec
-    drawn: Any = dataclasses.replace(spec, vary=())  # type: ignore[type-var]
+    new_spec: Any = dataclasses.replace(spec, vary=())  # type: ignore[type-var]
     for _, place, value in _values(spec, seed, find):
-        drawn = find(drawn, place.path).with_value(_text(value))
-    return cast(T, drawn)
+        new_spec = find(new_spec, place.path).with_value(_text(value))
+    return cast(T, new_spec)
 
 
 def _values(spec: Any, seed: int, find: Find) -> Iterator[tuple[VariationSpec, Place, float]]:
-    """Draw a value for each variation of ``spec``, in their order, and say for which place."""
+    """Draw a value for each variation of ``spec``, in their order, with its place."""
     for variation in spec.vary:
         try:
             place = find(spec, variation.path)
         except BadSetting as error:  # of a spec that was changed after it was read
-            raise BadSetting(
-                f"<u:vary> {variation.path}: {error} The scene without variations is its `nominal`."
-            ) from None
+            hint = "The scene without variations is its `nominal_scene`."
+            raise BadSetting(f"<u:vary> {variation.path}: {error} {hint}") from None
         share = float(stream(seed, f"vary/{place.path}").uniform())
-        yield variation, place, _drawn(variation, place, share)
+        yield variation, place, _draw_value(variation, place, share)
 
 
 def check_variations(
@@ -204,23 +204,25 @@ def check_variations(
     diagnostics: Diagnostics,
     *,
     find: Find = locate,
-    also: Callable[[Any], None] = lambda changed: None,
+    check_bound: Callable[[Any], None] = lambda new_spec: None,
 ) -> None:
     """Report errors in variations: paths, kinds, bounds, and two of one value.
 
     Args:
         spec: a scene, or a benchmark.
         diagnostics: receives the errors.
-        find: where a path leads in it.
-        also: raises BadSetting at what is wrong with the whole when a value is at its bound.
+        find: the function that resolves a path in the spec.
+        check_bound: raises BadSetting if a spec with a value at its bound is invalid.
     """
     places: list[Place] = []
     for variation in spec.vary:
         try:
             place = find(spec, variation.path)
-            for changed in _at_its_bounds(place, variation):
-                also(changed)
-            if twin := next((each for each in places if overlaps(each, place)), None):
+            for new_spec in _specs_at_bounds(place, variation):
+                check_bound(new_spec)
+            if twin := next(
+                (other_place for other_place in places if overlaps(other_place, place)), None
+            ):
                 raise BadSetting(f"{twin.path} varies already.")
         except BadSetting as error:
             diagnostics.error(variation, f"<u:path> {variation.path}: {error}".rstrip("."))
@@ -228,31 +230,31 @@ def check_variations(
             places.append(place)
 
 
-def _at_its_bounds(place: Place, variation: VariationSpec) -> list[Any]:
-    """Return the whole with the value at either bound; BadSetting if it cannot vary so."""
+def _specs_at_bounds(place: Place, variation: VariationSpec) -> list[Any]:
+    """Return the root spec with the value at either bound; BadSetting if it cannot vary."""
     if place.rest and not place.has_parts:
         raise BadSetting(f"<{place.field.label}> is a value; it has no elements.")
     if not place.is_number:
         raise BadSetting(f"it is {place.kind}; only a number can vary.")
-    if wrong := variation.diagnostic():
-        raise BadSetting(wrong + ".")
-    found = []
+    if error := variation.diagnostic():
+        raise BadSetting(error + ".")
+    specs = []
     for bound in variation.bounds:
-        if place.is_whole and not float(bound).is_integer():
-            raise BadSetting(f"it is a whole number, and {bound:g} is none.")
-        found.append(place.with_value(_text(int(bound) if place.is_whole else bound)))
-    return found
+        if place.is_integer and not float(bound).is_integer():
+            raise BadSetting(f"it is an integer, and {bound:g} is not.")
+        specs.append(place.with_value(_text(int(bound) if place.is_integer else bound)))
+    return specs
 
 
-def _drawn(variation: VariationSpec, place: Place, share: float) -> float:
-    if not place.is_whole:
+def _draw_value(variation: VariationSpec, place: Place, share: float) -> float:
+    if not place.is_integer:
         return float(f"{variation.quantile(share):.12g}")  # the same on every processor
     low, high = variation.bounds
-    if isinstance(variation, UniformSpec):  # each of them as likely
+    if isinstance(variation, UniformSpec):  # all are equally likely
         return int(min(math.floor(low + share * (high - low + 1.0)), high))
     return round(variation.quantile(share))
 
 
 def _text(value: float) -> str:
-    """The number as a file would say it, to be read back exactly."""
+    """Return a number as text that is read back exactly."""
     return repr(value)

@@ -9,7 +9,7 @@
       <u:dynamics>g500_physical</u:dynamics>
     </vehicle>
 
-The fields stand in the order of the original grammar, as in `spec`.
+The fields have the order of the original grammar, as in `spec`.
 """
 
 from __future__ import annotations
@@ -31,18 +31,19 @@ from .on_floor import OnFloorSpec
 
 T = TypeVar("T")
 
-ORDER = (
+ORIGINAL_PARTS = (
     "virtualCamera", "structuredLightProjector", "rangeSensor", "objectPicker", "imu",
     "pressureSensor", "gpsSensor", "dvlSensor", "virtualRangeImage", "multibeamSensor",
     "ProfilingSonar", "simulatedDevices", "echo", "ForceSensor", "DredgeTool", "CustomCommsDevice",
     "AcousticCommsDevice", "LedArray",
 )  # fmt: skip
-"""What the original lets a vehicle carry, in the order of its grammar."""
-_CARRIED: dict[str, type] = {**SENSORS, **DEVICES, "simulatedDevices": SimulatedDevicesSpec}
+"""The elements that the original allows in a vehicle, in the order of its grammar."""
+_PART_TABLE: dict[str, type] = {**SENSORS, **DEVICES, "simulatedDevices": SimulatedDevicesSpec}
 PARTS: dict[str, type] = {
-    tag: _CARRIED[tag] for tag in (*ORDER, *(tag for tag in _CARRIED if tag not in ORDER))
+    tag: _PART_TABLE[tag]
+    for tag in (*ORIGINAL_PARTS, *(tag for tag in _PART_TABLE if tag not in ORIGINAL_PARTS))
 }
-"""Element -> spec of everything that a vehicle carries; extensions last."""
+"""The spec of every element of a vehicle's parts; extensions last."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,44 +51,44 @@ class VehicleSpec(Spec):
     """A ``<vehicle>``: a robot and its sensors; dynamic if and only if ``dynamics`` is given."""
 
     name: str
-    """Its name: node, topic target, prefix of its frames."""
+    """The name: node, topic target, prefix of its frames."""
     file: str
-    """Its URDF file."""
+    """The URDF file."""
     fdm: int = element(default=-1, minimum=-1, maximum=65535)
-    """UDP port to which a flight dynamics model sends poses; -1 and 0 are off. A benchmark takes
-    none, a simulation in Python at its ``udp_address``."""
+    """The UDP port to which a flight dynamics model sends poses; -1 and 0 are off. A benchmark
+    opens none, a simulation in Python at its ``udp_address``."""
     tf: TfSpec | None = None
-    """The ROS frame it follows."""
+    """The ROS frame that it follows."""
     vr: bool = False
-    """Whether it is a ghost: drawn in the viewer, unseen by cameras."""
+    """A flag: the vehicle is a ghost, visible in the viewer and not to cameras."""
     joint_values: tuple[float, ...] = element(item="joint", default=())
-    """Of the movable joints that mimic no other, in the order of the tree [rad or m]."""
+    """The values of the movable joints that mimic no other, in the order of the tree [rad or m]."""
     position: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """Of its base in the file's frame [m]."""
+    """The position of the base in the file's frame [m]."""
     orientation: Triple = element(default=ZERO, parts="rpy")
-    """Of its base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
+    """The orientation of the base in the file's frame, in UWSim's vehicle order: Rx Ry Rz [rad]."""
     scale_factor: Triple = element(
         default=UNIT_SCALE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER
     )
-    """Scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
-    links, and what is mounted on them; a simulated vehicle has none [1]."""
+    """The scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
+    links, and its mounted parts; a simulated vehicle has none [1]."""
     parts: tuple[object, ...] = element("", choice=PARTS, default=())
-    """Its sensors and devices, in the order of `PARTS`."""
+    """The sensors and devices, in the order of `PARTS`."""
     dynamics: str | None = element(namespaced=True, default=None)
-    """Name of the hydrodynamic model, for example g500_physical; without it the vehicle is moved
-    by commands alone."""
+    """The name of the hydrodynamic model, for example g500_physical; without it only commands move
+    the vehicle."""
     hydrodynamics: tuple[tuple[str, str], ...] = field(default=(), metadata={"not_in_file": True})
-    """Path and value of each number of that model that ``--set`` or ``u:vary`` sets."""
+    """The path and value of each number of that model that ``--set`` or ``u:vary`` sets."""
     velocity_loop: Literal["water", "ground"] = element(namespaced=True, default="water")
-    """What the velocity loop of a simulated vehicle measures its speed against."""
+    """The reference of the velocity loop of a simulated vehicle."""
     on_floor: OnFloorSpec | None = element(namespaced=True, default=None)
-    """Whether it begins on the ground."""
+    """The placement on the ground at the start, if it is given."""
     accepts: tuple[VehicleWarning, ...] = element("accept", namespaced=True, default=())
-    """Warnings of `uwsim check` that do not apply here, because the value is intended; the
+    """The warnings of `uwsim check` that do not apply here, because the value is intended; the
     section *Plausibility warnings* of the reference lists the names."""
 
     def all_parts(self) -> Iterator[tuple[str, object]]:
-        """Element name and spec of everything it carries, in the order of the grammar."""
+        """Yield the element name and spec of every part, in the order of the grammar."""
         if self.fdm > 0:
             yield "fdm", FdmSpec(port=self.fdm)
         if self.tf is not None:
@@ -102,15 +103,15 @@ class VehicleSpec(Spec):
 
     @property
     def sensor_names(self) -> tuple[str, ...]:
-        """Names of its sensors, and of devices that measure."""
+        """The names of the sensors, and of devices that measure."""
         names = (getattr(part, "name", None) for _, part in self.all_parts())
         return tuple(name for name in names if name is not None)
 
     def parts_of(self, kind: type[T]) -> tuple[T, ...]:
-        """Its sensors or devices of one kind."""
+        """Return the sensors or devices of one kind."""
         return tuple(part for part in self.parts if isinstance(part, kind))
 
     @property
     def localized_from_base(self) -> Pose:
-        """Pose of its base in L at the start, without its scale."""
+        """The pose of the base in L at the start, without its scale."""
         return Pose.from_xyz(self.position, self.orientation)

@@ -1,4 +1,4 @@
-"""Writes a `SceneSpec` as a scene file; reading it gives an equal spec."""
+"""Writer of a `SceneSpec` as a scene file; reading it gives an equal spec."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from .spec import SceneSpec
 
 
 def write_scene(scene: SceneSpec) -> str:
-    """Write a scene as the text of a file; what equals its default is left out.
+    """Write a scene as the text of a file; omit what equals its default.
 
-    It carries no DOCTYPE: only the original needs one.
+    It has no DOCTYPE: only the original needs one.
     """
     root = write(scene, ROOT)
     etree.indent(root)

@@ -60,7 +60,7 @@ class SceneVehicle:
         """Its number in the scene."""
         self.name = frames.vehicle.name
         """Its name in the scene."""
-        self.joint_names = tuple(joint.name for joint in frames.robot.movable)
+        self.joint_names = tuple(joint.name for joint in frames.robot.movable_joints)
         """Names of the joints of the joint vector."""
         self._lazy_motion = LazyPart(lambda: engine.placed_motion(index))
         self.state = VehicleState(self._lazy_motion)

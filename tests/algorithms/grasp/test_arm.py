@@ -29,7 +29,7 @@ def test_the_wrist_is_where_the_urdf_has_it(random: np.random.Generator) -> None
 
 
 def test_names_and_limits_are_those_of_the_urdf() -> None:
-    movable = read_urdf(URDF).movable
+    movable = read_urdf(URDF).movable_joints
     assert [joint.name for joint in movable] == [*JOINTS, JAW]
     for joint, (low, high) in zip(movable, LIMITS, strict=False):
         assert (joint.lower, joint.upper) == pytest.approx((low, high), abs=1e-5)

@@ -32,12 +32,12 @@ def test_angles_beyond_a_turn_are_reported_as_degrees_and_within_a_turn(tmp_path
     path.write_text(SCENE)
     said = {diagnostic.line: diagnostic.message for diagnostic in check_text(path)}
     assert said == {
-        2: "<offsetr> is 180 0 -90 in radians, more than a turn; as degrees it would be 3.1416 0 "
-        "-1.5708, else write -2.2124 0 -2.0354, which is the same",
-        4: "<orientation> is 0 0 90 in radians, more than a turn; as degrees it would be 0 0 "
-        "1.5708, else write 0 0 2.0354, which is the same",
-        6: "<orientation> is 0 180 1.5708 in radians, more than a turn; as degrees it would be 0 "
-        "3.1416 0.027416, else write 0 -2.2124 1.5708, which is the same",
+        2: "<offsetr> is 180 0 -90 in radians, more than a turn; if these are degrees write 3.1416 "
+        "0 -1.5708, else write -2.2124 0 -2.0354, which is equal",
+        4: "<orientation> is 0 0 90 in radians, more than a turn; if these are degrees write 0 "
+        "0 1.5708, else write 0 0 2.0354, which is equal",
+        6: "<orientation> is 0 180 1.5708 in radians, more than a turn; if these are degrees write "
+        "0 3.1416 0.027416, else write 0 -2.2124 1.5708, which is equal",
     }
 
 

@@ -124,7 +124,7 @@ def test_a_file_says_what_its_actuators_draw(tmp_path: Path) -> None:
         ("<power>1 1 1 1 1 1 1 1 1 1</power>", "power has 10 coefficients; expected 1 to 9"),
         ("<power>-3 0.1</power>", "power is -22.5 W at 15 N; expected none below 0"),
         ("<powerBackward>1</powerBackward>", "power backward is given without power"),
-        ("<efficiency>0.3</efficiency> <power>1</power>", "both say what it draws; give one"),
+        ("<efficiency>0.3</efficiency> <power>1</power>", "both set its power; expected one"),
     ],
 )
 def test_a_power_that_no_thruster_can_draw_is_refused(

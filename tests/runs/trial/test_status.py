@@ -32,7 +32,7 @@ class Idle:
 
 def a_box_falls_on_a_slab() -> SceneSpec:
     """A drop of 0.35 m between faces: 1.2 s."""
-    scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal
+    scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal_scene
     black = replace(scene.objects[1], is_solid=None)
     flat = replace(black, orientation=(0.0, 0.0, 0.0))
     box = replace(flat, position=(7.0, 1.5, 3.5), physics=PhysicsSpec(mass=20.0))
@@ -146,7 +146,7 @@ class DrivesAtOnce(Drives):
 def test_a_message_that_no_thruster_takes_is_the_algorithms_error(
     algorithm: type[Drives], said: str, tmp_path: Path
 ) -> None:
-    scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal
+    scene = read_scene(DATA / "scenes" / "currents-scene.xml").nominal_scene
     interface = ROSThrustersToPATSpec(topic="/thrusters", vehicle_name="girona500")
     vehicle = replace(scene.vehicles[0], parts=())
     scene = replace(scene, vehicles=(vehicle,), objects=(), ros_interfaces=(interface,))

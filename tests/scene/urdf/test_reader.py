@@ -48,11 +48,11 @@ LINKS = '<link name="a"/><link name="b"/><link name="c"/>'
 
 def test_the_joint_vector_of_the_girona_500() -> None:
     robot = read_urdf(G500)
-    names = [joint.name for joint in robot.movable]
+    names = [joint.name for joint in robot.movable_joints]
     assert names == ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
     assert robot.root == "base_link"
     assert [link.mass for link in robot.links if link.mass] == [95.0]
-    assert (robot.movable[3].lower, robot.movable[3].upper) == (-math.pi, math.pi)
+    assert (robot.movable_joints[3].lower, robot.movable_joints[3].upper) == (-math.pi, math.pi)
 
 
 @pytest.mark.parametrize(
@@ -125,7 +125,7 @@ def test_a_prismatic_joint_without_limit_slides_from_minus_pi_to_pi(tmp_path: Pa
 
 def test_floating_joints_are_fixed(tmp_path: Path) -> None:
     robot = robot_of('<link name="a"/><link name="b"/>' + joint("s", kind="floating"), tmp_path)
-    assert robot.movable == ()
+    assert robot.movable_joints == ()
 
 
 def test_a_joint_that_mimics_nobody_is_free_and_that_is_reported(tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_a_joint_that_mimics_nobody_is_free_and_that_is_reported(tmp_path: Path)
     diagnostics = Diagnostics(file)
     robot = read_robot(file, diagnostics)
     assert robot is not None
-    assert [joint.name for joint in robot.movable] == ["jaw_1", "jaw_2"]
+    assert [joint.name for joint in robot.movable_joints] == ["jaw_1", "jaw_2"]
     (said,) = diagnostics.to_list()
     assert said.severity == "warning"
     assert "'jaw1', which is no joint. Did you mean jaw_1?" in said.message
@@ -355,7 +355,7 @@ def test_negative_and_endless_sizes_are_errors(shape: str, said: str, tmp_path: 
 @pytest.mark.parametrize(
     ("inside", "said"),
     [
-        ('<axis xyz="0 0 0"/><limit lower="-1" upper="1"/>', "has the axis 0 0 0; held fixed"),
+        ('<axis xyz="0 0 0"/><limit lower="-1" upper="1"/>', "has the axis 0 0 0; it is fixed"),
         ('<limit lower="1" upper="-1"/>', "lower 1 is above upper -1"),
         (
             '<limit lower="-1" upper="1"/><dynamics friction="-2"/>',

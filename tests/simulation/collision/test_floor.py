@@ -242,7 +242,7 @@ def test_ground_that_is_only_looked_at_carries_and_so_does_other_solid_scenery(
 @pytest.mark.parametrize("align", [False, True])
 def test_a_vehicle_begins_with_its_lowest_link_on_the_floor(align: bool, tmp_path: Path) -> None:
     file = grid(tmp_path, flat(6.0))
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = replace(
         scene.vehicles[0],
         parts=(),

@@ -146,7 +146,7 @@ def test_the_steps_of_a_lift_do_not_depend_on_how_they_are_asked_for(floor: Obje
 
 def test_a_vehicle_whose_arm_begins_in_the_ground_is_not_thrown(floor: ObjectSpec) -> None:
     vehicle = replace(
-        read_scene(SCENE).nominal.vehicles[0],
+        read_scene(SCENE).nominal_scene.vehicles[0],
         orientation=(np.pi, 0.0, 0.0),
         position=(0.0, 0.0, -5.2),
         parts=(),
@@ -200,7 +200,7 @@ def test_an_object_of_the_original_s_physics_is_lifted_too_and_check_warns(
     warned = [each.message for each in check_file(path) if "begins" in each.message]
     assert len(warned) == 1
     assert f"the object {name!r}: it begins " in warned[0]
-    with open_scene(read_scene(path).nominal, timestep=timestep) as simulation:
+    with open_scene(read_scene(path).nominal_scene, timestep=timestep) as simulation:
         heights = []
         for _ in range(50):
             simulation.advance(0.1)

@@ -28,7 +28,7 @@ def images(scene: SceneSpec, pool: RendererPool | None) -> list[np.ndarray]:
 
 def test_images_are_the_same_whoever_had_the_renderer_before() -> None:
     scene = read_scene(SCENES / "visibility-scene.xml")
-    other = replace(read_scene(SCENES / "currents-scene.xml").nominal, objects=())
+    other = replace(read_scene(SCENES / "currents-scene.xml").nominal_scene, objects=())
     pool = RendererPool()
     images(other, pool)
     first, second = images(scene, pool), images(scene, pool)

@@ -36,7 +36,7 @@ from uwsim.simulation.water.water_motion import WaterMotion
 
 SCENE = read_scene(
     Path(str(resources.files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
-).nominal
+).nominal_scene
 TILTED = replace(
     SCENE,
     sim_params=replace(SCENE.sim_params, offsetp=(1.0, 2.0, 0.5), offsetr=(3.0, 0.1, -1.2)),

@@ -41,7 +41,7 @@ SHEAR = [[0.0, 0.3, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
 
 
 def test_an_eddy_accelerates_towards_its_middle_and_turns() -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     motion = WaterMotion(scene, Place(stream=lambda _: np.random.default_rng()))
     motion.set(Linear(EDDY))
     at = scene.world_from_localized.transform(np.array([[10.0, 0.0, 0.0]]))
@@ -54,7 +54,7 @@ def test_an_eddy_accelerates_towards_its_middle_and_turns() -> None:
 
 
 def bluerov(current: Current) -> Simulation:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     vehicle = VehicleSpec(
         name="bluerov", file="bluerov2_heavy.urdf", dynamics="bluerov2_heavy", position=(0, 0, 3.0)
     )
@@ -107,7 +107,7 @@ def test_a_hull_below_its_origin_feels_the_water_where_it_is() -> None:
 
 @pytest.mark.parametrize("vehicles", [(), ("",), ("a", "", "b", "b", "a", "")])
 def test_uniform_water_of_several_steps_is_that_of_each_step(vehicles: tuple[str, ...]) -> None:
-    scene = read_scene(SCENE).nominal
+    scene = read_scene(SCENE).nominal_scene
     place = Place(stream=lambda _: np.random.Generator(np.random.Philox(4)))
     swelling = UwsimSinusoidSpec(
         speed=0.3, speed_variation=0.1, speed_period=2.0, phi=0.7, theta=1.1, random=0.1
@@ -150,7 +150,9 @@ class Changing(Asked):
 def test_uniform_water_of_python_is_asked_for_once_a_vehicle(kind: type[Asked], n: int) -> None:
     """At each time; if it is steady, once for all times of a run."""
     Asked.asked.clear()
-    motion = WaterMotion(read_scene(SCENE).nominal, Place(stream=lambda _: np.random.default_rng()))
+    motion = WaterMotion(
+        read_scene(SCENE).nominal_scene, Place(stream=lambda _: np.random.default_rng())
+    )
     motion.set(kind((0.1, 0.0, 0.0)))
     vehicles, points, rows = ("a", "a", "", "a", ""), np.zeros((5, 3)), []
     for first in (1, 3):
@@ -162,7 +164,9 @@ def test_uniform_water_of_python_is_asked_for_once_a_vehicle(kind: type[Asked], 
 
 
 def test_another_current_or_other_bodies_are_not_taken_for_those_before() -> None:
-    motion = WaterMotion(read_scene(SCENE).nominal, Place(stream=lambda _: np.random.default_rng()))
+    motion = WaterMotion(
+        read_scene(SCENE).nominal_scene, Place(stream=lambda _: np.random.default_rng())
+    )
     rows = []
     for x, vehicles in ((0.1, ("a",)), (0.2, ("a",)), (0.2, ("a", "b")), (0.1, ("a", "b"))):
         motion.set(TargetCurrent(Constant((x, 0.0, 0.0)), "a"))

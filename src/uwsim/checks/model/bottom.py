@@ -16,7 +16,7 @@ import numpy as np
 from ...errors import Diagnostic, UwsimError
 from ...model.placement import ground_faces
 from ...rays import RayScene, Surface
-from ...scene.accepted_warnings import unless_meant
+from ...scene.accepted_warnings import acceptance_hint
 from ...scene.mounts import MountFrames
 from ...scene.pointing import describe_direction
 from ...scene.spec import SceneSpec
@@ -43,7 +43,7 @@ def velocity_logs(scene: CheckedScene) -> Iterator[Diagnostic]:
         bottom = Bottom(scene.spec, scene.data_path) if logs else None
         for index, spec in logs:
             if message := bottom and bottom.describe_miss(spec, index, robots[index]):
-                yield scene.warning(spec, f"{spec.name!r}: {message}. {unless_meant('bottom')}")
+                yield scene.warning(spec, f"{spec.name!r}: {message}. {acceptance_hint('bottom')}")
 
 
 class Bottom:

@@ -13,7 +13,7 @@ from ...errors import Diagnostic, UwsimError
 from ...model.body_names import object_body
 from ...model.collision.scene_shapes import collision_shapes
 from ...model.collision.shapes import CollisionShape, bounds
-from ...scene.accepted_warnings import ObjectWarning, unless_meant
+from ...scene.accepted_warnings import ObjectWarning, acceptance_hint
 from ...scene.object import PhysicsSpec
 from ..subjects import CheckedScene
 from .vehicles import MAX_VOLUME_RATIO
@@ -39,7 +39,7 @@ def object_numbers(
             for warning, check in checks.items():
                 text = check(physics, shapes[object_body(index)])
                 if text and warning not in spec.accepts:
-                    message = f"the object {spec.name!r}: {text}. {unless_meant(warning)}"
+                    message = f"the object {spec.name!r}: {text}. {acceptance_hint(warning)}"
                     yield scene.warning(spec, message, "physics")
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from ...base.geometry import Pose
 from ...errors import Diagnostic, UwsimError
 from ...model.resolved_scene import ResolvedScene
-from ...scene.accepted_warnings import unless_meant
+from ...scene.accepted_warnings import acceptance_hint
 from ...scene.object import ObjectSpec
 from ...scene.vehicle import VehicleSpec
 from ...simulation.collision.start_depths import StartDepth, StartDepths
@@ -40,7 +40,7 @@ def _start(
     scene: CheckedScene, kind: str, spec: Body, describe: Callable[[int], str], index: int
 ) -> Iterator[Diagnostic]:
     if "start" not in spec.accepts and (text := describe(index)):
-        message = f"the {kind} {spec.name!r}: {text}. {unless_meant('start')}"
+        message = f"the {kind} {spec.name!r}: {text}. {acceptance_hint('start')}"
         yield scene.warning(spec, message, "position")
 
 

@@ -21,7 +21,7 @@ from ...model.collision.hull import Hull, hull_of
 from ...model.dynamics import DYNAMICS
 from ...model.inertias import MIN_INERTIA
 from ...physics.actuation.allocation import curve, thrusters_on_base
-from ...scene.accepted_warnings import VehicleWarning, unless_meant
+from ...scene.accepted_warnings import VehicleWarning, acceptance_hint
 from ...scene.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.urdf.kinematics import link_poses
 from ...scene.urdf.robot import LinkSpec, RobotSpec
@@ -122,7 +122,7 @@ def vehicle_numbers(
             ]
         for warning, element, text in texts:
             if text and warning not in vehicle.accepts:
-                message = f"the vehicle {vehicle.name!r}: {text}. {unless_meant(warning)}"
+                message = f"the vehicle {vehicle.name!r}: {text}. {acceptance_hint(warning)}"
                 yield scene.warning(vehicle, message, element)
 
 
@@ -256,7 +256,7 @@ def describe_friction(vehicle: SimulatedVehicle) -> str:
     """Describe joints that their servos cannot move; empty if there are none."""
     joints = [
         f"{joint.name!r} ({joint.friction:.3g} of {joint.effort:.3g})"
-        for joint in vehicle.robot.movable
+        for joint in vehicle.robot.movable_joints
         if 0.0 < joint.effort <= joint.friction
     ]
     if not joints:

@@ -6,7 +6,7 @@ import functools
 from collections.abc import Hashable, Iterator
 
 from ...errors import Diagnostic
-from ...scene.angles import degrees_for_radians
+from ...scene.angles import describe_degrees
 from ...schema import Field, fields_of, line_of
 from ..subjects import CheckedScene
 
@@ -21,7 +21,7 @@ def _angles_beyond_a_turn(spec: object) -> Iterator[tuple[int | None, str]]:
     kind: type = type(spec)
     for field in _angles(kind):
         value = field.value_in(spec)
-        message = degrees_for_radians(value if isinstance(value, tuple) else (value,))
+        message = describe_degrees(value if isinstance(value, tuple) else (value,))
         if message:
             yield line_of(spec, field.tag), f"<{field.label}> is {message}"
     for part in _parts(spec):

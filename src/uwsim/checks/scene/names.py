@@ -13,7 +13,7 @@ from itertools import chain
 from ...devices.force_sensor import ForceSensorSpec
 from ...devices.lamp import MAX_LAMPS, LampSpec
 from ...errors import Diagnostic
-from ...scene.angles import MORE_THAN_A_TURN
+from ...scene.angles import MAX_PLAUSIBLE_ANGLE
 from ...scene.object import ObjectSpec
 from ...scene.spec import SceneSpec
 from ...schema import format_tag, line_of
@@ -61,18 +61,19 @@ def joint_values(scene: CheckedScene) -> Iterator[Diagnostic]:
     for index, robot in scene.robots.items():
         vehicle = scene.spec.vehicles[index]
         place = line_of(vehicle, "jointValues")
-        if len(vehicle.joint_values) > len(robot.movable):
-            joints = ", ".join(joint.name for joint in robot.movable)
+        n_values, n_joints = len(vehicle.joint_values), len(robot.movable_joints)
+        if n_values > n_joints:
+            joints = ", ".join(joint.name for joint in robot.movable_joints)
             yield scene.warning(
                 place,
-                f"<jointValues> has {len(vehicle.joint_values)} values for {len(robot.movable)} "
-                f"joints ({joints}); the rest is not used",
+                f"<jointValues> has {n_values} values for {n_joints} joints ({joints}); "
+                "the rest is not used",
             )
-        for joint, value in zip(robot.movable, vehicle.joint_values, strict=False):
-            limited_value = joint.clamped(value)
+        for joint, value in zip(robot.movable_joints, vehicle.joint_values, strict=False):
+            limited_value = joint.clamp(value)
             if limited_value != value:
                 message = f"joint {joint.name!r} at {value:g} is limited to {limited_value:g}"
-                if joint.kind != "prismatic" and abs(value) > MORE_THAN_A_TURN:
+                if joint.kind != "prismatic" and abs(value) > MAX_PLAUSIBLE_ANGLE:
                     message += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
                 yield scene.warning(place, message)
 
@@ -154,7 +155,7 @@ def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
     specs = [
         spec
         for spec in (scene.spec.objects if scene.spec.is_dynamic else ())
-        if spec.is_solid is None and not spec.is_touched(in_water=True)
+        if spec.is_solid is None and not spec.has_contacts(in_water=True)
     ]
     if specs:
         yield scene.warning(

@@ -7,7 +7,13 @@ from collections.abc import Iterator
 from lxml import etree
 
 from ...errors import Diagnostic
-from ...scene.unsupported import FALL, LIMITS, OFF, READ_ONLY, UNSUPPORTED
+from ...scene.unsupported import (
+    DISABLED_TEXTS,
+    LIMIT_ELEMENTS,
+    ORIGINAL_PHYSICS_ELEMENTS,
+    READ_ONLY,
+    UNSIMULATED_ELEMENTS,
+)
 from ...schema import NAMESPACE
 from ..subjects import CheckedScene
 
@@ -29,12 +35,12 @@ def unsimulated_elements(root: etree._Element) -> Iterator[tuple[int, str]]:
         if parent is None:
             continue
         place = (str(parent.tag), str(node.tag))
-        kind = UNSUPPORTED.get(place)
-        if place in FALL and falls:
+        kind = UNSIMULATED_ELEMENTS.get(place)
+        if place in ORIGINAL_PHYSICS_ELEMENTS and falls:
             kind = None
-        elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMITS:
+        elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMIT_ELEMENTS:
             kind = "limits of objects"
-        if kind is not None and OFF.get(str(node.tag)) != (node.text or "").strip():
+        if kind is not None and DISABLED_TEXTS.get(str(node.tag)) != (node.text or "").strip():
             lines.setdefault(kind, []).append(_line(node))
     for kind, kind_lines in sorted(lines.items(), key=lambda entry: entry[1][0]):
         sorted_lines = sorted(set(kind_lines))

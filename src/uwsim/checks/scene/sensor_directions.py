@@ -9,7 +9,7 @@ from ...devices.object_picker import ObjectPickerSpec
 from ...devices.structured_light_projector import StructuredLightProjectorSpec
 from ...errors import Diagnostic
 from ...scene.mounts import MountFrames
-from ...scene.pointing import describe_direction, looking
+from ...scene.pointing import describe_direction, directional_parts
 from ...schema import NAMESPACE, uses_extensions
 from ...sensors.dvl_sensor import DvlSensorSpec
 from ...sensors.sensor import Looking, Mounted
@@ -28,7 +28,7 @@ def directions(scene: CheckedScene) -> Iterator[Diagnostic]:
     for index, robot in scene.robots.items():
         vehicle = scene.placed_scene.vehicles[index]
         frames = MountFrames(vehicle, robot, scene.spec.world_from_localized)
-        for spec in looking(vehicle):
+        for spec in directional_parts(vehicle):
             if spec.look_at is not None and any(spec.orientation):
                 message = "its <orientation> is not used: <u:lookAt> sets its direction"
                 yield scene.warning(spec, f"{_quoted_name(spec)}: {message}")
@@ -73,14 +73,14 @@ def _upward_sensors(scene: CheckedScene, frames: MountFrames) -> Iterator[Diagno
     """Warn of old sensors: until July 2014 they were mounted on visual frames."""
     upward_specs: list[Looking] = []
     n_downward = 0
-    for spec in looking(frames.vehicle):
+    for spec in directional_parts(frames.vehicle):
         if (
             isinstance(spec, ObjectPickerSpec | DvlSensorSpec)
             or frames.robot.link(spec.relative_to) is None
         ):
             continue
         is_up, was_up = (
-            float(frames.looks(spec, visual=visual)[0][2]) > MIN_UPWARD_SINE
+            float(frames.viewing_axes(spec, visual=visual)[0][2]) > MIN_UPWARD_SINE
             for visual in (False, True)
         )
         if is_up and not was_up:

@@ -12,7 +12,7 @@ import typer
 from ...errors import BadSetting, ErrorCollector
 from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
 from ...runs.planning.plan_request import PlanRequest
-from ...scene.settings import OF_XACRO
+from ...scene.settings import XACRO_PREFIX
 from .completion import benchmark_names, one_of, scene_names
 from .help_texts import FILES, INPUT, OUTPUT, RUN, in_group
 
@@ -240,7 +240,7 @@ def xacro_settings(words: Sequence[str] | None) -> list[str]:
         name, sign, value = word.partition(":=")
         if not sign or not name.strip():
             raise BadSetting(f"--xacro {word!r}: expected NAME:=VALUE.")
-        settings.append(f"{OF_XACRO}{name.strip()}={value.strip()}")
+        settings.append(f"{XACRO_PREFIX}{name.strip()}={value.strip()}")
     return settings
 
 

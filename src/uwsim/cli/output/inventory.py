@@ -19,7 +19,7 @@ from ...errors import Diagnostic
 from ...scene.hydrodynamics import FinSpec, VehicleHydrodynamics
 from ...scene.mounts import MountFrames
 from ...scene.object import ObjectSpec
-from ...scene.pointing import describe_direction, looking
+from ...scene.pointing import describe_direction, directional_parts
 from ...scene.spec import SceneSpec
 from ...scene.unsupported import READ_ONLY
 from ...scene.urdf.robot import JointSpec, RobotSpec
@@ -115,7 +115,7 @@ def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
         "dynamics": spec.dynamics,
         "moves": _moves(scene, spec),
         "links": [link.name for link in robot.links],
-        "joints": [_joint(joint) for joint in robot.movable],
+        "joints": [_joint(joint) for joint in robot.movable_joints],
         "thrusters": list(actuators.thrusters) if actuators is not None else [],
         "fins": [] if dynamics is None else [_fin(fin) for fin in dynamics.fins],
         "drag_laws": {} if dynamics is None else _drag_laws(dynamics),
@@ -224,7 +224,7 @@ def _sensors(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
                 "link": spec.relative_to,
                 "points": describe_direction(spec, frames),
             }
-            for spec in looking(vehicle)
+            for spec in directional_parts(vehicle)
             if robots[index].link(spec.relative_to) is not None
         ]
     return found

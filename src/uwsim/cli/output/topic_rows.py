@@ -7,7 +7,7 @@ from typing import Any
 
 from ...devices.device import DeviceSpec
 from ...scene.spec import SceneSpec
-from ...scene.unsupported import limit_of
+from ...scene.unsupported import describe_limit
 from ...schema.names import prefixed_name
 from ...simulation import Simulation
 from ...topics import InterfaceSpec, element_name
@@ -38,7 +38,7 @@ def topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
                     "rate_hz": None if is_heard else getattr(interface, "rate", None),
                     "of": _of(interface),
                     "interface": prefixed_name(name),
-                    "limit": limit_of("rosInterfaces", name),
+                    "limit": describe_limit("rosInterfaces", name),
                 }
             )
     found += _device_topics(scene, types)

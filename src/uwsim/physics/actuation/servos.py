@@ -61,7 +61,7 @@ class Servos:
         """What they do."""
         self._state["is_on"] = True
         self._vector = np.array(
-            [names.index(joint.name) for joint in robot.movable], np.int64
+            [names.index(joint.name) for joint in robot.movable_joints], np.int64
         )  # (n,)
         self._places = self._records["place"][self._vector]
         self._dofs = self._records["dof"][self._vector]
@@ -92,7 +92,7 @@ class Servos:
     def put(self, values: Array) -> None:
         """Set the joints, at rest, and hold them there."""
         leaders = [self._specs[place] for place in self._vector]
-        clamped = [joint.clamped(value) for joint, value in zip(leaders, values, strict=False)]
+        clamped = [joint.clamp(value) for joint, value in zip(leaders, values, strict=False)]
         self.aim(np.arange(len(clamped)), np.array(clamped, dtype=np.float64))
         self._state["target"] = self._state["aim"]
         self._state["integral"] = 0.0

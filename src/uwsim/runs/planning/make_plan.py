@@ -11,7 +11,7 @@ from ...assets.bundled import benchmark_file, scene_file
 from ...base.terminal import print_warnings
 from ...checks.benchmark_tables import read_plugins
 from ...errors import AssetNotFound, BadSetting, ErrorCollector
-from ...scene.settings import OF_XACRO, xacro_arguments
+from ...scene.settings import XACRO_PREFIX, xacro_arguments
 from ...schema.source_line import line_of
 from ...world import TIMESTEP
 from ..foreign_code import announce, code_refusal, refuse_code
@@ -173,7 +173,7 @@ def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorC
     spec, scene = read.benchmark, read.scene
     for name, value in pairs:
         with errors.collect():
-            if name.startswith((ALGORITHM_PREFIX, OF_XACRO)):
+            if name.startswith((ALGORITHM_PREFIX, XACRO_PREFIX)):
                 continue
             if spec is not None and leads_to_updater(spec, name):
                 spec = apply_updater_setting(spec, name, value)

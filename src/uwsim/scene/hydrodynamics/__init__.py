@@ -1,4 +1,4 @@
-"""What a hydrodynamics file says of a vehicle: specs, their reader, and their errors."""
+"""The contents of a vehicle's hydrodynamics file: specs, their reader, and their errors."""
 
 from __future__ import annotations
 

@@ -13,47 +13,47 @@ if TYPE_CHECKING:
     from _typeshed import DataclassInstance
 
 MAX_LENGTH = 500.0
-"""No length or place of a vehicle is beyond that of the longest ship [m]."""
-LENGTHS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "position", "radius")
+"""The greatest length of a vehicle, that of the longest ship [m]."""
+LENGTH_FIELDS = ("reference", "centre_of_buoyancy", "size", "centre_of_mass", "position", "radius")
 
 
-def number_errors(who: str, spec: DataclassInstance) -> list[str]:
+def number_errors(owner: str, spec: DataclassInstance) -> list[str]:
     """Report numbers that are not finite, and lengths beyond those of any vehicle."""
     errors = []
-    for each in dataclasses.fields(spec):
-        numbers = _numbers_of(spec, each.name)
+    for field in dataclasses.fields(spec):
+        numbers = _numbers_of(spec, field.name)
         if not all(math.isfinite(number) for number in numbers):
             errors.append(
-                f"{who}: {words(each.name)} is {listed(numbers)}; expected finite numbers"
+                f"{owner}: {words(field.name)} is {text_of(numbers)}; expected finite numbers"
             )
-        elif each.name in LENGTHS and any(abs(number) > MAX_LENGTH for number in numbers):
+        elif field.name in LENGTH_FIELDS and any(abs(number) > MAX_LENGTH for number in numbers):
             errors.append(
-                f"{who}: {words(each.name)} is {listed(numbers)}; expected none beyond "
+                f"{owner}: {words(field.name)} is {text_of(numbers)}; expected none beyond "
                 f"{MAX_LENGTH:g} (metres, not millimetres) [m]"
             )
     return errors
 
 
-def beyond_limits(who: str, spec: DataclassInstance) -> list[str]:
+def limit_errors(owner: str, spec: DataclassInstance) -> list[str]:
     """Report numbers beyond the limits that their fields declare."""
     return [
-        f"{who}: {words(field.name)} is {listed(numbers)}; expected {field.expected}"
+        f"{owner}: {words(field.name)} is {text_of(numbers)}; expected {field.expected}"
         for field in fields_of(type(spec))
         if not all(map(field.allows, numbers := _numbers_of(spec, field.name)))
     ]
 
 
 def _numbers_of(spec: DataclassInstance, field: str) -> list[float]:
-    value = getattr(spec, field)
-    values = value if isinstance(value, tuple) else (value,)
-    return [one for one in values if isinstance(one, int | float)]
+    entry = getattr(spec, field)
+    values = entry if isinstance(entry, tuple) else (entry,)
+    return [number for number in values if isinstance(number, int | float)]
 
 
 def words(name: str) -> str:
-    """A field's name as words."""
+    """Return a field's name as words."""
     return name.replace("_", " ")
 
 
-def listed(values: Iterable[float]) -> str:
-    """Numbers, separated by blanks."""
+def text_of(values: Iterable[float]) -> str:
+    """Return numbers as text, separated by blanks."""
     return " ".join(f"{value:g}" for value in values)

@@ -1,4 +1,4 @@
-"""The power that a thruster's file gives, checked over the thrusts that it can have."""
+"""Checks of a thruster's power over its range of thrusts."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .spec import ThrusterSpec
 
 
 def power_errors(thruster: ThrusterSpec) -> list[str]:
-    """Report where the power that a file gives would be below 0."""
+    """Return the errors of power curves that fall below 0."""
     errors = []
     for name, curve, forward in (
         ("power", thruster.power, True),
@@ -20,26 +20,26 @@ def power_errors(thruster: ThrusterSpec) -> list[str]:
             continue
         thrusts = np.linspace(0.0, greatest_thrust(thruster, forward=forward), 201)
         powers = polynomial(curve, thrusts)
-        worst = int(np.argmin(powers))
-        if powers[worst] < -1e-9:
+        index = int(np.argmin(powers))
+        if powers[index] < -1e-9:
             errors.append(
-                f"thruster {thruster.name!r}: {name} is {powers[worst]:.3g} W at "
-                f"{thrusts[worst]:.3g} N; expected none below 0"
+                f"thruster {thruster.name!r}: {name} is {powers[index]:.3g} W at "
+                f"{thrusts[index]:.3g} N; expected none below 0"
             )
     return errors
 
 
 def greatest_thrust(thruster: ThrusterSpec, *, forward: bool) -> float:
-    """The greatest thrust in a direction [N]."""
+    """Compute the greatest thrust in a direction [N]."""
     backward = thruster.forward if thruster.backward is None else thruster.backward
     end = thruster.limits[1] if forward else -thruster.limits[0]
     commands = np.maximum(np.linspace(0.0, end, 201) - thruster.dead_zone, 0.0)
-    most = float(polynomial(thruster.forward if forward else backward, commands).max())
+    thrust = float(polynomial(thruster.forward if forward else backward, commands).max())
     if thruster.saturation is not None:
-        most = min(most, thruster.saturation[1] if forward else -thruster.saturation[0])
-    return max(most, 0.0)
+        thrust = min(thrust, thruster.saturation[1] if forward else -thruster.saturation[0])
+    return max(thrust, 0.0)
 
 
 def polynomial(coefficients: Numbers, x: Array) -> Array:
-    """``c1 x + c2 x^2 + ...``."""
+    """Evaluate ``c1 x + c2 x^2 + ...``."""
     return np.asarray(np.polynomial.polynomial.polyval(x, (0.0, *coefficients)), dtype=np.float64)

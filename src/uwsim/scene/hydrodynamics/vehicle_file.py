@@ -1,4 +1,4 @@
-"""Reads a vehicle's hydrodynamics file, which complements its URDF.
+"""Reader of a vehicle's hydrodynamics file, which complements its URDF.
 
 .. code-block:: xml
 
@@ -27,8 +27,8 @@
       <joint name="elbow"> <efficiency>0.5</efficiency> <copperLoss>0.02</copperLoss> </joint>
     </hydrodynamics>
 
-One file is one named set, keyed by the links of the URDF. ``<include>`` takes the bodies,
-thrusters and fins of another file in (an arm that several vehicles carry).
+One file is one named set, keyed by the links of the URDF. ``<include>`` adds the bodies, thrusters
+and fins of another file (an arm of several vehicles).
 docs/your-own-vehicle.md has every element.
 """
 
@@ -49,7 +49,7 @@ from .checks import body_errors, thruster_errors
 from .fin_checks import fin_errors
 from .power_checks import power_errors
 from .spec import (
-    SIZES,
+    N_LENGTHS,
     BodyHydrodynamics,
     FinSpec,
     JointDrive,
@@ -60,7 +60,7 @@ from .vehicle_sets import bundled_folder
 
 
 class VehicleError(FileError):
-    """A hydrodynamics file is wrong."""
+    """A hydrodynamics file is invalid."""
 
 
 @dataclass
@@ -68,9 +68,9 @@ class _Parts:
     """The contents of all files read so far."""
 
     links: list[str] | None
-    """What the robot has; None to take any."""
-    movable: list[str] | None
-    """Joints that it can move; None to take any."""
+    """The links of the robot; None to accept any."""
+    movable_joints: list[str] | None
+    """The joints that the robot can move; None to accept any."""
     bodies: list[BodyHydrodynamics] = field(default_factory=list)
     thrusters: list[ThrusterSpec] = field(default_factory=list)
     fins: list[FinSpec] = field(default_factory=list)
@@ -78,8 +78,8 @@ class _Parts:
     files: list[Path] = field(default_factory=list)
 
     def add_body(self, body: BodyHydrodynamics, diagnostics: Diagnostics) -> None:
-        if any(body.link == known.link for known in self.bodies):
-            diagnostics.error(body, f"two <body> for the link {body.link!r}; only one may be")
+        if any(body.link == other.link for other in self.bodies):
+            diagnostics.error(body, f"two <body> for the link {body.link!r}; only one is allowed")
         _check_name(body, "link", body.link, self.links, diagnostics)
         for message in body_errors(body):
             diagnostics.error(body, message)
@@ -88,7 +88,7 @@ class _Parts:
     def add_thruster(self, thruster: ThrusterSpec, diagnostics: Diagnostics) -> None:
         if not thruster.name.strip():
             diagnostics.error(thruster, "a thruster has no name")
-        if any(thruster.name == known.name for known in self.thrusters):
+        if any(thruster.name == other.name for other in self.thrusters):
             diagnostics.error(thruster, f"two thrusters are called {thruster.name!r}")
         _check_name(thruster, "link", thruster.link, self.links, diagnostics)
         for message in thruster_errors(thruster) or power_errors(thruster):
@@ -98,7 +98,7 @@ class _Parts:
     def add_fin(self, fin: FinSpec, diagnostics: Diagnostics) -> None:
         if not fin.name.strip():
             diagnostics.error(fin, "a fin has no name")
-        if any(fin.name == known.name for known in self.fins):
+        if any(fin.name == other.name for other in self.fins):
             diagnostics.error(fin, f"two fins are called {fin.name!r}")
         _check_name(fin, "link", fin.link, self.links, diagnostics)
         for message in fin_errors(fin):
@@ -106,18 +106,19 @@ class _Parts:
         self.fins.append(fin)
 
     def add_joint(self, joint: JointDrive, diagnostics: Diagnostics) -> None:
-        if any(joint.name == known.name for known in self.joints):
-            diagnostics.error(joint, f"two <joint> for the joint {joint.name!r}; only one may be")
-        _check_name(joint, "movable joint", joint.name, self.movable, diagnostics)
+        if any(joint.name == other.name for other in self.joints):
+            message = f"two <joint> for the joint {joint.name!r}; only one is allowed"
+            diagnostics.error(joint, message)
+        _check_name(joint, "movable joint", joint.name, self.movable_joints, diagnostics)
         self.joints.append(joint)
 
 
 def set_errors(vehicle: VehicleHydrodynamics) -> list[str]:
-    """Return what is wrong with the numbers of a set that was changed after it was read."""
-    found = [message for body in vehicle.bodies for message in body_errors(body)]
+    """Return the errors in the numbers of a set that was changed after it was read."""
+    errors = [message for body in vehicle.bodies for message in body_errors(body)]
     for thruster in vehicle.thrusters:
-        found += thruster_errors(thruster) or power_errors(thruster)
-    return [*found, *(message for fin in vehicle.fins for message in fin_errors(fin))]
+        errors += thruster_errors(thruster) or power_errors(thruster)
+    return [*errors, *(message for fin in vehicle.fins for message in fin_errors(fin))]
 
 
 def read_vehicle(
@@ -127,8 +128,8 @@ def read_vehicle(
 
     Args:
         path: the file.
-        links: names of the robot's links; None to take any.
-        joints: names of the joints that it can move; None to take any.
+        links: the names of the robot's links; None to accept any.
+        joints: the names of the joints that it can move; None to accept any.
 
     Raises:
         VehicleError: with every error of the file.
@@ -147,7 +148,7 @@ def read_vehicle_into(
     diagnostics: Diagnostics,
     joints: Iterable[str] | None = None,
 ) -> VehicleHydrodynamics | None:
-    """Read a hydrodynamics file into ``diagnostics``; None when it has some."""
+    """Read a hydrodynamics file; return None and add errors to ``diagnostics`` if it is invalid."""
     parts = _Parts(None if links is None else list(links), None if joints is None else list(joints))
     head = _read_file(path, diagnostics, parts, ())
     if head is None or diagnostics.has_errors:
@@ -171,7 +172,7 @@ def read_vehicle_into(
 
 
 def _read_file(
-    path: Path, diagnostics: Diagnostics, parts: _Parts, above: tuple[Path, ...]
+    path: Path, diagnostics: Diagnostics, parts: _Parts, including_files: tuple[Path, ...]
 ) -> VehicleHydrodynamics | None:
     root = parse(path, error=VehicleError).root
     parts.files.append(path)
@@ -186,7 +187,7 @@ def _read_file(
     if not head.name.strip():
         diagnostics.error(root, "the set has no name")
     for body in head.bodies:
-        parts.add_body(_completed(body, root), diagnostics)
+        parts.add_body(_with_drag_law(body, root), diagnostics)
     for thruster in head.thrusters:
         parts.add_thruster(thruster, diagnostics)
     for fin in head.fins:
@@ -194,7 +195,7 @@ def _read_file(
     for joint in head.joints:
         parts.add_joint(joint, diagnostics)
     for name, node in zip(head.include, root.findall("include"), strict=False):
-        _include(name, path, node, diagnostics, parts, above)
+        _include(name, path, node, diagnostics, parts, including_files)
     return head
 
 
@@ -204,27 +205,25 @@ def _include(
     node: etree._Element,
     diagnostics: Diagnostics,
     parts: _Parts,
-    above: tuple[Path, ...],
+    including_files: tuple[Path, ...],
 ) -> None:
     """Read another hydrodynamics file, next to the first or bundled, into ``parts``."""
-    inner = Diagnostics(path)
+    file_diagnostics = Diagnostics(path)
     try:
-        other = next(
-            (place / name for place in (path.parent, bundled_folder()) if (place / name).is_file()),
-            path.parent / name,
-        )
-        inner = Diagnostics(other)
-        whole = other.resolve()
-        if not is_inside(other, [*roots(named_by=path), bundled_folder()]):
+        files = [folder / name for folder in (path.parent, bundled_folder())]
+        included_file = next(filter(Path.is_file, files), files[0])
+        file_diagnostics = Diagnostics(included_file)
+        resolved_path = included_file.resolve()
+        if not is_inside(included_file, [*roots(named_by=path), bundled_folder()]):
             diagnostics.error(node, f"<include> {quote(name)} is outside the folders of its file")
             return
-        if whole in (one.resolve() for one in (*above, path)):
+        if resolved_path in (file.resolve() for file in (*including_files, path)):
             diagnostics.error(node, f"<include> {quote(name)} includes itself")
             return
-        if whole in (one.resolve() for one in parts.files):
+        if resolved_path in (file.resolve() for file in parts.files):
             diagnostics.error(node, f"<include> {quote(name)}: it is included already")
             return
-        _read_file(other, inner, parts, (*above, path))
+        _read_file(included_file, file_diagnostics, parts, (*including_files, path))
     except (OSError, ValueError) as error:
         diagnostics.error(
             node, f"<include> {quote(name)}: {getattr(error, 'strerror', None) or error}"
@@ -234,34 +233,33 @@ def _include(
         for diagnostic in error.diagnostics:
             diagnostics.error(node, f"<include> {quote(name)}: {diagnostic.message}")
         return
-    for diagnostic in inner.to_list():
-        say = diagnostics.error if diagnostic.severity == "error" else diagnostics.warning
-        say(node, f"in {name}, line {diagnostic.line}: {diagnostic.message}")
+    for diagnostic in file_diagnostics.to_list():
+        report = diagnostics.error if diagnostic.severity == "error" else diagnostics.warning
+        report(node, f"in {name}, line {diagnostic.line}: {diagnostic.message}")
 
 
 def _check_name(
-    spec: Spec, what: str, name: str, known: list[str] | None, diagnostics: Diagnostics
+    spec: Spec, kind: str, name: str, names: list[str] | None, diagnostics: Diagnostics
 ) -> None:
-    if known is not None and name not in known:
+    if names is not None and name not in names:
         diagnostics.error(
             spec,
-            f"the robot has no {what} {name!r}."
-            + choices(name, known, heading=f"{what.split()[-1].capitalize()}s"),
+            f"the robot has no {kind} {name!r}."
+            + choices(name, names, heading=f"{kind.split()[-1].capitalize()}s"),
         )
 
 
-def _completed(body: BodyHydrodynamics, root: etree._Element) -> BodyHydrodynamics:
-    """The body with its drag law, by default that which its numbers imply."""
-    [node, *_] = (
-        each
-        for each in root.iterfind("body")
-        if int(str(each.sourceline)) == line_of(body) and each.get("link", "").strip() == body.link
-    )
+def _with_drag_law(body: BodyHydrodynamics, root: etree._Element) -> BodyHydrodynamics:
+    """Return the body with its drag law, by default that which its numbers imply."""
+    line = line_of(body)
+    nodes = (node for node in root.iterfind("body") if int(str(node.sourceline)) == line)
+    node = next(node for node in nodes if node.get("link", "").strip() == body.link)
     text = {name: (node.findtext(name) or "").strip() for name in ("dragLaw", "shape")}
-    first = body.quadratic_damping[:3]
-    is_isotropic = len(body.quadratic_damping) == 6 and len(set(first)) == 1 and first[0] > 0.0
+    coefficients = body.quadratic_damping[:3]
+    is_equal = len(body.quadratic_damping) == 6 and len(set(coefficients)) == 1
+    is_isotropic = is_equal and coefficients[0] > 0.0
     if is_isotropic and not text["dragLaw"]:
         body = dataclasses.replace(body, drag_law="speed")
-    if text["shape"] and text["shape"] not in SIZES:  # reported; how many lengths is unknown
+    if text["shape"] and text["shape"] not in N_LENGTHS:  # reported; its lengths are unknown
         body = dataclasses.replace(body, size=())
     return body

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from ...errors import UnknownName
 
-HEAD = 65536
-"""Bytes of a file in which its root element begins."""
+MAX_HEAD_BYTES = 65536
+"""The number of bytes of a file in which its root element begins."""
 
 
 def vehicle_sets() -> dict[str, Path]:
-    """The bundled sets: name -> file."""
+    """Return the file of each bundled set, by name."""
     return {path.stem: path for path in sorted(bundled_folder().glob("*.xml"))}
 
 
@@ -24,28 +24,30 @@ def find_vehicle(name: str, named_by: Path | None = None) -> Path:
         UnknownName: there is none.
     """
     if named_by is not None and name == Path(name).name:
-        own = named_by.parent / f"{name}.xml"
+        path = named_by.parent / f"{name}.xml"
         with suppress(OSError, ValueError):  # no name of a file
-            if own.is_file():
-                return own
-    known = vehicle_sets()
-    if name not in known:
-        raise UnknownName("hydrodynamics set", name, dict.fromkeys([*_own_sets(named_by), *known]))
-    return known[name]
+            if path.is_file():
+                return path
+    bundled_sets = vehicle_sets()
+    if name not in bundled_sets:
+        raise UnknownName(
+            "hydrodynamics set", name, dict.fromkeys([*_sets_in_folder(named_by), *bundled_sets])
+        )
+    return bundled_sets[name]
 
 
 def bundled_folder() -> Path:
-    """The folder of the bundled hydrodynamics files; ``<include>`` searches it last."""
+    """Return the folder of the bundled hydrodynamics files; ``<include>`` searches it last."""
     return Path(str(files("uwsim"))) / "data" / "vehicles"
 
 
-def _own_sets(named_by: Path | None) -> list[str]:
-    """Names of the hydrodynamics files next to a scene."""
-    found = []
+def _sets_in_folder(named_by: Path | None) -> list[str]:
+    """Return the names of the hydrodynamics files next to a scene."""
+    names = []
     with suppress(OSError):
-        found_here = [] if named_by is None else sorted(named_by.parent.glob("*.xml"))
-        for path in filter(Path.is_file, found_here):
+        paths = [] if named_by is None else sorted(named_by.parent.glob("*.xml"))
+        for path in filter(Path.is_file, paths):
             with path.open("rb") as file:
-                if b"<hydrodynamics" in file.read(HEAD):
-                    found.append(path.stem)
-    return found
+                if b"<hydrodynamics" in file.read(MAX_HEAD_BYTES):
+                    names.append(path.stem)
+    return names

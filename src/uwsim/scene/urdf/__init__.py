@@ -1,1 +1,1 @@
-"""Robot descriptions (URDF): what a file says, its reader, forward kinematics."""
+"""Robot descriptions (URDF): specs, their reader, forward kinematics."""

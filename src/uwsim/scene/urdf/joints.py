@@ -1,4 +1,4 @@
-"""Reads ``<joint>`` of a robot file: type, limits, damping, friction and mimic."""
+"""Reader of ``<joint>`` of a robot file: type, limits, damping, friction and mimic."""
 
 from __future__ import annotations
 
@@ -8,52 +8,54 @@ import math
 from lxml import etree
 
 from ...schema import Diagnostics, source_line
-from ..angles import MORE_THAN_A_TURN
+from ..angles import MAX_PLAUSIBLE_ANGLE
 from .robot import JointKind, JointSpec, LinkSpec, MimicSpec
 from .values import name_of, number_of, origin_of, triple_of
 
-MOVABLE = ("revolute", "continuous", "prismatic")
-STIFF = ("floating", "planar")
+MOVABLE_TYPES = ("revolute", "continuous", "prismatic")
+FIXED_TYPES = ("floating", "planar")
 NO_STOPS = (-math.inf, math.inf)
-"""Limits of a ``continuous`` joint, which turns without end.
+"""The limits of a ``continuous`` joint, which turns without end.
 
 Bounds of less than a turn hold for it, too, as in the original: its robots are written so.
 """
 MAX_RATIO = 1e6
-"""Greatest multiplier and offset with which a joint follows the first of a chain."""
-A_TURN = 0.99 * math.tau
-"""Bounds this far apart leave no angle out: 3.14 on both sides is meant as pi [rad]."""
+"""The greatest multiplier and offset with which a joint follows the first of a chain."""
+FULL_TURN = 0.99 * math.tau
+"""The range of bounds that excludes no angle: 3.14 on both sides means pi [rad]."""
 
 
 def read_joint(
     node: etree._Element, links: dict[str, LinkSpec], diagnostics: Diagnostics
 ) -> JointSpec | None:
-    """Read a joint; None when it joins no two links, or in no known way."""
-    name, given = name_of(node), (node.get("type") or "").strip()
-    if given not in (*MOVABLE, *STIFF, "fixed"):
+    """Read a joint; None if it does not join two links, or has no valid type."""
+    name, joint_type = name_of(node), (node.get("type") or "").strip()
+    if joint_type not in (*MOVABLE_TYPES, *FIXED_TYPES, "fixed"):
         diagnostics.report_unknown(
             node,
-            f"joint {name!r} has the type {given[:60]!r}; expected one of "
-            f"{', '.join((*MOVABLE, 'fixed', *STIFF))}",
-            given,
-            (*MOVABLE, "fixed", *STIFF),
+            f"joint {name!r} has the type {joint_type[:60]!r}; expected one of "
+            f"{', '.join((*MOVABLE_TYPES, 'fixed', *FIXED_TYPES))}",
+            joint_type,
+            (*MOVABLE_TYPES, "fixed", *FIXED_TYPES),
         )
         return None
-    if given in STIFF:
-        diagnostics.warning(node, f"joint {name!r} is {given}; held fixed, as in the original")
+    if joint_type in FIXED_TYPES:
+        diagnostics.warning(
+            node, f"joint {name!r} is {joint_type}; it is fixed, as in the original"
+        )
     parent, child = (_end(node, end, links, diagnostics) for end in ("parent", "child"))
     if parent is None or child is None:
         return None
     position, rpy = origin_of(node, diagnostics)
     kind: JointKind = "fixed"
     axis, lower, upper = (1.0, 0.0, 0.0), 0.0, 0.0
-    if given in MOVABLE:
-        kind = given  # type: ignore[assignment]  # one of MOVABLE
-        lower, upper = _limits(node, given, diagnostics)
+    if joint_type in MOVABLE_TYPES:
+        kind = joint_type  # type: ignore[assignment]  # one of MOVABLE
+        lower, upper = _limits(node, joint_type, diagnostics)
         if (axis_node := node.find("axis")) is not None:
             axis = triple_of(axis_node, "xyz", diagnostics, axis)
         if not any(axis):
-            diagnostics.warning(node, f"joint {name!r} has the axis 0 0 0; held fixed")
+            diagnostics.warning(node, f"joint {name!r} has the axis 0 0 0; it is fixed")
             kind = "fixed"
     return JointSpec(
         source_line=source_line(node, diagnostics.file),
@@ -66,11 +68,11 @@ def read_joint(
         axis=axis,
         lower=lower,
         upper=upper,
-        effort=_most(node, "effort", diagnostics),
-        velocity=_most(node, "velocity", diagnostics),
+        effort=_limit_of(node, "effort", diagnostics),
+        velocity=_limit_of(node, "velocity", diagnostics),
         damping=_loss(node, "damping", diagnostics),
         friction=_loss(node, "friction", diagnostics),
-        mimic=_mimic(node, diagnostics) if given in MOVABLE else None,
+        mimic=_mimic(node, diagnostics) if joint_type in MOVABLE_TYPES else None,
     )
 
 
@@ -78,17 +80,17 @@ def _limits(node: etree._Element, kind: str, diagnostics: Diagnostics) -> tuple[
     limit = node.find("limit")
     if limit is None:
         if kind != "continuous" and node.find("mimic") is None:
-            what = f"joint {name_of(node)!r} is {kind} without <limit>; -pi to pi"
-            diagnostics.warning(node, what)
+            message = f"joint {name_of(node)!r} is {kind} without <limit>; -pi to pi"
+            diagnostics.warning(node, message)
         return NO_STOPS if kind == "continuous" else (-math.pi, math.pi)
     lower, upper = (number_of(limit, end, diagnostics, 0.0) for end in ("lower", "upper"))
     if kind == "revolute" and _are_degrees(lower, upper):
         diagnostics.warning(
             limit,
-            f"joint {name_of(node)!r} turns from {lower:g} to {upper:g} rad; as degrees that would "
-            f"be {math.radians(lower):.5g} to {math.radians(upper):.5g}",
+            f"joint {name_of(node)!r} turns from {lower:g} to {upper:g} rad; if these are degrees "
+            f"write {math.radians(lower):.5g} to {math.radians(upper):.5g}",
         )
-    if kind == "continuous" and not 0.0 < upper - lower < A_TURN:
+    if kind == "continuous" and not 0.0 < upper - lower < FULL_TURN:
         return NO_STOPS
     if lower > upper:
         diagnostics.warning(
@@ -96,30 +98,33 @@ def _limits(node: etree._Element, kind: str, diagnostics: Diagnostics) -> tuple[
         )
     elif "lower" not in limit.attrib and "upper" not in limit.attrib:
         diagnostics.warning(
-            limit, f"joint {name_of(node)!r} has a <limit> without lower and upper: it is held at 0"
+            limit,
+            f"joint {name_of(node)!r} has a <limit> without lower and upper: it is fixed at 0",
         )
     return lower, upper
 
 
 def _are_degrees(lower: float, upper: float) -> bool:
-    """Whether limits look like degrees: whole numbers beyond a turn, up to 360."""
-    return MORE_THAN_A_TURN < max(abs(lower), abs(upper)) <= 360.0 and not (lower % 1 or upper % 1)
+    """Return whether limits are likely degrees: integers beyond a turn, up to 360."""
+    return MAX_PLAUSIBLE_ANGLE < max(abs(lower), abs(upper)) <= 360.0 and not (
+        lower % 1 or upper % 1
+    )
 
 
-def _most(node: etree._Element, what: str, diagnostics: Diagnostics) -> float:
-    """An effort or speed of a ``<limit>``; none, or 0 as many files have it, is no limit."""
+def _limit_of(node: etree._Element, attribute: str, diagnostics: Diagnostics) -> float:
+    """Return an effort or speed of a ``<limit>``; none, or 0 as many files have it, is no limit."""
     limit = node.find("limit")
-    most = 0.0 if limit is None else number_of(limit, what, diagnostics, 0.0)
-    return most if most > 0.0 else math.inf
+    value = 0.0 if limit is None else number_of(limit, attribute, diagnostics, 0.0)
+    return value if value > 0.0 else math.inf
 
 
-def _loss(node: etree._Element, what: str, diagnostics: Diagnostics) -> float:
-    """A damping or friction of ``<dynamics>``; 0 without one, as for one below 0."""
+def _loss(node: etree._Element, attribute: str, diagnostics: Diagnostics) -> float:
+    """Return a damping or friction of ``<dynamics>``; 0 without one, or for one below 0."""
     dynamics = node.find("dynamics")
-    loss = 0.0 if dynamics is None else number_of(dynamics, what, diagnostics, 0.0)
+    loss = 0.0 if dynamics is None else number_of(dynamics, attribute, diagnostics, 0.0)
     if loss < 0.0:
         diagnostics.warning(
-            dynamics, f"joint {name_of(node)!r} has the {what} {loss:g}; expected 0 or more: 0"
+            dynamics, f"joint {name_of(node)!r} has the {attribute} {loss:g}; expected 0 or more: 0"
         )
     return max(loss, 0.0)
 
@@ -136,10 +141,10 @@ def _mimic(node: etree._Element, diagnostics: Diagnostics) -> MimicSpec | None:
     )
 
 
-def with_leader(
+def check_leader(
     joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
 ) -> JointSpec:
-    """Return the joint; one that mimics nobody is free."""
+    """Return the joint, which is free if the joint that it mimics does not exist."""
     if joint.mimic is None or joint.mimic.joint in joints:
         return joint
     source = joint.mimic.joint
@@ -152,45 +157,45 @@ def with_leader(
 
 
 def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None:
-    """Report joints that mimic each other in a loop; every joint is visited once."""
-    seen: set[str] = set()
+    """Report joints that mimic each other in a loop; visit every joint once."""
+    visited_names: set[str] = set()
     for name in joints:
         path: dict[str, int] = {}  # joint -> how many before it
-        while name in joints and name not in seen:
-            seen.add(name)
+        while name in joints and name not in visited_names:
+            visited_names.add(name)
             path[name] = len(path)
             mimic = joints[name].mimic
             name = "" if mimic is None else mimic.joint
         loop = list(path)[path[name] :] if name in path else []
         for i, member in enumerate(loop):
-            turned = (*loop[i:], *loop[:i], member)[:100]
-            message = " mimics ".join(repr(each) for each in turned)
+            members = (*loop[i:], *loop[:i], member)[:100]
+            message = " mimics ".join(repr(joint_name) for joint_name in members)
             diagnostics.error(joints[member], f"joint {message[:200]}: a loop")
 
 
 def follow_chains(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> dict[str, JointSpec]:
-    r"""Let joints that mimic one that mimics follow the first of the chain.
+    r"""Make each joint that mimics a mimicking one follow the first of the chain.
 
     With q_1 = m_1 q_0 + o_1 and q_2 = m_2 q_1 + o_2,
 
     .. math:: q_2 = m_1 m_2\,q_0 + m_2 o_1 + o_2
 
-    A slider-crank moves otherwise; what mimics it stays at its offset, which is reported. There is
-    no loop (`check_mimics`).
+    A slider-crank moves differently; a joint that mimics it remains at its offset, which is
+    reported. There is no loop (`check_mimics`).
     """
-    resolved: dict[str, JointSpec] = {}
+    resolved_joints: dict[str, JointSpec] = {}
     for name in joints:
         path: list[str] = []
-        while name in joints and name not in resolved:
+        while name in joints and name not in resolved_joints:
             path.append(name)
             mimic = joints[name].mimic
             name = "" if mimic is None else mimic.joint
         for member in reversed(path):
-            resolved[member] = _with_first(joints[member], resolved, diagnostics)
-    return {name: resolved[name] for name in joints}
+            resolved_joints[member] = _follow_first(joints[member], resolved_joints, diagnostics)
+    return {name: resolved_joints[name] for name in joints}
 
 
-def _with_first(
+def _follow_first(
     joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
 ) -> JointSpec:
     """Return a joint that mimics one that moves by itself; ``joints`` has its leader."""
@@ -201,22 +206,23 @@ def _with_first(
     if leader.is_crank or joint.is_crank:
         diagnostics.warning(
             joint,
-            f"joint {joint.name!r} mimics {mimic.joint!r}, which mimics another; a slider-crank is "
-            "not followed in such a chain: it stays at its offset",
+            f"joint {joint.name!r} mimics {mimic.joint!r}, which mimics another. A slider-crank "
+            "is not supported in such a chain: the joint remains at its offset",
         )
         return joint
-    first = leader.mimic
-    multiplier = first.multiplier * mimic.multiplier
-    offset = mimic.multiplier * first.offset + mimic.offset
+    first_mimic = leader.mimic
+    multiplier = first_mimic.multiplier * mimic.multiplier
+    offset = mimic.multiplier * first_mimic.offset + mimic.offset
     if not max(abs(multiplier), abs(offset)) <= MAX_RATIO:
         diagnostics.error(
             joint,
-            f"joint {joint.name!r} mimics {first.joint!r} with the multiplier {multiplier:.3g} "
-            f"and the offset {offset:.3g}; expected at most {MAX_RATIO:g}",
+            f"joint {joint.name!r} mimics {first_mimic.joint!r} with the multiplier "
+            f"{multiplier:.3g} and the offset {offset:.3g}; expected at most {MAX_RATIO:g}",
         )
         return joint
-    whole = dataclasses.replace(mimic, joint=first.joint, multiplier=multiplier, offset=offset)
-    return dataclasses.replace(joint, mimic=whole)
+    source = first_mimic.joint
+    mimic = dataclasses.replace(mimic, joint=source, multiplier=multiplier, offset=offset)
+    return dataclasses.replace(joint, mimic=mimic)
 
 
 def _end(

@@ -13,25 +13,25 @@ from .robot import JointSpec, RobotSpec
 
 
 def joint_positions(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, float]:
-    """The value of every joint that moves, mimicking ones included [rad or m].
+    """Return the value of every joint that moves, mimicking ones included [rad or m].
 
     Args:
         robot: the robot.
-        joint_values: the joint vector, clamped to the limits here; what is missing is 0.
+        joint_values: the joint vector, clamped to the limits here; missing values are 0.
     """
     positions = {joint.name: 0.0 for joint in robot.joints if joint.moves}
-    for index, joint in enumerate(robot.movable):
+    for index, joint in enumerate(robot.movable_joints):
         value = joint_values[index] if index < len(joint_values) else 0.0
-        positions[joint.name] = joint.clamped(float(value))
-    driven = {joint.name: positions[joint.name] for joint in robot.movable}
+        positions[joint.name] = joint.clamp(float(value))
+    leader_values = {joint.name: positions[joint.name] for joint in robot.movable_joints}
     for joint in robot.joints:
         if joint.moves and joint.mimic is not None:
-            positions[joint.name] = _follow(joint, driven.get(joint.mimic.joint, 0.0))
+            positions[joint.name] = _follow(joint, leader_values.get(joint.mimic.joint, 0.0))
     return positions
 
 
 def link_poses(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, Pose]:
-    """``base_from_link`` of every link: its kinematic frame in the frame of the root link."""
+    """Return ``base_from_link`` of every link: its kinematic frame in the root link's frame."""
     positions = joint_positions(robot, joint_values)
     poses = {robot.root: Pose.identity()}
     for joint in robot.joints:  # parents come before their children
@@ -42,7 +42,7 @@ def link_poses(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str
 
 
 def _motion(joint: JointSpec, value: float) -> Pose:
-    """``joint_from_child``: a turn about the axis, or a slide along it."""
+    """Return ``joint_from_child``: a rotation about the axis, or a translation along it."""
     if not joint.moves:
         return Pose.identity()
     axis = np.array(joint.axis)  # (3,)
@@ -52,7 +52,7 @@ def _motion(joint: JointSpec, value: float) -> Pose:
 
 
 def _follow(joint: JointSpec, source: float) -> float:
-    """Return the value of a mimicking joint; the reader has followed chains."""
+    """Return the value of a mimicking joint; the reader has resolved chains."""
     assert joint.mimic is not None
     if joint.is_crank:
         reach = joint.mimic.offset * math.sin(source)

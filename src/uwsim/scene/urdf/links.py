@@ -1,4 +1,4 @@
-"""Reads ``<link>`` of a robot file: inertial, visuals and collisions."""
+"""Reader of ``<link>`` of a robot file: inertial, visuals and collisions."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...base.geometry import ZERO, Triple
 from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, source_line
 from .robot import Colour, LinkSpec, ShapeKind, VisualSpec
 from .values import (
-    clamped,
+    clamp_size,
     colour_of,
     elements_of,
     name_of,
@@ -31,11 +31,11 @@ def read_link(
     inertia = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if inertial is not None:
         centre, turn = origin_of(inertial, diagnostics)
-        if (weight := inertial.find("mass")) is not None:
-            mass = size_of(weight, "value", diagnostics, 0.0)
-        if (tensor := inertial.find("inertia")) is not None:
+        if (mass_node := inertial.find("mass")) is not None:
+            mass = size_of(mass_node, "value", diagnostics, 0.0)
+        if (inertia_node := inertial.find("inertia")) is not None:
             xx, yy, zz, xy, xz, yz = (
-                number_of(tensor, f"i{axes}", diagnostics, 0.0)
+                number_of(inertia_node, f"i{axes}", diagnostics, 0.0)
                 for axes in ("xx", "yy", "zz", "xy", "xz", "yz")
             )
             inertia = (xx, yy, zz, xy, xz, yz)
@@ -52,24 +52,25 @@ def read_link(
 
 
 def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, Colour]:
-    """The colours that have names: those of the robot, then those that visuals define."""
-    found: dict[str, Colour] = {}
-    uses: dict[str, etree._Element] = {}  # the first of each name, of what nothing defines
-    quiet = Diagnostics(diagnostics.file)  # a visual reports its own errors
-    for path, sink in (("material", diagnostics), ("link/visual/material", quiet)):
+    """Return the named colours: those of the robot, then those that visuals define."""
+    colours: dict[str, Colour] = {}
+    first_uses: dict[str, etree._Element] = {}  # the first undefined use of each name
+    ignored_diagnostics = Diagnostics(diagnostics.file)  # a visual reports its own errors
+    for path, sink in (("material", diagnostics), ("link/visual/material", ignored_diagnostics)):
         for node in root.findall(path):
             colour = colour_of(node, sink)
             if colour is not None and name_of(node):
-                found.setdefault(name_of(node), colour)
+                colours.setdefault(name_of(node), colour)
             if path != "material" and next(elements_of(node), None) is None:
-                uses.setdefault(name_of(node), node)
-    textured = {name_of(node) for node in root.iter("material") if node.find("texture") is not None}
-    for name in [name for name in uses if name and name not in found and name not in textured]:
-        near = diagnostics.suggest(name, found, "warning")
+                first_uses.setdefault(name_of(node), node)
+    textures = (node for node in root.iter("material") if node.find("texture") is not None)
+    known_names = {"", *colours, *map(name_of, textures)}
+    for name in [name for name in first_uses if name not in known_names]:
+        suggestion = diagnostics.suggest(name, colours, "warning")
         diagnostics.warning(
-            uses[name], f"no material is called {name!r}: it gives no colour.{near}"
+            first_uses[name], f"no material is called {name!r}: it gives no colour.{suggestion}"
         )
-    return found
+    return colours
 
 
 def _file_of(shape: etree._Element) -> str:
@@ -79,15 +80,15 @@ def _file_of(shape: etree._Element) -> str:
 
 
 def _edges_of(box: etree._Element, diagnostics: Diagnostics) -> Triple:
-    """The edges of a box; one beyond the limit is clamped."""
+    """Return the edges of a box; clamp an edge beyond the limit."""
     edges = numbers_of(box, "size", 3, diagnostics) or [0.0, 0.0, 0.0]
-    given = box.get("size", "")
+    text = box.get("size", "")
     if min(edges) < 0:
-        diagnostics.error(box, f"size of <box> is {given[:60]!r}; expected numbers >= 0")
+        diagnostics.error(box, f"size of <box> is {text[:60]!r}; expected numbers >= 0")
     elif max(edges) > MAX_NUMBER:
         limit = f"expected numbers up to {MAX_DISTANCE:g}"
-        diagnostics.error(box, f"size of <box> is {given[:60]!r}; {limit}")
-    x, y, z = (clamped(box, "size", edge, diagnostics) if edge > 0 else edge for edge in edges)
+        diagnostics.error(box, f"size of <box> is {text[:60]!r}; {limit}")
+    x, y, z = (clamp_size(box, "size", edge, diagnostics) if edge > 0 else edge for edge in edges)
     return x, y, z
 
 
@@ -122,13 +123,13 @@ def _shape(
     elif kind == "box":
         size = _edges_of(shape, diagnostics)
     elif kind in ("cylinder", "sphere"):
-        wide = 2 * size_of(shape, "radius", diagnostics, None)
-        tall = size_of(shape, "length", diagnostics, None) if kind == "cylinder" else wide
-        size = (wide, wide, tall)
+        diameter = 2 * size_of(shape, "radius", diagnostics, None)
+        length = size_of(shape, "length", diagnostics, None) if kind == "cylinder" else diameter
+        size = (diameter, diameter, length)
     else:
         kinds = ("mesh", "box", "cylinder", "sphere")
-        given = str(kind)
-        diagnostics.report_unknown(shape, f"<{given[:60]}> is not a geometry", given, kinds)
+        tag = str(kind)
+        diagnostics.report_unknown(shape, f"<{tag[:60]}> is not a geometry", tag, kinds)
         return None
     return VisualSpec(
         source_line=source_line(node, diagnostics.file),

@@ -1,15 +1,15 @@
-"""Reads a robot file (URDF) into a `RobotSpec`, or reports every error.
+"""Reader of a robot file (URDF): a `RobotSpec`, or every error.
 
-UWSim's rules: the tree is walked depth first, children in the alphabetical order of their joints'
-names, and the movable joints in that order are the joint vector. A ``<limit>`` without bounds means
-0 to 0; without one a joint goes from -pi to pi, prismatic ones included. A continuous joint has no
-end stops; bounds of less than a turn hold for it as in the original. ``effort`` and ``velocity`` of
-a ``<limit>``, which UWSim passes over, limit the joints of simulated vehicles. Of a link all
-``<visual>`` and ``<collision>`` elements count, where UWSim took the first. A material is meant by
-its name wherever it is defined, as in URDF.
+UWSim's rules: the tree is traversed depth first, children in the alphabetical order of their
+joints' names, and the movable joints in that order are the joint vector. A ``<limit>`` without
+bounds means 0 to 0; without one a joint moves from -pi to pi, prismatic ones included. A continuous
+joint has no end stops; bounds of less than a turn apply to it as in the original. ``effort`` and
+``velocity`` of a ``<limit>``, which UWSim ignores, limit the joints of simulated vehicles. All
+``<visual>`` and ``<collision>`` elements of a link are used, where UWSim used the first. A material
+is found by its name wherever it is defined, as in URDF.
 
-What a plug-in or another program wrote into the file (``<gazebo>``, ``<transmission>``, ...) is
-passed over, as the original does. Not read: safety controllers, textures.
+Elements of plug-ins or other programs (``<gazebo>``, ``<transmission>``, ...) are ignored, as in
+the original. Not read: safety controllers, textures.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from lxml import etree
 from ...errors import SceneError
 from ...schema import Diagnostics, source_line
 from ..xacro import parse_expanded
-from .joints import check_mimics, follow_chains, read_joint, with_leader
+from .joints import check_leader, check_mimics, follow_chains, read_joint
 from .links import read_link, read_materials
 from .robot import JointSpec, LinkSpec, RobotSpec
 from .values import name_of
 
 MAX_CHAIN = 256
-"""Most joints between the root and a link."""
+"""The greatest number of joints between the root and a link."""
 
 
 def read_urdf(
@@ -42,8 +42,8 @@ def read_urdf(
 
     Args:
         path: the file.
-        data_path: further folders in which included files are looked for.
-        arguments: values of its xacro arguments, by name.
+        data_path: the further folders that are searched for included files.
+        arguments: the values of its xacro arguments, by name.
 
     Raises:
         SceneError: with every error of the file.
@@ -62,7 +62,7 @@ def read_robot(
     data_path: tuple[Path, ...] = (),
     arguments: Mapping[str, str] | None = None,
 ) -> RobotSpec | None:
-    """Read a robot file into ``diagnostics``; None when there is no tree to build."""
+    """Read a robot file; return None and add errors to ``diagnostics`` if it has no tree."""
     document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
     root = document.root
     if root.tag != "robot":
@@ -71,15 +71,15 @@ def read_robot(
     materials = read_materials(root, diagnostics)
     links: dict[str, LinkSpec] = {}
     for node in root.findall("link"):
-        if _unique(node, links, "link", diagnostics):
+        if _check_unique(node, links, "link", diagnostics):
             links[name_of(node)] = read_link(node, materials, diagnostics)
     joints: dict[str, JointSpec] = {}
     for node in root.findall("joint"):
-        if _unique(node, joints, "joint", diagnostics):
+        if _check_unique(node, joints, "joint", diagnostics):
             joint = read_joint(node, links, diagnostics)
             if joint is not None:
                 joints[joint.name] = joint
-    joints = {name: with_leader(joint, joints, diagnostics) for name, joint in joints.items()}
+    joints = {name: check_leader(joint, joints, diagnostics) for name, joint in joints.items()}
     check_mimics(joints, diagnostics)
     if not links:
         diagnostics.error(root, "the robot has no <link>")
@@ -101,27 +101,27 @@ def _tree(
 ) -> RobotSpec | None:
     """Sort links and joints into UWSim's order."""
     children: dict[str, list[JointSpec]] = {}
-    hung: dict[str, JointSpec] = {}
+    parent_joints: dict[str, JointSpec] = {}
     for joint in sorted(joints.values(), key=lambda joint: joint.name):
-        if joint.child in hung:
+        if joint.child in parent_joints:
             diagnostics.error(
                 joint,
-                f"link {joint.child!r} has two parent joints, {hung[joint.child].name!r} and "
-                f"{joint.name!r}",
+                f"link {joint.child!r} has two parent joints, "
+                f"{parent_joints[joint.child].name!r} and {joint.name!r}",
             )
-        hung[joint.child] = joint
+        parent_joints[joint.child] = joint
         children.setdefault(joint.parent, []).append(joint)
-    roots = [name for name in links if name not in hung]
+    roots = [name for name in links if name not in parent_joints]
     if len(roots) != 1:
-        what = f"{len(roots)} links have no parent: {', '.join(roots[:5])}" if roots else "a loop"
-        diagnostics.error(root, f"the joints are no tree with one root; found {what}")
+        fault = f"{len(roots)} links have no parent: {', '.join(roots[:5])}" if roots else "a loop"
+        diagnostics.error(root, f"the joints are no tree with one root; found {fault}")
         return None
-    ordered: list[JointSpec] = []
+    sorted_joints: list[JointSpec] = []
     depths = {roots[0]: 0}
-    waiting = list(reversed(children.get(roots[0], [])))
-    while waiting:
-        joint = waiting.pop()
-        ordered.append(joint)
+    stack = list(reversed(children.get(roots[0], [])))
+    while stack:
+        joint = stack.pop()
+        sorted_joints.append(joint)
         depths[joint.child] = depths[joint.parent] + 1
         if depths[joint.child] > MAX_CHAIN:
             diagnostics.error(
@@ -129,28 +129,28 @@ def _tree(
                 f"joint {joint.name!r} ends a chain of more than {MAX_CHAIN} joints",
             )
             return None
-        waiting += reversed(children.get(joint.child, []))
-    if len(ordered) < len(joints):
-        lost = sorted(set(joints) - {joint.name for joint in ordered})
-        diagnostics.error(joints[lost[0]], f"joint {lost[0]!r} is part of a loop")
+        stack += reversed(children.get(joint.child, []))
+    if len(sorted_joints) < len(joints):
+        loop_names = sorted(set(joints) - {joint.name for joint in sorted_joints})
+        diagnostics.error(joints[loop_names[0]], f"joint {loop_names[0]!r} is part of a loop")
         return None
     return RobotSpec(
         source_line=source_line(root, diagnostics.file),
         name=name_of(root),
         root=roots[0],
-        links=(links[roots[0]], *(links[joint.child] for joint in ordered)),
-        joints=tuple(ordered),
+        links=(links[roots[0]], *(links[joint.child] for joint in sorted_joints)),
+        joints=tuple(sorted_joints),
         path=str(path),
     )
 
 
-def _unique(
-    node: etree._Element, known: dict[str, LinkSpec] | dict[str, JointSpec], what: str,
+def _check_unique(
+    node: etree._Element, specs: dict[str, LinkSpec] | dict[str, JointSpec], kind: str,
     diagnostics: Diagnostics,
 ) -> bool:  # fmt: skip
     name = name_of(node)
     if not name:
-        diagnostics.error(node, f"a <{what}> lacks the attribute name")
-    elif name in known:
-        diagnostics.error(node, f"two {what}s are called {name!r}")
-    return bool(name) and name not in known
+        diagnostics.error(node, f"a <{kind}> lacks the attribute name")
+    elif name in specs:
+        diagnostics.error(node, f"two {kind}s are called {name!r}")
+    return bool(name) and name not in specs

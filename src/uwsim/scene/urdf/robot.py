@@ -30,7 +30,7 @@ ShapeKind = Literal["mesh", "box", "cylinder", "sphere"]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 
 MAX_ANGLE = 1e6
-"""Greatest angle that a joint without end stops is set to [rad]."""
+"""The greatest angle to which a joint without end stops is set [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,39 +38,39 @@ class VisualSpec(Spec):
     """A visual or collision shape on a link."""
 
     kind: ShapeKind
-    """What it is made of."""
+    """The kind of shape."""
     file: str = ""
     """The mesh, as the file names it; empty for the other kinds."""
     size: Triple = (1.0, 1.0, 1.0)
-    """Extent along x, y, z of a box, a cylinder (about z) or a sphere [m]."""
+    """The extent along x, y, z of a box, a cylinder (about z) or a sphere [m]."""
     scale: Triple = (1.0, 1.0, 1.0)
-    """Scale of a mesh along x, y, z [1]."""
+    """The scale of a mesh along x, y, z [1]."""
     position: Triple = ZERO
-    """Position of the shape in the link's frame [m]."""
+    """The position of the shape in the link's frame [m]."""
     rpy: Triple = ZERO
-    """Of the shape in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The orientation in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     colour: Colour | None = None
-    """Red, green, blue, opacity of its material [0..1]; None without one."""
+    """The red, green, blue, opacity of its material [0..1]; None without one."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class LinkSpec(Spec):
-    """A rigid piece of a robot."""
+    """A rigid part of a robot."""
 
     name: str
-    """Its name."""
+    """The name."""
     visuals: tuple[VisualSpec, ...] = ()
-    """What is seen of it; the original sees the first only."""
+    """The visible shapes; the original uses the first only."""
     collisions: tuple[VisualSpec, ...] = ()
-    """What is touched of it; the original feels the first only, at the link's origin."""
+    """The collision shapes; the original uses the first only, at the link's origin."""
     mass: float = 0.0
-    """Its mass [kg]."""
+    """The mass [kg]."""
     centre_of_mass: Triple = ZERO
-    """In the link's frame [m]."""
+    """The centre of mass in the link's frame [m]."""
     inertia_rpy: Triple = ZERO
-    """Axes of the inertia in the link's frame, roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The axes of the inertia in the link's frame, roll, pitch, yaw: Rz Ry Rx [rad]."""
     inertia: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    """About the centre of mass: xx, yy, zz, xy, xz, yz [kg m2]."""
+    """The inertia about the centre of mass: xx, yy, zz, xy, xz, yz [kg m2]."""
 
     @property
     def visual(self) -> VisualSpec | None:
@@ -79,7 +79,7 @@ class LinkSpec(Spec):
 
     @property
     def solids(self) -> tuple[VisualSpec, ...]:
-        """Its collision shapes; without any, its visuals."""
+        """The collision shapes; without any, the visuals."""
         return self.collisions or self.visuals
 
 
@@ -88,11 +88,11 @@ class MimicSpec(Spec):
     """A joint that follows another: ``multiplier * q + offset``."""
 
     joint: str
-    """The joint it follows."""
+    """The joint that it follows."""
     multiplier: float = 1.0
-    """Factor on the other's value [1]."""
+    """The factor on the other's value [1]."""
     offset: float = 0.0
-    """Added to it [rad or m]."""
+    """The offset that is added to it [rad or m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -100,59 +100,59 @@ class JointSpec(Spec):
     """A joint between two links."""
 
     name: str
-    """Its name."""
+    """The name."""
     kind: JointKind
-    """How it moves; what URDF calls floating or planar is fixed, as in the original."""
+    """The type of motion; URDF's floating and planar are fixed, as in the original."""
     parent: str
     """The parent link."""
     child: str
     """The child link."""
     position: Triple = ZERO
-    """Position of the joint in the parent's frame [m]."""
+    """The position of the joint in the parent's frame [m]."""
     rpy: Triple = ZERO
-    """Of the joint in the parent's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The orientation in the parent's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     axis: Triple = (1.0, 0.0, 0.0)
-    """What it turns about or slides along, in its own frame [1]."""
+    """The axis of rotation or translation, in the joint's frame [1]."""
     lower: float = 0.0
-    """Least value; -inf of a joint without end stops [rad or m]."""
+    """The least value; -inf for a joint without end stops [rad or m]."""
     upper: float = 0.0
-    """Greatest value; inf of a joint without end stops [rad or m]."""
+    """The greatest value; inf for a joint without end stops [rad or m]."""
     effort: float = math.inf
-    """Greatest effort of what drives it; of a simulated vehicle only [N m or N]."""
+    """The greatest effort of its drive; for a simulated vehicle only [N m or N]."""
     velocity: float = math.inf
-    """Greatest speed at which it is driven; of a simulated vehicle only [rad/s or m/s]."""
+    """The greatest speed of its drive; for a simulated vehicle only [rad/s or m/s]."""
     damping: float = 0.0
-    """Effort against its speed; of a simulated vehicle only [N m s/rad or N s/m]."""
+    """The damping effort per speed; for a simulated vehicle only [N m s/rad or N s/m]."""
     friction: float = 0.0
-    """Effort of its dry friction; of a simulated vehicle only [N m or N]."""
+    """The effort of its dry friction; for a simulated vehicle only [N m or N]."""
     mimic: MimicSpec | None = None
-    """Whom it follows."""
+    """The joint that it mimics, with multiplier and offset."""
 
     @property
     def moves(self) -> bool:
-        """Whether it is not fixed."""
+        """A flag: the joint is not fixed."""
         return self.kind != "fixed"
 
     @property
     def has_stops(self) -> bool:
-        """Whether it stops at `lower` and `upper`; a ``continuous`` joint may turn without end."""
+        """A flag: the joint stops at `lower` and `upper`; a ``continuous`` joint may not."""
         return math.isfinite(self.upper - self.lower)
 
     @property
     def is_crank(self) -> bool:
-        """Whether it mimics as a slider-crank does; its name says so, as in the original."""
+        """A flag: it mimics as a slider-crank does; its name states this, as in the original."""
         return "slidercrank" in self.name
 
-    def clamped(self, value: float) -> float:
-        """Return a value within the limits [rad or m].
+    def clamp(self, value: float) -> float:
+        """Clamp a value to the limits [rad or m].
 
-        A joint without end stops keeps its angle; one of more than `MAX_ANGLE` is reduced by whole
-        turns, so that its sine and cosine stay exact.
+        The angle of a joint without end stops does not change; one of more than `MAX_ANGLE` is
+        reduced by whole turns, so that its sine and cosine are exact.
         """
         if self.has_stops:
             return min(max(value, self.lower), self.upper)
-        finite = min(max(value, -sys.float_info.max), sys.float_info.max)
-        return math.remainder(finite, math.tau) if abs(finite) > MAX_ANGLE else finite
+        angle = min(max(value, -sys.float_info.max), sys.float_info.max)
+        return math.remainder(angle, math.tau) if abs(angle) > MAX_ANGLE else angle
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,23 +160,23 @@ class RobotSpec(Spec):
     """A robot: links and joints in UWSim's order."""
 
     name: str
-    """Its name."""
+    """The name."""
     root: str
     """The root link, which has no parent."""
     links: tuple[LinkSpec, ...]
-    """The root first, then in the order of the joints."""
+    """The links: the root first, then in the order of the joints."""
     joints: tuple[JointSpec, ...]
-    """Depth first, children in the alphabetical order of their joints' names."""
+    """The joints, depth first, children in the alphabetical order of their joints' names."""
     path: str = ""
-    """The file it was read from."""
+    """The file from which it was read."""
     expansion: Expansion = field(default=Expansion(), compare=False)
-    """What is known of its xacro."""
+    """The xacro expansion."""
 
     @cached_property
-    def movable(self) -> tuple[JointSpec, ...]:
-        """The joint vector: those that move and mimic none."""
+    def movable_joints(self) -> tuple[JointSpec, ...]:
+        """The joint vector: the joints that move and mimic no other."""
         return tuple(joint for joint in self.joints if joint.moves and joint.mimic is None)
 
     def link(self, name: str) -> LinkSpec | None:
-        """Find a link by its name."""
+        """Return a link by its name; None if there is none."""
         return next((link for link in self.links if link.name == name), None)

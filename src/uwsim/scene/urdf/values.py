@@ -1,4 +1,4 @@
-"""Reads the attributes of a robot file: names, numbers, positions and colours."""
+"""Reader of the attributes of a robot file: names, numbers, positions and colours."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ from collections.abc import Iterator
 from lxml import etree
 
 from ...base.geometry import ZERO, Triple
-from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, parse_number
-from ..angles import degrees_for_radians
+from ...schema import MAX_DISTANCE, MAX_NUMBER, Diagnostics, parse_number, quote
+from ..angles import describe_degrees
 from .robot import Colour
 
 
 def origin_of(node: etree._Element, diagnostics: Diagnostics) -> tuple[Triple, Triple]:
-    """Position and roll, pitch, yaw of an ``<origin>``; zero without one."""
+    """Return the position and roll, pitch, yaw of an ``<origin>``; zero without one."""
     origin = node.find("origin")
     if origin is None:
         return ZERO, ZERO
     rpy = triple_of(origin, "rpy", diagnostics, ZERO)
-    if message := degrees_for_radians(rpy):
+    if message := describe_degrees(rpy):
         diagnostics.warning(origin, f"rpy of <origin> is {message}")
     return triple_of(origin, "xyz", diagnostics, ZERO), rpy
 
 
 def colour_of(node: etree._Element, diagnostics: Diagnostics) -> Colour | None:
-    """The ``rgba`` of a ``<color>``; None without one."""
+    """Return the ``rgba`` of a ``<color>``; None without one."""
     colour = node.find("color")
     if colour is None:
         return None
@@ -33,23 +33,23 @@ def colour_of(node: etree._Element, diagnostics: Diagnostics) -> Colour | None:
         return None
     red, green, blue, opacity = (min(max(value, 0.0), 1.0) for value in values)
     if [red, green, blue, opacity] != values:
-        given = colour.get("rgba", "")
-        diagnostics.warning(colour, f"rgba of <color> is {given[:60]!r}; held within 0 to 1")
+        text = colour.get("rgba", "")
+        diagnostics.warning(colour, f"rgba of <color> is {text[:60]!r}; clamped to 0 to 1")
     return red, green, blue, opacity
 
 
 def triple_of(
     node: etree._Element, attribute: str, diagnostics: Diagnostics, default: Triple | None
 ) -> Triple:
-    """Three numbers of an attribute; the default when it is absent."""
+    """Return three numbers of an attribute; the default when it is absent."""
     if attribute not in node.attrib and default is not None:
         return default
     values = numbers_of(node, attribute, 3, diagnostics)
     if values is not None and not max(map(abs, values)) <= MAX_DISTANCE:
-        given = node.get(attribute, "")
+        text = node.get(attribute, "")
         diagnostics.error(
             node,
-            f"{attribute} of <{node.tag}> is {given[:60]!r}; "
+            f"{attribute} of <{node.tag}> is {text[:60]!r}; "
             f"expected numbers up to {MAX_DISTANCE:g}",
         )
         return ZERO
@@ -59,35 +59,37 @@ def triple_of(
 def size_of(
     node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
 ) -> float:
-    """A length or mass: not below 0; one beyond the limit, and a negative mass, is clamped."""
+    """Return a length or mass >= 0; clamp one beyond the limit, and a negative mass."""
     value = number_of(node, attribute, diagnostics, default)
     if node.tag == "mass" or MAX_DISTANCE < value <= MAX_NUMBER:
-        return clamped(node, attribute, value, diagnostics)
+        return clamp_size(node, attribute, value, diagnostics)
     if not 0 <= value <= MAX_DISTANCE:
-        given = node.get(attribute, "")
+        text = node.get(attribute, "")
         diagnostics.error(
-            node, f"{attribute} of <{node.tag}> is {given[:60]!r}; expected 0 to {MAX_DISTANCE:g}"
+            node, f"{attribute} of <{node.tag}> is {text[:60]!r}; expected 0 to {MAX_DISTANCE:g}"
         )
         return 0.0
     return value
 
 
-def clamped(node: etree._Element, attribute: str, value: float, diagnostics: Diagnostics) -> float:
-    """A size or mass between 0 and the limit, with a warning."""
-    limited = min(max(value, 0.0), MAX_DISTANCE)
-    if limited != value:
+def clamp_size(
+    node: etree._Element, attribute: str, value: float, diagnostics: Diagnostics
+) -> float:
+    """Clamp a size or mass to the range from 0 to the limit, with a warning."""
+    clamped_value = min(max(value, 0.0), MAX_DISTANCE)
+    if clamped_value != value:
         diagnostics.warning(
             node,
             f"{attribute} of <{node.tag}> is {value:g}; expected 0 to {MAX_DISTANCE:g}; clamped to "
-            f"{limited:g}",
+            f"{clamped_value:g}",
         )
-    return limited
+    return clamped_value
 
 
 def number_of(
     node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
 ) -> float:
-    """A number of an attribute; the default when it is absent."""
+    """Return a number of an attribute; the default when it is absent."""
     if attribute not in node.attrib and default is not None:
         return default
     values = numbers_of(node, attribute, 1, diagnostics)
@@ -97,7 +99,7 @@ def number_of(
 def numbers_of(
     node: etree._Element, attribute: str, count: int, diagnostics: Diagnostics
 ) -> list[float] | None:
-    """So many numbers of an attribute; None when it has others."""
+    """Return ``count`` numbers of an attribute; None if it has another count."""
     text = node.get(attribute)
     if text is None:
         diagnostics.error(node, f"<{node.tag}> lacks the attribute {attribute}")
@@ -107,17 +109,17 @@ def numbers_of(
     if len(words) == count and len(values) == count and None not in values:
         return [value for value in values if value is not None]
     hint = "; expand the file with xacro first" if "${" in text else ""
-    what = "a number" if count == 1 else f"{count} numbers"
-    shown = text if len(text) <= 60 else text[:57] + "..."
-    diagnostics.error(node, f"{attribute} of <{node.tag}> is {shown!r}; expected {what}{hint}")
+    expected_text = "a number" if count == 1 else f"{count} numbers"
+    message = f"{attribute} of <{node.tag}> is {quote(text)}; expected {expected_text}{hint}"
+    diagnostics.error(node, message)
     return None
 
 
 def name_of(node: etree._Element) -> str:
-    """The attribute ``name``."""
+    """Return the attribute ``name``, trimmed."""
     return (node.get("name") or "").strip()
 
 
 def elements_of(node: etree._Element) -> Iterator[etree._Element]:
-    """The child elements, without comments."""
+    """Return the child elements, without comments."""
     return (child for child in node if isinstance(child.tag, str))

@@ -41,7 +41,9 @@ class Readings:
             if isinstance(part, ForceSensorSpec | BatterySpec):
                 with suppress(UnknownName):  # a sensor on a link that does not exist is left out
                     self._sensors.append((part.name, world.sensors.sensor(part.name, (element,))))
-        self._turns = tuple(j.kind != "prismatic" for j in world.model.robots[vehicle].movable)
+        self._turns = tuple(
+            j.kind != "prismatic" for j in world.model.robots[vehicle].movable_joints
+        )
 
     def read(self, wall: float, *, is_paused: bool = False) -> list[Reading]:
         """Return all readings at a wall time [s]."""
