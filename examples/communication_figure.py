@@ -18,7 +18,7 @@ from uwsim.acoustics import ambient_noise
 from uwsim.analysis.plots import MARKERS, PALETTE, save_plot, styled_figure
 from uwsim.base.rng import stream
 from uwsim.network import (
-    EVERYONE,
+    BROADCAST_ADDRESS,
     BitErrors,
     LinkBudget,
     Modem,
@@ -88,7 +88,7 @@ def measured(size: int, wind: float, distance: float) -> float:
     network.join(modem("receiver", wind, distance, received))
     for i in range(N_PACKETS):
         network.advance(nanoseconds(i * 8.0 * size / BIT_RATE))
-        send(bytes(size), EVERYONE)
+        send(bytes(size), BROADCAST_ADDRESS)
     network.advance(nanoseconds((N_PACKETS + 1) * 8.0 * size / BIT_RATE + 10.0))
     return len(received) / N_PACKETS
 

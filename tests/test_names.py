@@ -148,6 +148,7 @@ def test_a_docstring_that_begins_with_a_fragment_is_a_violation(
         ("attribute", "Names of the vehicles."),
         ("attribute", ":math:`x` in metres."),
         ("attribute", "One name for each camera."),
+        ("property", "True if the pose is constant."),
     ],
 )
 def test_a_docstring_that_begins_with_a_verb_or_noun_phrase_is_accepted(

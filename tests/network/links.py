@@ -9,7 +9,7 @@ import numpy as np
 
 from uwsim.base.rng import stream
 from uwsim.network import (
-    EVERYONE,
+    BROADCAST_ADDRESS,
     BitErrors,
     DelayChannel,
     Modem,
@@ -54,7 +54,7 @@ class Line:
     def _receive(self, name: str, packet: Packet, time: int) -> None:
         self.received.append((name, time / SECOND, packet.data))
 
-    def send(self, name: str, data: bytes, at: float = 0.0, to: int = EVERYONE) -> None:
+    def send(self, name: str, data: bytes, at: float = 0.0, to: int = BROADCAST_ADDRESS) -> None:
         self.network.advance(round(at * SECOND))
         self._send[name](data, to)
 

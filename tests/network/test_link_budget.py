@@ -6,7 +6,7 @@ import pytest
 
 from uwsim.acoustics import ambient_noise
 from uwsim.network import BitErrors, DelayChannel, LinkBudget, Path, WaterChannel, bpsk_error_rate
-from uwsim.network.packet_errors import of_any
+from uwsim.network.packet_errors import error_probability
 
 BUDGET = LinkBudget(
     source_level=175.0,
@@ -40,7 +40,7 @@ def test_bpsk_bit_errors_and_those_of_packets_of_256_bytes(
 ) -> None:
     rate = bpsk_error_rate(10.0 ** (db / 10.0))
     assert rate == pytest.approx(bit_errors, rel=5e-3)
-    assert of_any(rate, 2048) == pytest.approx(packet_errors, abs=2e-3)
+    assert error_probability(rate, 2048) == pytest.approx(packet_errors, abs=2e-3)
 
 
 def test_a_channel_of_0_667_ms_per_metre_takes_0_667_s_for_a_kilometre() -> None:

@@ -40,7 +40,7 @@ def test_packets_that_arrive_together_are_both_lost() -> None:
     line.send("a", b"one")
     line.send("b", b"two", at=0.01)
     assert [name for name, _, _ in line.run(3.0)] == ["b", "a"]
-    assert line.modems["c"].counts.collisions == 2
+    assert line.modems["c"].counts.n_collisions == 2
 
 
 def test_packets_that_arrive_one_after_the_other_are_both_received() -> None:
@@ -61,7 +61,7 @@ def test_who_sends_hears_nothing() -> None:
     line.send("b", BYTES_25, at=1.1)  # while a's packet arrives
     received = line.run(5.0)
     assert [name for name, _, _ in received] == ["a"]
-    assert line.modems["b"].counts.half_duplex == 1
+    assert line.modems["b"].counts.n_half_duplex == 1
 
 
 def test_who_sends_on_another_channel_than_it_listens_to_hears_while_it_sends() -> None:
@@ -93,7 +93,7 @@ def test_packets_that_follow_at_once_do_not_collide_at_a_receiver_that_comes_nea
     for step in range(2500):
         line.places["b"] = 1500.0 - 2.0 * 0.002 * step
         line.run(0.002 * step)
-    assert line.modems["b"].counts.received == 10
+    assert line.modems["b"].counts.n_received == 10
 
 
 def test_a_full_queue_takes_no_more() -> None:
@@ -101,10 +101,10 @@ def test_a_full_queue_takes_no_more() -> None:
     modem = line.add("a", 0.0, queue_size=50)
     for _ in range(3):
         line.send("a", BYTES_25)
-    assert (modem.counts.queued, modem.counts.queue_full) == (3, 1)
+    assert (modem.counts.n_queued, modem.counts.n_queue_full) == (3, 1)
     line.send("a", BYTES_25, at=0.21)  # the first is sent
     line.run(2.0)
-    assert (modem.counts.sent, modem.counts.queue_full) == (3, 1)
+    assert (modem.counts.n_sent, modem.counts.n_queue_full) == (3, 1)
 
 
 def test_only_devices_within_range_hear_it() -> None:
@@ -146,7 +146,7 @@ def test_of_many_packets_as_many_are_lost_as_the_model_says() -> None:
     line.run(2.0)
     expected = 1.0 - (1.0 - 1e-3) ** 512  # 0.401
     spread = 4.0 * (expected * (1.0 - expected) / 1000.0) ** 0.5  # 4 sigma: 1 in 16000
-    assert abs(line.modems["b"].counts.errors / 1000.0 - expected) < spread
+    assert abs(line.modems["b"].counts.n_errors / 1000.0 - expected) < spread
 
 
 def test_one_more_device_changes_no_other_devices_losses() -> None:
@@ -184,7 +184,7 @@ def test_slotted_aloha_begins_at_slots_and_avoids_the_collision_of_aloha() -> No
         line.send("b", BYTES_25, at=0.25)
         line.run(0.9)
         line.run(9.0)
-        return line.modems["c"].counts.received
+        return line.modems["c"].counts.n_received
 
     assert received(Mac(kind="aloha")) == 0
     slots = Mac(kind="slotted", slot=200_000_000)
@@ -209,7 +209,13 @@ def test_csma_waits_while_another_is_heard_and_aloha_does_not() -> None:
 
 def test_energy_is_used_by_sending_receiving_and_waiting_until_none_is_left() -> None:
     line = Line()
-    model = EnergyModel(level=10.0, turn_on=1.0, sending=5.0, receiving=2.0, idle=0.5)
+    model = EnergyModel(
+        initial_energy=10.0,
+        turn_on_energy=1.0,
+        sending_power=5.0,
+        receiving_power=2.0,
+        idle_power=0.5,
+    )
     a = line.add("a", 0.0, energy=model)
     b = line.add("b", 1500.0, energy=model)
     line.send("a", BYTES_25)
@@ -219,7 +225,7 @@ def test_energy_is_used_by_sending_receiving_and_waiting_until_none_is_left() ->
     line.send("a", BYTES_25, at=30.0)
     line.run(40.0)
     assert a.energy(40_000_000_000) == 0.0
-    assert (a.counts.sent, a.counts.no_energy) == (1, 1)
+    assert (a.counts.n_sent, a.counts.n_no_energy) == (1, 1)
 
 
 def test_a_restored_network_goes_on_to_the_same_bits() -> None:
@@ -270,7 +276,7 @@ def test_empty_packets_fill_a_queue_too() -> None:
     modem = line.add("a", 0.0, queue_size=10, preamble=1.0)
     for _ in range(100):
         line.send("a", b"")
-    assert modem.counts.queue_full == 90
+    assert modem.counts.n_queue_full == 90
 
 
 def test_depths_beyond_all_seas_do_not_turn_time_back() -> None:

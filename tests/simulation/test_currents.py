@@ -50,7 +50,7 @@ def test_a_vehicle_is_put_back_where_its_file_has_it(simulation: Simulation) -> 
 
 def test_a_timer_is_called_at_its_rate_until_it_is_stopped(simulation: Simulation) -> None:
     steps: list[int] = []
-    stop = simulation.world.schedule.every(100.0, lambda: steps.append(simulation.step))
+    stop = simulation.world.schedule.create_timer(100.0, lambda: steps.append(simulation.step))
     for _ in range(12):
         simulation.advance()
     stop()

@@ -31,7 +31,7 @@ def rolls(kp: float, seconds: float) -> np.ndarray:
         )
         found.append(np.degrees(np.arctan2(base.rotation[2, 1], base.rotation[2, 2])))
 
-    simulation.world.schedule.every(10.0, steer)
+    simulation.world.schedule.create_timer(10.0, steer)
     simulation.advance(0.0)
     for _ in range(round(seconds / simulation.timestep)):
         simulation.advance()

@@ -28,9 +28,9 @@ def test_a_sample_that_is_not_needed_is_neither_taken_nor_published() -> None:
     prepare, is_alone = (lambda _: None), (lambda _: True)
     sampler = gather_sampler(number_addresses(values), prepare=prepare, is_alone=is_alone)
     sample, schedule = Sample.create(sampler), Schedule(Bus(), 0.002)
-    schedule.every(100.0, lambda: is_read.__setitem__(0, True))
+    schedule.create_timer(100.0, lambda: is_read.__setitem__(0, True))
     sampling = Sampling(sampler, sample, lambda: is_read[0])
-    schedule.every(100.0, lambda: calls.append(sample.numbers.tolist()), sampling=sampling)
+    schedule.create_timer(100.0, lambda: calls.append(sample.numbers.tolist()), sampling=sampling)
     schedule.tick(0)
     assert np.isnan(sample.numbers).all()
     assert not calls

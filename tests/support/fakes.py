@@ -236,7 +236,7 @@ class FakeWorld:
             raise UnknownName("vehicle", vehicle, self.vehicles)
         self.put_backs.append((vehicle, self.time))
 
-    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+    def create_timer(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
         timer = (rate, call)
         self._timers.append(timer)
         return lambda: self._timers.remove(timer)

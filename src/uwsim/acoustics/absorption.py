@@ -17,8 +17,8 @@ from __future__ import annotations
 
 import math
 
-WARM = 20.0
-"""Above it the absorption of pure water has other coefficients [degrees Celsius]."""
+MAX_COLD_TEMPERATURE = 20.0
+"""The temperature above which pure water has other coefficients [degrees Celsius]."""
 
 
 def absorption(
@@ -49,8 +49,8 @@ def absorption(
 
 
 def _pure_water(temperature: float) -> float:
-    """The coefficient A3 [dB/km/kHz2]."""
+    """Return the coefficient A3 [dB/km/kHz2]."""
     t = temperature
-    if t <= WARM:
+    if t <= MAX_COLD_TEMPERATURE:
         return 4.937e-4 - 2.59e-5 * t + 9.11e-7 * t**2 - 1.50e-8 * t**3
     return 3.964e-4 - 1.146e-5 * t + 1.45e-7 * t**2 - 6.5e-10 * t**3

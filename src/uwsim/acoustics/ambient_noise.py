@@ -36,5 +36,5 @@ def ambient_noise(frequency: float, *, shipping: float, wind_speed: float) -> fl
 
 
 def power_sum(levels: Iterable[float]) -> float:
-    """Return the level of several sources together [dB]."""
+    """Return the level of the sum of several sources [dB]."""
     return 10.0 * math.log10(math.fsum(10.0 ** (level / 10.0) for level in levels))

@@ -17,8 +17,8 @@ mirror image at 2 h does (whatever :math:`s` is).
 
 Reflection coefficients of bottoms are those of the densities and speeds of sound of APL-UW (*High-
 frequency ocean environmental acoustic models handbook*, TR 9407, 1994, table 2); strengths and
-slopes are typical values. Not modelled: that they change with frequency, sound that enters the
-bottom, thin walls that ring.
+slopes are typical values. Not modelled: dependence on frequency, sound that enters the
+bottom, resonance of thin walls.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ class Material:
     """The acoustic properties of a surface."""
 
     reflection: float
-    """Of the amplitude of sound that meets it head on, R [1]."""
+    """The amplitude reflection coefficient at normal incidence, R [1]."""
     slope: float
-    """Root mean square of the slopes of its facets, s [1]."""
+    """The root mean square slope of its facets, s [1]."""
     strength: float
     """Lambert's backscattering strength of a square metre, mu [dB]."""
 
@@ -59,6 +59,6 @@ MATERIALS: dict[MaterialName, Material] = {
     "smoothSteel": Material(0.94, 0.06, -35.0),
     "waterSurface": Material(1.00, 0.20, -25.0),
 }
-"""Of a medium roughness, in the order of `MaterialName`."""
+"""The materials, of medium roughness, in the order of `MaterialName`."""
 
 assert tuple(MATERIALS) == get_args(MaterialName)

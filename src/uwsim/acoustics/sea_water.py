@@ -10,12 +10,12 @@ from .sound_speed import sound_speed
 
 @dataclass(frozen=True)
 class SeaWater:
-    """Water of one temperature and salinity everywhere."""
+    """The properties of sea water of uniform temperature and salinity."""
 
     temperature: float = 15.0
-    """[degrees Celsius]."""
+    """The temperature [degrees Celsius]."""
     salinity: float = 35.0
-    """On the practical scale [g/kg]."""
+    """The salinity on the practical scale [g/kg]."""
 
     def sound_speed(self, depth: float) -> float:
         """Return the speed of sound at a depth [m], [m/s]."""

@@ -89,7 +89,7 @@ class BatterySpec(DeviceSpec):
         set_losses = tuple(vehicle.loss_setter(name) for name in limited_thrusters)
         battery = Battery(self, world, actuators, set_losses)
         sampling = Sampling(battery.sampler, battery.state.sample)
-        world.every(
+        world.create_timer(
             RATE, battery.stop_thrusters, is_needed=battery.must_stop_thrusters, sampling=sampling
         )
         return battery

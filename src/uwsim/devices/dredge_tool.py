@@ -41,7 +41,7 @@ class DredgeToolSpec(DeviceSpec):
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> DredgeTool:
         """Mount the tool on its link; raises UnknownName if the vehicle has no such link."""
         tool = DredgeTool(world, vehicle.mount(_LinkOrigin(relative_to=self.target), visual=True))
-        world.every(RATE, tool.remove_sand)
+        world.create_timer(RATE, tool.remove_sand)
         return tool
 
 

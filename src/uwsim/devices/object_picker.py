@@ -70,7 +70,7 @@ class ObjectPickerSpec(DeviceSpec):
         mount = vehicle.mount(self, visual=True)
         picker = ObjectPicker(self, mount, world, vehicle)
         world.bus.subscribe(self.release_topic, Bool, picker.command)
-        world.every(RATE, picker.pick_up)
+        world.create_timer(RATE, picker.pick_up)
         return picker
 
 
@@ -110,7 +110,7 @@ class ObjectPicker(Device):
         if self.state.held_object is not None or self.state.is_released:
             return
         distance, surface = self._cast()
-        object_index = self._world.catchable(surface)
+        object_index = self._world.pickable_object(surface)
         if object_index is not None and distance <= self._spec.range:
             self._vehicle.hold(object_index, self._spec.relative_to)
             self.state.held_object, self.state.distance = object_index, distance

@@ -7,11 +7,11 @@ from .link_budget import LinkBudget, bpsk_error_rate
 from .mac import Mac, mac_kind
 from .modem import Modem, ModemSettings
 from .network import Network
-from .packet import EVERYONE, Counts, Packet
+from .packet import BROADCAST_ADDRESS, Counts, Packet
 from .packet_errors import BitErrors, ErrorModel, RateErrors, Unit
 
 __all__ = [
-    "EVERYONE",
+    "BROADCAST_ADDRESS",
     "NANOSECONDS",
     "AbsorptionModel",
     "BitErrors",

@@ -15,16 +15,16 @@ class Path:
     """The straight line between two devices."""
 
     distance: float
-    """Its length [m]."""
+    """The length of the line [m]."""
     depth: float
-    """Of its middle below the surface, 0 above it [m]."""
+    """The depth of its midpoint below the surface, 0 above it [m]."""
 
 
 class Channel(Protocol):
-    """What carries packets."""
+    """The medium of packets."""
 
     def delay(self, path: Path) -> float:
-        """Return how long a packet travels [s]."""
+        """Return the propagation delay of a packet [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,50 +32,50 @@ class DelayChannel:
     """A channel described by two numbers: ``minimum + per_metre * distance``."""
 
     minimum: float = 0.0
-    """Delay at distance zero [s]."""
+    """The delay at distance zero [s]."""
     per_metre: float = 0.66667e-3
-    """Delay per distance [s/m]."""
+    """The delay per distance [s/m]."""
 
     def delay(self, path: Path) -> float:
-        """Return how long a packet travels [s]."""
+        """Return the propagation delay of a packet [s]."""
         return self.minimum + self.per_metre * path.distance
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sea:
-    """Conditions of the ambient noise of the sea."""
+    """The conditions that determine the ambient noise of the sea."""
 
     shipping: float
-    """From 0, few ships, to 1 [1]."""
+    """The shipping activity from 0 (low) to 1 (high) [1]."""
     wind_speed: float
-    """At the surface [m/s]."""
+    """The wind speed at the surface [m/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class WaterChannel:
-    """Sound in water of one temperature and salinity, along straight lines."""
+    """An acoustic channel in water of uniform temperature and salinity, with straight paths."""
 
     temperature: float = 25.0
-    """[degrees Celsius]."""
+    """The temperature of the water [degrees Celsius]."""
     salinity: float = 35.0
-    """[g/kg]."""
+    """The salinity of the water [g/kg]."""
     bandwidth: float = 4096.0
-    """In which receivers hear noise [Hz]."""
+    """The noise bandwidth of receivers [Hz]."""
     noise_level: float = 0.0
-    """Of the noise in 1 Hz besides that of the sea, in dB re 1 uPa^2/Hz."""
+    """The spectral level of noise besides that of the sea, in dB re 1 uPa^2/Hz."""
     sea: Sea | None = None
-    """What makes the noise of the sea; None: it makes none."""
+    """The conditions of the sea; None: it causes no noise."""
     absorption: AbsorptionModel = "francoisGarrison"
-    """Whose formula."""
+    """The absorption model."""
 
     def noise_at(self, frequency: float) -> float:
-        """Return the level of all noise in 1 Hz at a ``frequency`` [Hz], in dB re 1 uPa^2/Hz."""
+        """Return the spectral level of all noise at a ``frequency`` [Hz], in dB re 1 uPa^2/Hz."""
         if self.sea is None:
             return self.noise_level
         sea = ambient_noise(frequency, shipping=self.sea.shipping, wind_speed=self.sea.wind_speed)
         return power_sum((self.noise_level, sea))
 
     def delay(self, path: Path) -> float:
-        """Return how long sound travels, at the speed in the middle of its path [s]."""
+        """Return the travel time of sound, at the sound speed of the path's midpoint [s]."""
         speed = sound_speed(temperature=self.temperature, salinity=self.salinity, depth=path.depth)
         return path.distance / speed

@@ -1,4 +1,4 @@
-"""Energy use of a device."""
+"""The energy use of a device."""
 
 from __future__ import annotations
 
@@ -9,27 +9,31 @@ from .events import NANOSECONDS
 
 @dataclass(frozen=True, kw_only=True)
 class EnergyModel:
-    """Energy at the start and powers of a device."""
+    """The initial energy and the powers of a device."""
 
-    level: float
-    """Energy at the start [J]."""
-    turn_on: float = 0.0
-    """To switch on, once [J]."""
-    sending: float = 0.0
-    """Power while sending [W]."""
-    receiving: float = 0.0
-    """Power while receiving [W]."""
-    idle: float = 0.0
-    """Power the rest of the time [W]."""
+    initial_energy: float
+    """The energy at the start [J]."""
+    turn_on_energy: float = 0.0
+    """The energy to switch it on, once [J]."""
+    sending_power: float = 0.0
+    """The power while it sends [W]."""
+    receiving_power: float = 0.0
+    """The power while it receives [W]."""
+    idle_power: float = 0.0
+    """The power during the rest of the time [W]."""
 
-    def left(self, now: int, *, sent: int, received: int) -> float:
-        """Return what is left [J], at least 0.
+    def remaining_energy(self, now: int, *, time_sending: int, time_receiving: int) -> float:
+        """Return the remaining energy [J], at least 0.
 
         Args:
             now: time since the start [ns].
-            sent: time spent sending [ns].
-            received: time spent receiving [ns].
+            time_sending: time spent sending [ns].
+            time_receiving: time spent receiving [ns].
         """
-        rest = max(now - sent - received, 0)
-        used = (self.sending * sent + self.receiving * received + self.idle * rest) / NANOSECONDS
-        return max(self.level - self.turn_on - used, 0.0)
+        time_idle = max(now - time_sending - time_receiving, 0)
+        used_energy = (
+            self.sending_power * time_sending
+            + self.receiving_power * time_receiving
+            + self.idle_power * time_idle
+        ) / NANOSECONDS
+        return max(self.initial_energy - self.turn_on_energy - used_energy, 0.0)

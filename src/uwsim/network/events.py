@@ -33,7 +33,7 @@ class EventsState(Record, Generic[T]):
     heap: list[_Entry[T]] = field(default_factory=list)
     """The events, as a heap."""
     n_added: int = 0
-    """The events added so far."""
+    """The number of events added so far."""
 
 
 class EventQueue(Generic[T]):
@@ -51,9 +51,9 @@ class EventQueue(Generic[T]):
     def __len__(self) -> int:
         return len(self.state.heap)
 
-    def take(self, until: int) -> tuple[int, T] | None:
-        """Take out the next event and its time, if that is not after ``until`` [ns]."""
-        if not self.state.heap or self.state.heap[0].time > until:
+    def take(self, latest_time: int) -> tuple[int, T] | None:
+        """Take out the next event and its time, if that is not after ``latest_time`` [ns]."""
+        if not self.state.heap or self.state.heap[0].time > latest_time:
             return None
         entry = heapq.heappop(self.state.heap)
         return entry.time, entry.event

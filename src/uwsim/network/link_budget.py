@@ -24,29 +24,29 @@ from .channel import AbsorptionModel, Path, WaterChannel
 
 @dataclass(frozen=True, kw_only=True)
 class LinkBudget:
-    """Levels of a link."""
+    """The sound levels of a link."""
 
     source_level: float
-    """Source level of the sender [dB re 1 uPa at 1 m]."""
+    """The source level of the sender [dB re 1 uPa at 1 m]."""
     frequency: float
-    """Carrier [Hz]."""
+    """The carrier frequency [Hz]."""
     bandwidth: float
-    """In which the receiver hears noise [Hz]."""
+    """The noise bandwidth of the receiver [Hz]."""
     noise_level: float
-    """Of the noise in 1 Hz, in dB re 1 uPa^2/Hz."""
+    """The spectral level of the noise, in dB re 1 uPa^2/Hz."""
     spreading: float = 2.0
-    """1 cylindrical to 2 spherical [1]."""
+    """The spreading, from 1 (cylindrical) to 2 (spherical) [1]."""
     constant_loss: float = 0.0
-    """On every path [dB]."""
+    """The loss on every path, at any distance [dB]."""
     absorption: AbsorptionModel = "francoisGarrison"
-    """Whose formula."""
+    """The absorption model."""
     temperature: float = 10.0
-    """Temperature of the water, for Francois and Garrison [degrees Celsius]."""
+    """The temperature of the water, for Francois and Garrison [degrees Celsius]."""
     salinity: float = 35.0
-    """Salinity of the water, for Francois and Garrison [g/kg]."""
+    """The salinity of the water, for Francois and Garrison [g/kg]."""
 
     @staticmethod
-    def in_water(
+    def from_water(
         water: WaterChannel,
         *,
         source_level: float,
@@ -54,7 +54,7 @@ class LinkBudget:
         spreading: float,
         constant_loss: float,
     ) -> LinkBudget:
-        """Return that of a sender in a channel; units are those of the fields."""
+        """Return the link budget of a sender in a channel; units are those of the fields."""
         return LinkBudget(
             source_level=source_level,
             frequency=frequency,
@@ -68,7 +68,7 @@ class LinkBudget:
         )
 
     def transmission_loss(self, path: Path) -> float:
-        """Return what the signal loses on its way [dB]."""
+        """Return the transmission loss of the signal [dB]."""
         distance = max(path.distance, 1.0)
         spread = 10.0 * self.spreading * math.log10(distance)
         return self.constant_loss + spread + self._absorption(path.depth) * distance
@@ -79,7 +79,7 @@ class LinkBudget:
         return self.source_level - self.transmission_loss(path) - noise
 
     def bit_error_rate(self, path: Path, bit_rate: float) -> float:
-        """Return how likely a bit is wrong at ``bit_rate`` [bit/s]."""
+        """Return the bit error rate at ``bit_rate`` [bit/s], a probability."""
         ratio = 10.0 ** (self.snr(path) / 10.0) * self.bandwidth / bit_rate
         return bpsk_error_rate(ratio)
 
@@ -92,5 +92,5 @@ class LinkBudget:
 
 
 def bpsk_error_rate(ratio: float) -> float:
-    """Return how likely a bit of BPSK is wrong at an energy ``ratio`` Eb/N0 [1]."""
+    """Return the bit error rate of BPSK at an energy ``ratio`` Eb/N0 [1], a probability."""
     return 0.5 * math.erfc(math.sqrt(ratio))

@@ -1,9 +1,9 @@
 """Medium access control.
 
 ==============  ==================================================================================
-ALOHA           at once, whatever is heard
+ALOHA           immediately, even if another packet arrives
 slotted ALOHA   at the beginning of the next slot; all clocks agree
-CSMA            when nothing is heard; else after 1 to ``max_backoff`` slots, drawn anew each time
+CSMA            when no packet arrives; else after 1 to ``max_backoff`` slots, redrawn each time
 ==============  ==================================================================================
 
 Not modelled: acknowledgements, and so retransmissions; handshakes (MACA, FAMA).
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 MacKind = Literal["aloha", "slotted", "csma"]
-NAMES: dict[str, MacKind] = {
+MAC_KINDS: dict[str, MacKind] = {
     "": "aloha",
     "none": "aloha",
     "broadcast": "aloha",
@@ -26,36 +26,36 @@ NAMES: dict[str, MacKind] = {
     "slotted": "slotted",
     "csma": "csma",
 }
-"""Name in a file, without case, ``ns3::``, ``AquaSim`` and ``Mac`` -> what it does."""
+"""The protocol of each name in a file, without case, ``ns3::``, ``AquaSim`` and ``Mac``."""
 
 
 def mac_kind(name: str) -> MacKind | None:
-    """Return the protocol that a file names; None where it is none of `NAMES`."""
-    plain = "".join(letter for letter in name.lower().removeprefix("ns3::") if letter.isalnum())
-    return NAMES.get(plain.removeprefix("aquasim").removesuffix("mac"))
+    """Return the protocol that a file names; None where it is none of `MAC_KINDS`."""
+    letters = "".join(letter for letter in name.lower().removeprefix("ns3::") if letter.isalnum())
+    return MAC_KINDS.get(letters.removeprefix("aquasim").removesuffix("mac"))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Mac:
-    """A protocol with its slots."""
+    """A medium access protocol with its slots."""
 
     kind: MacKind = "aloha"
-    """Which."""
+    """The kind of the protocol."""
     slot: int = 1_000_000_000
-    """Length of a slot [ns]."""
+    """The length of a slot [ns]."""
     max_backoff: int = 4
-    """Longest wait when another is heard [slots]."""
+    """The longest wait while another packet arrives [slots]."""
 
-    def send_time(self, now: int, *, hears: bool, draw: Callable[[int], int]) -> int:
-        """Return when to try again [ns]; ``now``: the packet may be sent.
+    def send_time(self, now: int, *, is_receiving: bool, draw: Callable[[int], int]) -> int:
+        """Return the time of the next try [ns]; if it is ``now``, the packet may be sent.
 
         Args:
-            now: [ns].
-            hears: whether another's packet arrives.
-            draw: returns a whole number from 0 to below its argument.
+            now: the present time [ns].
+            is_receiving: whether a packet of another device arrives.
+            draw: returns a random integer from 0 to below its argument.
         """
         if self.kind == "slotted":
             return -(-now // self.slot) * self.slot
-        if self.kind == "csma" and hears:
+        if self.kind == "csma" and is_receiving:
             return now + (1 + draw(max(self.max_backoff, 1))) * self.slot
         return now

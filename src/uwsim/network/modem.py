@@ -21,94 +21,94 @@ class ModemSettings:
     """The settings of a device."""
 
     name: str
-    """Its name, which begins the names of its random streams."""
+    """The name of the device, which begins the names of its random streams."""
     address: int
-    """Its address."""
+    """The address of the device."""
     sends_on: str
-    """Name of the channel it sends on."""
+    """The name of the channel that it sends on."""
     listens_to: str
-    """Name of the channel it listens to; the same one: it is half duplex."""
+    """The name of the channel that it listens to; if it is the same, it is half duplex."""
     channel: Channel
-    """How long its packets travel."""
+    """The propagation delay of its packets."""
     errors: ErrorModel
-    """How likely they are damaged."""
+    """The error model of its packets."""
     bit_rate: float
-    """How fast it sends [bit/s]."""
+    """The bit rate of sending [bit/s]."""
     preamble: float = 0.0
-    """What it sends before each packet [s]."""
+    """The length of the preamble before each packet [s]."""
     min_range: float = 0.0
-    """Nearer devices do not hear it [m]."""
+    """The distance below which devices do not receive its packets [m]."""
     max_range: float = float("inf")
-    """Farther devices do not hear it [m]."""
+    """The distance above which devices do not receive its packets [m]."""
     queue_size: int = 500_000
-    """Size of the transmission queue [byte]."""
+    """The size of the transmission queue [byte]."""
     send_delay: float = 0.0
-    """Between the order to send a packet and its sending [s]."""
+    """The delay between the order to send a packet and its sending [s]."""
     send_jitter: float = 0.0
-    """Largest addition to that, uniformly distributed from 0 [s]."""
+    """The largest addition to that delay, uniformly distributed from 0 [s]."""
     receive_jitter: float = 0.0
-    """Largest delay of a packet received, uniformly distributed from 0 [s]."""
+    """The largest delay of a received packet, uniformly distributed from 0 [s]."""
     mac: Mac = field(default_factory=Mac)
-    """Medium access protocol."""
+    """The medium access protocol."""
     energy: EnergyModel | None = None
-    """What it uses; None: it never runs out."""
+    """The energy use; None: its energy is unlimited."""
 
     def airtime(self, n_bytes: int) -> int:
-        """Return how long a packet takes to send [ns]."""
+        """Return the time to send a packet [ns]."""
         return nanoseconds(self.preamble + 8 * n_bytes / self.bit_rate)
 
     @property
     def is_half_duplex(self) -> bool:
-        """Whether it hears nothing while it sends."""
+        """True if it receives nothing while it sends."""
         return self.sends_on == self.listens_to
 
 
 @dataclass(slots=True)
-class Waiting(Item):
-    """A packet that waits to be sent."""
+class QueuedPacket(Item):
+    """A packet in the transmission queue."""
 
     packet: Packet
     """The packet."""
-    ready: int
-    """From when on it may be sent [ns]."""
+    ready_time: int
+    """The earliest time of sending [ns]."""
     n_tries: int = 0
-    """How often the protocol has been asked whether it may be sent."""
+    """The number of tries to send it."""
 
 
 @dataclass(slots=True)
 class ModemState(Record):
-    """What changes of a device."""
+    """The state of a device."""
 
-    queue: deque[Waiting] = field(default_factory=deque)
-    """What waits to be sent; the first of them may be on its way."""
+    queue: deque[QueuedPacket] = field(default_factory=deque)
+    """The transmission queue; its first packet may be in transit."""
     n_queued_bytes: int = 0
-    """Their size."""
+    """The size of the queued packets [byte]."""
     n_packets: int = 0
-    """The packets that were handed over."""
+    """The number of packets to send so far."""
     is_busy: bool = False
-    """Whether the first of the queue is about to be sent, or being sent."""
-    sends_until: int = 0
-    """When the packet that is being sent ends [ns]."""
-    outgoing: list[int] = field(default_factory=list)
-    """The receptions of the packet that is being sent, at each device that hears it."""
-    arriving: list[int] = field(default_factory=list)
-    """The receptions of what arrives."""
+    """True if the first packet of the queue is scheduled or being sent."""
+    sending_end: int = 0
+    """The time at which the present sending ends [ns]."""
+    outgoing_receptions: list[int] = field(default_factory=list)
+    """The numbers of the receptions of the packet that it sends."""
+    incoming_receptions: list[int] = field(default_factory=list)
+    """The numbers of its present receptions."""
     time_sending: int = 0
     """The time spent sending [ns]."""
     time_receiving: int = 0
     """The time spent receiving [ns]."""
     last_delivery: int = 0
-    """When the last packet was handed on [ns]."""
+    """The time of the last delivery [ns]."""
     counts: Counts = field(default_factory=Counts)
-    """What became of its packets."""
+    """The number of its packets by outcome."""
 
 
 class Modem:
     """A device in a network, driven by the network.
 
     Args:
-        settings: what it is.
-        position: returns where it is, in W, (3,) [m].
+        settings: the settings of the device.
+        position: returns its position in W, (3,) [m].
         deliver: called with each packet received and its time [ns].
     """
 
@@ -120,24 +120,26 @@ class Modem:
     ) -> None:
         self.settings, self.position, self.deliver = settings, position, deliver
         self.state = ModemState()
-        """What changes of it."""
+        """The state of the device."""
 
     @property
     def counts(self) -> Counts:
-        """What became of its packets."""
+        """The number of its packets by outcome."""
         return self.state.counts
 
     def energy(self, now: int) -> float | None:
-        """Return what is left of its energy [J]; None if it has no limit."""
+        """Return its remaining energy [J]; None if it is unlimited."""
         model = self.settings.energy
         if model is None:
             return None
-        return model.left(now, sent=self.state.time_sending, received=self.state.time_receiving)
+        return model.remaining_energy(
+            now, time_sending=self.state.time_sending, time_receiving=self.state.time_receiving
+        )
 
     def is_dead(self, now: int) -> bool:
-        """Whether its energy is used up."""
+        """Return whether its energy is used up."""
         return self.energy(now) == 0.0
 
     def reaches(self, path: Path) -> bool:
-        """Whether a device at the end of a path hears it."""
+        """Return whether a device at the end of a path receives its packets."""
         return self.settings.min_range <= path.distance <= self.settings.max_range

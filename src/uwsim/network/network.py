@@ -1,15 +1,15 @@
-"""Packets between devices: queued, sent, on their way, received or lost.
+"""The network of devices: packets are queued, sent, in transit, received or lost.
 
 A packet occupies its channel at a receiver from the arrival of its first bit to that of its last,
-each over the distance at the moment when that bit is sent: on its way nothing moves. Times are
-whole nanoseconds. A packet is lost at a receiver
+each over the distance at the moment when that bit is sent. Devices do not move in between. Times
+are whole nanoseconds. A packet is lost at a receiver
 
 - if another one arrives at any moment of its arrival (a collision, both are lost),
 - if the receiver sends at any moment of its arrival on the channel it listens to (half duplex),
 - at random, with the probability of the sender's error model.
 
 Every random number is the first of a stream of its own, named after the devices and the number of
-the packet: one device more changes nothing of what the others draw.
+the packet. Another device therefore does not change the numbers of the others.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from ..base.record import Record
 from ..errors import UnknownName
 from .channel import Channel, Path
 from .events import NANOSECONDS, EventQueue, EventsState, nanoseconds
-from .modem import Modem, ModemState, Waiting
-from .packet import EVERYONE, Outcome, Packet, Reception
+from .modem import Modem, ModemState, QueuedPacket
+from .packet import BROADCAST_ADDRESS, Outcome, Packet, Reception
 
 MAX_DEPTH = 12_000.0
-"""The formulas of sound hold for no greater depth [m]."""
+"""The greatest depth at which the formulas of sound speed are valid [m]."""
 
 
 @dataclass(frozen=True)
@@ -47,18 +47,18 @@ class _Arrival:
 
 @dataclass(slots=True)
 class NetworkState(Record):
-    """What is on its way."""
+    """The state of all devices and of the packets in transit."""
 
     modems: list[ModemState]
-    """What changes of each device."""
+    """The state of each device."""
     events: EventsState[_Event | _Arrival]
-    """What happens next."""
+    """The future events."""
     receptions: dict[int, Reception] = field(default_factory=dict)
-    """What becomes of each packet that is on its way, at each device that hears it."""
+    """The receptions of packets in transit, by number; one for each receiving device."""
     n_receptions: int = 0
-    """The receptions so far."""
+    """The number of receptions so far."""
     now: int = 0
-    """The time up to which everything has happened [ns]."""
+    """The time up to which events are processed [ns]."""
 
 
 class Network:
@@ -67,7 +67,7 @@ class Network:
     Args:
         stream: the random generator of a name.
         surface: height of the water surface in W [m].
-        channels: what devices send on, by name.
+        channels: the channels that devices send on, by name.
     """
 
     def __init__(
@@ -78,23 +78,23 @@ class Network:
         channels: Mapping[str, Channel] = MappingProxyType({}),
     ) -> None:
         self.channels = channels
-        """What devices send on, by name."""
+        """The channels that devices send on, by name."""
         self.trace: Callable[[str], None] | None = None
-        """Called with a line for everything that becomes of a packet."""
+        """The function that receives a line of text for each outcome of a packet."""
         self._stream, self._surface = stream, surface
         self._modems: list[Modem] = []
         self._events: EventQueue[_Event | _Arrival] = EventQueue()
         self.state = NetworkState([], self._events.state)
-        """What is on its way."""
+        """The state of all devices and of the packets in transit."""
 
     @property
     def now(self) -> int:
-        """Time up to which everything has happened [ns]."""
+        """The time up to which events are processed [ns]."""
         return self.state.now
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing is on its way or waits to be sent."""
+        """True if no packet is in transit or queued."""
         return not self._events
 
     def join(self, modem: Modem) -> Callable[[bytes, int], None]:
@@ -105,11 +105,11 @@ class Network:
         return lambda data, destination: self._queue(number, data, destination)
 
     def modem(self, name: str) -> Modem:
-        """Find a device by its name; UnknownName if there is none."""
+        """Return a device by its name; raise UnknownName if there is none."""
         for modem in self._modems:
             if modem.settings.name == name:
                 return modem
-        raise UnknownName("modem", name, [each.settings.name for each in self._modems])
+        raise UnknownName("modem", name, [other.settings.name for other in self._modems])
 
     def advance(self, now: int) -> None:
         """Process all events up to ``now`` [ns]."""
@@ -117,16 +117,16 @@ class Network:
             return
         while (due := self._events.take(now)) is not None:
             self.state.now, event = due
-            self._happen(event)
+            self._process_event(event)
         self.state.now = max(self.now, now)
 
-    def _happen(self, event: _Event | _Arrival) -> None:
+    def _process_event(self, event: _Event | _Arrival) -> None:
         if isinstance(event, _Event):
-            (self._try if event.kind == "try" else self._sent)(event.modem)
+            (self._try_to_send if event.kind == "try" else self._finish_sending)(event.modem)
         elif event.kind == "begin":
-            self._begin(event.reception)
+            self._begin_reception(event.reception)
         elif event.kind == "end":
-            self._end(event.reception)
+            self._end_reception(event.reception)
         else:
             reception = self.state.receptions.pop(event.reception)
             modem = self._modems[reception.receiver]
@@ -134,7 +134,7 @@ class Network:
             modem.deliver(reception.packet, self.now)
 
     def _queue(self, number: int, data: bytes, destination: int) -> None:
-        """Put a packet into the queue of a device, if there is room."""
+        """Append a packet to the queue of a device, if the queue has space."""
         modem = self._modems[number]
         settings, state, index = modem.settings, modem.state, modem.state.n_packets
         state.n_packets += 1
@@ -143,70 +143,70 @@ class Network:
         if modem.is_dead(self.now):
             self._count(modem, "no_energy", number, packet)
             return
-        if state.n_queued_bytes + packet.room > settings.queue_size:
+        if state.n_queued_bytes + packet.queue_size > settings.queue_size:
             self._count(modem, "queue_full", number, packet)
             return
         delay = settings.send_delay
         if settings.send_jitter > 0.0:
             delay += settings.send_jitter * self._draw(f"{settings.name}/{index}/send").random()
-        state.queue.append(Waiting(packet=packet, ready=self.now + nanoseconds(delay)))
-        state.n_queued_bytes += packet.room
+        state.queue.append(QueuedPacket(packet=packet, ready_time=self.now + nanoseconds(delay)))
+        state.n_queued_bytes += packet.queue_size
         if not state.is_busy:
             self._plan_next(number)
 
     def _plan_next(self, number: int) -> None:
-        """Try to send the first packet of a device's queue as soon as it may be."""
+        """Schedule the first packet of a device's queue for its earliest time."""
         state = self._modems[number].state
         state.is_busy = bool(state.queue)
         if state.queue:
-            self._events.add(max(state.queue[0].ready, self.now), _Event("try", number))
+            self._events.add(max(state.queue[0].ready_time, self.now), _Event("try", number))
 
-    def _try(self, number: int) -> None:
-        """Send the first packet of the queue, or try again when the protocol says."""
+    def _try_to_send(self, number: int) -> None:
+        """Send the first packet of the queue, or schedule another try by the protocol."""
         modem = self._modems[number]
-        waiting, settings = modem.state.queue[0], modem.settings
+        queued_packet, settings = modem.state.queue[0], modem.settings
         if modem.is_dead(self.now):
-            self._count(modem, "no_energy", number, waiting.packet)
+            self._count(modem, "no_energy", number, queued_packet.packet)
             self._drop_first(modem)
             self._plan_next(number)
             return
-        name = f"{settings.name}/{waiting.packet.number}/backoff/{waiting.n_tries}"
-        waiting.n_tries += 1
+        name = f"{settings.name}/{queued_packet.packet.number}/backoff/{queued_packet.n_tries}"
+        queued_packet.n_tries += 1
         time = settings.mac.send_time(
             self.now,
-            hears=bool(modem.state.arriving),
-            draw=lambda below: int(self._draw(name).integers(below)),
+            is_receiving=bool(modem.state.incoming_receptions),
+            draw=lambda upper_bound: int(self._draw(name).integers(upper_bound)),
         )
         if time > self.now:
             self._events.add(time, _Event("try", number))
         else:
-            self._send(number, waiting.packet)
+            self._send(number, queued_packet.packet)
 
     def _send(self, number: int, packet: Packet) -> None:
-        """Send a packet to all that hear the device."""
+        """Send a packet to all devices within range."""
         sender = self._modems[number]
         settings, state = sender.settings, sender.state
         duration = settings.airtime(len(packet.data))
-        state.sends_until = self.now + duration
+        state.sending_end = self.now + duration
         state.time_sending += duration
         self._count(sender, "sent", number, packet)
         if settings.is_half_duplex:
-            for arriving in state.arriving:
-                self._lose(arriving, "half_duplex")
-        self._events.add(state.sends_until, _Event("sent", number))
-        state.outgoing = [
+            for reception_number in state.incoming_receptions:
+                self._mark_lost(reception_number, "half_duplex")
+        self._events.add(state.sending_end, _Event("sent", number))
+        state.outgoing_receptions = [
             self._add_reception(number, other, packet)
             for other, receiver in enumerate(self._modems)
             if other != number and receiver.settings.listens_to == settings.sends_on
             if sender.reaches(self._path(sender, receiver))
         ]
-        for outgoing in state.outgoing:
-            arrival = self.state.receptions[outgoing].arrival
-            self._events.add(arrival, _Arrival("begin", outgoing), rank=1)
+        for outgoing_number in state.outgoing_receptions:
+            arrival = self.state.receptions[outgoing_number].arrival
+            self._events.add(arrival, _Arrival("begin", outgoing_number), rank=1)
 
-    def _lose(self, number: int, why: Outcome) -> None:
+    def _mark_lost(self, number: int, outcome: Outcome) -> None:
         reception = self.state.receptions[number]
-        reception.lost = reception.lost or why
+        reception.loss_reason = reception.loss_reason or outcome
 
     def _add_reception(self, sender: int, receiver: int, packet: Packet) -> int:
         settings = self._modems[sender].settings
@@ -221,48 +221,48 @@ class Network:
         )
         return self.state.n_receptions
 
-    def _sent(self, number: int) -> None:
-        """The last bit is sent: it arrives over the distance that there is now."""
+    def _finish_sending(self, number: int) -> None:
+        """End the sending of a packet; its last bit travels the present distance."""
         modem = self._modems[number]
-        for outgoing in modem.state.outgoing:
-            reception = self.state.receptions[outgoing]
+        for reception_number in modem.state.outgoing_receptions:
+            reception = self.state.receptions[reception_number]
             path = self._path(modem, self._modems[reception.receiver])
             end = self.now + nanoseconds(modem.settings.channel.delay(path))
-            self._events.add(max(end, reception.arrival + 1), _Arrival("end", outgoing))
-        modem.state.outgoing = []
+            self._events.add(max(end, reception.arrival + 1), _Arrival("end", reception_number))
+        modem.state.outgoing_receptions = []
         self._drop_first(modem)
         self._plan_next(number)
 
     def _drop_first(self, modem: Modem) -> None:
-        modem.state.n_queued_bytes -= modem.state.queue.popleft().packet.room
+        modem.state.n_queued_bytes -= modem.state.queue.popleft().packet.queue_size
 
-    def _begin(self, number: int) -> None:
-        """Begin to receive a packet; what arrives already is lost with it."""
+    def _begin_reception(self, number: int) -> None:
+        """Begin to receive a packet; it is lost with all packets that overlap it."""
         reception = self.state.receptions[number]
         modem = self._modems[reception.receiver]
         if modem.is_dead(self.now):
-            reception.lost = "no_energy"
-        elif modem.settings.is_half_duplex and modem.state.sends_until > self.now:
-            reception.lost = "half_duplex"
-        if modem.state.arriving:
-            for each in (*modem.state.arriving, number):
-                self._lose(each, "collisions")
-        modem.state.arriving.append(number)
+            reception.loss_reason = "no_energy"
+        elif modem.settings.is_half_duplex and modem.state.sending_end > self.now:
+            reception.loss_reason = "half_duplex"
+        if modem.state.incoming_receptions:
+            for lost_number in (*modem.state.incoming_receptions, number):
+                self._mark_lost(lost_number, "collisions")
+        modem.state.incoming_receptions.append(number)
 
-    def _end(self, number: int) -> None:
-        """Hand a packet on that has arrived, unless it is lost."""
+    def _end_reception(self, number: int) -> None:
+        """Deliver a packet that has arrived, unless it is lost."""
         reception = self.state.receptions.pop(number)
         modem, packet = self._modems[reception.receiver], reception.packet
-        modem.state.arriving.remove(number)
-        if reception.lost != "no_energy":
+        modem.state.incoming_receptions.remove(number)
+        if reception.loss_reason != "no_energy":
             modem.state.time_receiving += self.now - reception.arrival
         sender = self._modems[reception.sender].settings.name
         name = f"{modem.settings.name}/{sender}/{packet.number}"
-        if reception.lost is None and self._is_damaged(reception, name):
-            reception.lost = "errors"
-        if reception.lost is not None:
-            self._count(modem, reception.lost, reception.sender, packet)
-        elif packet.destination in (EVERYONE, modem.settings.address):
+        if reception.loss_reason is None and self._is_damaged(reception, name):
+            reception.loss_reason = "errors"
+        if reception.loss_reason is not None:
+            self._count(modem, reception.loss_reason, reception.sender, packet)
+        elif packet.destination in (BROADCAST_ADDRESS, modem.settings.address):
             delay = 0.0
             if modem.settings.receive_jitter > 0.0:
                 delay = modem.settings.receive_jitter * self._draw(f"{name}/receive").random()
@@ -272,17 +272,19 @@ class Network:
             self._events.add(delivery, _Arrival("deliver", number))
 
     def _count(self, modem: Modem, outcome: Outcome, sender: int, packet: Packet) -> None:
-        """Take note of what becomes of a packet at a device."""
-        setattr(modem.counts, outcome, getattr(modem.counts, outcome) + 1)
+        """Count an outcome of a packet at a device, and trace it."""
+        name = f"n_{outcome}"
+        setattr(modem.counts, name, getattr(modem.counts, name) + 1)
         if self.trace is not None:
-            of = f"{self._modems[sender].settings.name}#{packet.number}"
+            packet_name = f"{self._modems[sender].settings.name}#{packet.number}"
             time = f"{self.now // NANOSECONDS}.{self.now % NANOSECONDS:09d}"
-            name = modem.settings.name
-            self.trace(f"{time} {name} {outcome} {of} {len(packet.data)} bytes")
+            self.trace(
+                f"{time} {modem.settings.name} {outcome} {packet_name} {len(packet.data)} bytes"
+            )
 
     def _is_damaged(self, reception: Reception, name: str) -> bool:
-        likely = reception.error_probability
-        return likely > 0.0 and float(self._draw(f"{name}/error").random()) < likely
+        probability = reception.error_probability
+        return probability > 0.0 and float(self._draw(f"{name}/error").random()) < probability
 
     def _path(self, sender: Modem, receiver: Modem) -> Path:
         a, b = sender.position(), receiver.position()

@@ -1,4 +1,4 @@
-"""Packets and their receptions."""
+"""Packets, their receptions and outcomes."""
 
 from __future__ import annotations
 
@@ -17,65 +17,65 @@ Outcome = Literal[
     "half_duplex",
     "errors",
 ]
-"""What becomes of a packet; the fields of `Counts`."""
-EVERYONE = -1
-"""Address of all devices that hear a packet."""
+"""The outcome of a packet; `Counts` has a field for each."""
+BROADCAST_ADDRESS = -1
+"""The address of all devices within range."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Packet:
-    """Bytes on their way from one device to others."""
+    """Bytes sent from one device to others."""
 
     number: int
-    """Counts the packets of its sender, from 0."""
+    """The number of the packet among those of its sender, from 0."""
     source: int
-    """Address of the sender."""
+    """The address of the sender."""
     destination: int
-    """Address of the device it is for; `EVERYONE`."""
+    """The address of its destination, or `BROADCAST_ADDRESS`."""
     data: bytes
-    """What is sent."""
+    """The content of the packet."""
 
     @property
-    def room(self) -> int:
-        """What it takes of a queue; an empty one takes a byte [byte]."""
+    def queue_size(self) -> int:
+        """The space that it takes in a queue, at least 1 [byte]."""
         return max(len(self.data), 1)
 
 
 @dataclass(slots=True)
 class Reception(Item):
-    """A packet that arrives at a device."""
+    """The reception of a packet at a device."""
 
     packet: Packet
-    """What arrives."""
+    """The packet that arrives."""
     sender: int
-    """Number of the device that sent it."""
+    """The number of the device that sent it."""
     receiver: int
-    """Number of the device that it arrives at."""
+    """The number of the receiving device."""
     arrival: int
-    """When its first bit arrives [ns]."""
+    """The time at which its first bit arrives [ns]."""
     error_probability: float
-    """How likely it is damaged by noise [1]."""
-    lost: Outcome | None = None
-    """Why it is lost; None while it is not."""
+    """The probability of damage by noise [1]."""
+    loss_reason: Outcome | None = None
+    """The reason of its loss; None while it is not lost."""
 
 
 @dataclass(slots=True)
 class Counts(Record):
-    """What became of the packets of a device."""
+    """The number of packets of a device by outcome."""
 
-    queued: int = 0
-    """Handed over to be sent."""
-    sent: int = 0
-    """Sent."""
-    received: int = 0
-    """Received and handed on."""
-    queue_full: int = 0
-    """Not sent: the transmit queue was full."""
-    no_energy: int = 0
-    """Neither sent nor received: the energy was used up."""
-    collisions: int = 0
-    """Not received: another packet arrived at the same time."""
-    half_duplex: int = 0
-    """Not received: the device was sending."""
-    errors: int = 0
-    """Not received: damaged by noise, or as the error model has it."""
+    n_queued: int = 0
+    """The packets that were to be sent."""
+    n_sent: int = 0
+    """The packets that were sent."""
+    n_received: int = 0
+    """The packets that were received and delivered."""
+    n_queue_full: int = 0
+    """The packets that were not sent because the queue was full."""
+    n_no_energy: int = 0
+    """The packets that were neither sent nor received because the energy was used up."""
+    n_collisions: int = 0
+    """The packets that were lost because another packet arrived at the same time."""
+    n_half_duplex: int = 0
+    """The packets that were lost because the device was sending."""
+    n_errors: int = 0
+    """The packets that were lost because the error model or noise damaged them."""

@@ -198,7 +198,7 @@ class VirtualCamera:
             self.world_from_camera,
             self._intrinsics,
             std=self.state.std,
-            random=self.state.random,
+            rng=self.state.random,
             grey=self.is_grey,
             is_polished=self.is_polished,
         )

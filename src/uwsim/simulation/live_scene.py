@@ -117,7 +117,7 @@ class LiveScene:
             with suppress(UnknownName):
                 body = self.bodies.find(shown.target.strip("/"))
                 trajectory = Trajectory(shown, body, localized_from_world, lambda: self.time)
-                self.schedule.every(RATE, trajectory.look)
+                self.schedule.create_timer(RATE, trajectory.look)
                 yield trajectory
 
     @property

@@ -65,7 +65,7 @@ class Schedule:
         self.state = ScheduleState(np.full(1, NO_STEP))
         """What is to be done later."""
 
-    def every(
+    def create_timer(
         self,
         rate: float,
         call: Callable[[], None],

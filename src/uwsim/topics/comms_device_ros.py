@@ -24,7 +24,7 @@ class CommsDeviceROSSpec(SensorTopicSpec):
         if not isinstance(device, CommsDevice):
             raise UnknownName("communication device", self.name, ())
         publisher = CommsDevicePublisher(self.topic, device, world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

@@ -32,7 +32,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
         is_read = partial(world.bus.has_readers, self.topic)
-        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 
 

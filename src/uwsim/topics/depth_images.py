@@ -102,7 +102,7 @@ class RangeCameraToPCLSpec(InterfaceSpec):
         camera = _find_camera(world, self.camera_name)
         publisher = PointCloudPublisher(camera, self.camera_name, self.topic, world)
         is_read = partial(world.bus.has_readers, self.topic)
-        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 
 
@@ -140,7 +140,7 @@ def publish_depth(
         UnknownName: there is no such camera.
     """
     publisher = DepthImagePublisher(camera, *topics, world)
-    world.every(sample_rate(rate, world), publisher.publish)
+    world.create_timer(sample_rate(rate, world), publisher.publish)
     return publisher
 
 

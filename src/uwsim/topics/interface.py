@@ -107,7 +107,7 @@ class TopicWorld(TimedWorld, Protocol):
     def marker_frames(self) -> Sequence[Frame]:
         """List the frames of the markers that exist now."""
 
-    def every(
+    def create_timer(
         self,
         rate: float,
         call: Callable[[], None],
@@ -239,7 +239,9 @@ class SampledTopic(Interface):
         is_read = None if is_faulty else bus.reader_check(topic)
         if not is_faulty:
             bus.defer_unread(topic, self.newest_message)
-        world.every(sample_rate(rate, world), self.publish, is_needed=is_read, sampling=sampling)
+        world.create_timer(
+            sample_rate(rate, world), self.publish, is_needed=is_read, sampling=sampling
+        )
 
     def newest_message(self) -> object | None:
         """Create the message of the newest sample; None before the first."""

@@ -41,7 +41,7 @@ class MultibeamToPointCloud2Spec(SensorTopicSpec):
         sensor = world.sensors.sensor(self.name, self.sources)
         publish = world.sensors.publisher(self.name, self.topic, PointCloud2)
         publisher = SensorPublisher(sensor, partial(_publish_cloud, publish), lambda: world.time)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

@@ -48,7 +48,7 @@ class SegmentationToROSSpec(InterfaceSpec):
     def bind(self, world: TopicWorld) -> SegmentationPublisher:
         """Start to publish; raises UnknownName if there is no such camera."""
         publisher = SegmentationPublisher(self, world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

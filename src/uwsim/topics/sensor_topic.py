@@ -68,7 +68,7 @@ class SensorTopicSpec(InterfaceSpec):
             return sampled_topic
         is_needed = partial(is_sample_needed, world.bus, self.topic) if spec_class.is_pure else None
         publisher = SensorPublisher(sensor, publish, lambda: world.time)
-        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_needed)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish, is_needed=is_needed)
         return publisher
 
     def _spec_class(self, sensor: Sensor, world: TopicWorld) -> type[Any]:

@@ -31,7 +31,7 @@ class SonarToROSSpec(InterfaceSpec):
         """Start to ping; raises UnknownName if there is no such sonar."""
         sonar = cast("Sonar", world.sensors.sensor(self.name, self.sources))
         publisher = SonarPublisher(self, sonar, world)
-        world.every(sample_rate(self.rate, world), publisher.publish)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish)
         return publisher
 
 

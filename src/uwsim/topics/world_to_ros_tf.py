@@ -47,7 +47,7 @@ class WorldToROSTFSpec(InterfaceSpec):
         frames = world.frames(with_objects=self.enable_objects)
         publisher = FramePublisher(self, frames, world)
         is_read = partial(world.bus.has_readers, TF)
-        world.every(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
+        world.create_timer(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 
 

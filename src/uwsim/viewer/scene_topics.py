@@ -79,7 +79,7 @@ class SceneTopics:
                 self._publish_tf = simulation.bus.publisher(TF, TFMessage)
         self._is_on_bus = is_on_bus
         if self._moving_frames:
-            world.schedule.every(TF_RATE, self._tick)
+            world.schedule.create_timer(TF_RATE, self._tick)
 
     def record(self, recorder: Recorder) -> None:
         """Record the topics, too, from now on."""

@@ -1,7 +1,7 @@
-"""Protocols of the simulation as measures, triggers, updaters and sensors see it.
+"""Protocols of the simulation for measures, triggers, updaters, sensors, devices and forces.
 
-Positions are in W, the world frame inside (z up); ``world_from_localized`` leads to L, the frame
-of files, topics and results. Everything handed out is a copy.
+Positions are in W, the world frame inside (z up); ``world_from_localized`` relates it to L, the
+frame of files, topics and results. All returned arrays are copies.
 """
 
 from __future__ import annotations

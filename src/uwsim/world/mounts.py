@@ -1,4 +1,4 @@
-"""Frames on vehicles, and the water, as compiled code reads them: it knows not what moves them."""
+"""The interface through which compiled code reads frames on vehicles and the water."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ..base.numerics.calls import call
 from ..base.numerics.jit import njit
 
 MOUNT = np.dtype([("place", np.int64), ("move", np.int64), ("parameters", np.int64)])
-"""Addresses of the functions that write a frame and its motion, and of what they read.
+"""The addresses of the functions that write a frame and its motion, and of their parameters.
 
-See `uwsim.base.numerics.calls`; ``move`` is 0 where the motion is not read.
+See `uwsim.base.numerics.calls`; ``move`` is 0 if the motion is not read.
 """
 
 Record = Any
@@ -21,13 +21,13 @@ Record = Any
 
 @njit
 def read_frame(mount: Record, frame: Array) -> None:
-    """Write where a frame is now: its origin in W [m], then its axes by rows, into (12,)."""
+    """Write the pose of a frame: its origin in W [m], then its axes by rows, into (12,)."""
     call(mount.place, mount.parameters, frame.ctypes.data, 0.0)
 
 
 @njit
 def read_motion(mount: Record, motion: Array) -> None:
-    """Write how a point of a frame moves, in W, behind the point.
+    """Write the motion of a point of a frame, in W, after the point.
 
     Args:
         mount: the frame.
@@ -39,11 +39,11 @@ def read_motion(mount: Record, motion: Array) -> None:
 
 @njit
 def read_water(water: Record, points: Array, time: float) -> None:
-    """Write how the water moves at points, behind them.
+    """Write the velocities of the water at points, after them.
 
     Args:
         water: a record of `FUNCTION`.
         points: of W, (n, 3) [m]; then their velocities are written, (2, n, 3) [m/s].
-        time: [s].
+        time: the simulation time [s].
     """
     call(water.function, water.parameters, points.ctypes.data, time)

@@ -1,4 +1,4 @@
-"""Bodies, cameras, contacts, flows and rays of a scene, as its views hand them out."""
+"""Bodies, cameras, contacts, flows and rays, as the views of a scene return them."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from ..base.sampling import Sampler
 from ..rays import Balls, Hits
 
 TIMESTEP = 0.002
-"""Default length of a physics step [s]."""
+"""The default length of a physics step [s]."""
 GRAVITY = 9.81
-"""Acceleration of free fall [m/s2]."""
+"""The acceleration of free fall [m/s2]."""
 
 
 @dataclass(frozen=True)
@@ -26,12 +26,12 @@ class Box:
     """An axis-aligned bounding box in the frame of its body."""
 
     lower: tuple[float, float, float]
-    """Smallest coordinates [m]."""
+    """The smallest coordinates [m]."""
     upper: tuple[float, float, float]
-    """Largest coordinates [m]."""
+    """The largest coordinates [m]."""
 
     def corners(self) -> npt.NDArray[np.float64]:
-        """The eight corners, (8, 3) [m]."""
+        """Return the eight corners, (8, 3) [m]."""
         low, high = np.array(self.lower), np.array(self.upper)
         picks = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
         corners: npt.NDArray[np.float64] = np.where(picks == 1, high, low)
@@ -43,73 +43,73 @@ class Body(Protocol):
 
     @property
     def name(self) -> str:
-        """The route by which it was looked up."""
+        """The route that identifies it."""
 
     @property
     def world_from_body(self) -> Pose:
-        """Where it is now (objects: the mesh frame; links: the visual frame)."""
+        """The present pose (objects: the mesh frame; links: the visual frame)."""
 
     @property
     def box(self) -> Box | None:
-        """Local bounding box of its meshes; None when it has none."""
+        """The local bounding box of its meshes; None if it has none."""
 
 
 @dataclass(frozen=True, eq=False)
 class BodyMotion:
-    """How a body moves over ground; in W."""
+    """The motion of a body over ground, in W."""
 
     velocity: npt.NDArray[np.float64]
-    """Of its origin, (3,) [m/s]."""
+    """The velocity of its origin, (3,) [m/s]."""
     angular_velocity: npt.NDArray[np.float64]
-    """Of the body, (3,) [rad/s]."""
+    """The angular velocity of the body, (3,) [rad/s]."""
     acceleration: npt.NDArray[np.float64]
-    """Of its origin, (3,) [m/s2]."""
+    """The acceleration of its origin, (3,) [m/s2]."""
 
 
 class Mount(Body, Protocol):
-    """A frame on a link that compiled code reads, too."""
+    """A frame on a link that compiled code can read, too."""
 
     @property
     def functions(self) -> npt.NDArray[np.void]:
-        """Its functions for compiled code: a record of `uwsim.world.mounts.MOUNT`, (1,)."""
+        """The functions for compiled code: a record of `uwsim.world.mounts.MOUNT`, (1,)."""
 
     @property
     def is_compiled(self) -> bool:
-        """Whether these functions follow it in compiled steps without `prepare`."""
+        """True if these functions give its pose in compiled steps without `prepare`."""
 
     def prepare(self) -> None:
-        """Bring what these functions read up to date."""
+        """Update the inputs of these functions."""
 
 
 class MovingBody(Mount, Protocol):
     """A frame on a link whose motion can be read."""
 
     def motion(self) -> BodyMotion:
-        """Return how it moves now.
+        """Return the present motion.
 
-        Of a simulated vehicle that is the engine's. Another one moves in jumps: each counts as made
-        evenly over the time since the one before (`uwsim.physics.kinematics.placed_motion`).
+        The motion of a simulated vehicle is the engine's. Another vehicle moves in jumps. Each is
+        spread evenly over the time since the last (`uwsim.physics.kinematics.placed_motion`).
         """
 
 
 class CompiledVehicle(Protocol):
-    """A vehicle as compiled code reads it."""
+    """The interface of a vehicle for compiled code."""
 
     def base_mount(self) -> Mount:
         """Return the frame of its base."""
 
     def base_sampler(self) -> Sampler:
-        """Return what takes samples of its base, 18 numbers.
+        """Return the sampler of its base, 18 numbers.
 
-        Where it is in W [m], its axes in W by rows, its velocity over ground in W [m/s], and its
-        angular velocity in its own axes [rad/s].
+        The numbers are its position in W [m], its axes in W by rows, its velocity over ground in W
+        [m/s], and its angular velocity in base axes [rad/s].
         """
 
     def joint_sampler(self) -> Sampler:
-        """Return what takes samples of the n joints of the joint vector, 4 n numbers.
+        """Return the sampler of the n joints of the joint vector, 4 n numbers.
 
-        Positions [rad or m], velocities [rad/s or m/s], and two parts of the efforts [N m or N]; of
-        a vehicle that is not simulated the positions alone.
+        The numbers are positions [rad or m], velocities [rad/s or m/s], and two parts of efforts
+        [N m or N]. For a vehicle that is not simulated, they are the positions alone.
         """
 
 
@@ -118,35 +118,35 @@ class Camera(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name in the scene."""
+        """The name in the scene."""
 
     @property
     def intrinsics(self) -> Intrinsics:
-        """Its pinhole."""
+        """The pinhole model."""
 
     @property
     def world_from_camera(self) -> Pose:
-        """Where it is now; OpenGL axes."""
+        """The present pose; OpenGL axes."""
 
     @property
     def n_images(self) -> int | None:
-        """Number of images due on its topics so far, read or not; None if it has no topic."""
+        """The number of images due on its topics so far, read or not; None if it has no topic."""
 
 
 @dataclass(frozen=True)
 class Contact:
-    """One point at which a body touches another, at the present step."""
+    """A contact point of a body with another, at the present step."""
 
     approach_speed: float
-    """Relative velocity of the two along their normal, above 0 while they close [m/s]."""
+    """The relative velocity along the normal, positive while they approach [m/s]."""
     own_speed: float
-    """The part of it that is the body's own motion [m/s]."""
+    """The part of it that is due to the body's own motion [m/s]."""
     is_first: bool
-    """Whether the engine lists the body as the first of the two."""
+    """True if the engine lists the body as the first of the two."""
     other: str = ""
-    """Name of what it touches."""
+    """The name of the other body."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Where, in W [m]; the origin for contacts that the engine does not simulate."""
+    """The position in W [m]; the origin for contacts that the engine does not simulate."""
 
 
 class Actuators(Protocol):
@@ -154,35 +154,35 @@ class Actuators(Protocol):
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """Names of its thrusters."""
+        """The names of its thrusters."""
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """Names of its joints, those that mimic included."""
+        """The names of its joints, including mimic joints."""
 
     @property
     def greatest_power(self) -> float:
-        """Electric power of all thrusters at their greatest thrusts [W]."""
+        """The electric power of all thrusters at maximum thrust [W]."""
 
     def powers(self) -> npt.NDArray[np.float64]:
-        """Electric power of the thrusters, then of the joints, (n,) [W]."""
+        """Return the electric power of the thrusters, then of the joints, (n,) [W]."""
 
     @property
     def compiled_powers(self) -> CompiledFunction:
-        """The function that writes these for compiled code."""
+        """The function that writes these powers for compiled code."""
 
 
 @runtime_checkable
 class Flow(Protocol):
-    """Moving water, such as those in `uwsim.currents`; everything in L."""
+    """The motion of the water, as in `uwsim.currents`; everything in L."""
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same at every point."""
+        """True if the velocity is the same at every point."""
 
     @property
     def is_still(self) -> bool:
-        """Whether it never moves at all."""
+        """True if the water never moves."""
 
     def velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
@@ -192,58 +192,58 @@ class Flow(Protocol):
     def acceleration(
         self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
     ) -> npt.NDArray[np.float64]:
-        """Return how fast that changes at a fixed point, (n, 3) [m/s2]."""
+        """Return the local rate of change of the velocity, (n, 3) [m/s2]."""
 
     def motion(
         self, points: npt.NDArray[np.float64], time: float, vehicles: Sequence[str] = ()
     ) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Return both."""
+        """Return velocity and acceleration."""
 
 
 class Rays(Protocol):
-    """Ray casting against the surfaces of a scene."""
+    """A ray caster against the surfaces of a scene."""
 
     @property
     def vehicles(self) -> Sequence[str]:
-        """Name of the vehicle that each surface belongs to, by its number; or empty."""
+        """The name of the vehicle of each surface, by its number; empty if it has none."""
 
     @property
     def materials(self) -> Sequence[Material]:
-        """Acoustic material of each surface, by its number."""
+        """The acoustic material of each surface, by its number."""
 
     @property
     def functions(self) -> npt.NDArray[np.void]:
-        """Casts rays in compiled code: a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
+        """The functions for compiled code: a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
 
     @property
     def is_compiled(self) -> bool:
-        """Whether that finds all bodies where they are in compiled steps without `prepare`."""
+        """True if they use present poses in compiled steps without `prepare`."""
 
     def prepare(self) -> None:
-        """Bring what compiled code reads up to date."""
+        """Update the inputs of these functions."""
 
     def cast(
         self,
         world_from_sensor: Pose,
         directions: npt.NDArray[np.float64],
         reach: float,
-        begins: npt.NDArray[np.float64] | None = None,
+        starts: npt.NDArray[np.float64] | None = None,
     ) -> Hits:
-        """Cast rays from the origin of a sensor; returns the first hit of each.
+        """Cast rays from the origin of a sensor; return the first hit of each.
 
         Args:
-            world_from_sensor: where the sensor is.
+            world_from_sensor: the pose of the sensor.
             directions: unit vectors in its frame, (n, 3).
-            reach: how far the rays go [m].
-            begins: from where on each ray hits, (n,) [m]; without it from the origin.
+            reach: the length of the rays [m].
+            starts: the distance from which each ray can hit, (n,) [m]; None: 0.
         """
 
     def balls(self) -> Balls:
-        """Balls that cover each surface, where they are now; heaps of sand have none."""
+        """Return balls that cover each surface at its present pose; heaps of sand have none."""
 
 
 class Attachment(Protocol):
-    """A frame fixed to a body, at whose origin a force acts: on a vehicle, a link or an object."""
+    """A frame on a vehicle, a link or an object, at whose origin a force acts."""
 
     @property
     def name(self) -> str:
@@ -251,15 +251,15 @@ class Attachment(Protocol):
 
     @property
     def vehicle(self) -> str:
-        """The name of the vehicle that it is on; empty on an object."""
+        """The name of its vehicle; empty on an object."""
 
     @property
     def world_from_body(self) -> Pose:
-        """Where the frame is now; its axes are those of the body."""
+        """The present pose of the frame; its axes are those of the body."""
 
     def motion(self) -> BodyMotion:
-        """Return how its origin moves now, over ground, in W.
+        """Return the present motion of its origin over ground, in W.
 
-        Of a simulated vehicle and of a loose object that is the engine's. Another vehicle moves as
-        `MovingBody.motion` says; another object counts as at rest.
+        The motion of a simulated vehicle or loose object is the engine's. Another vehicle moves as
+        in `MovingBody.motion`; another object is at rest.
         """

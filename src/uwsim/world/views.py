@@ -1,4 +1,4 @@
-"""A scene as measures, updaters, sensors, devices and forces see it: one Protocol each."""
+"""The views of a scene for measures, updaters, sensors, devices and forces: a Protocol each."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays
 
 
 class TimedWorld(Protocol):
-    """The clock and the topics of a simulation: what all its parts see."""
+    """The clock and the topics of a simulation, which all its parts see."""
 
     @property
     def step(self) -> int:
-        """Physics steps since the simulation began."""
+        """The number of physics steps since the simulation began."""
 
     @property
     def timestep(self) -> float:
-        """Length of a step [s]."""
+        """The length of a step [s]."""
 
     @property
     def time(self) -> float:
@@ -36,69 +36,69 @@ class TimedWorld(Protocol):
 
     @property
     def bus(self) -> Bus:
-        """Its topics and services."""
+        """The topics and services."""
 
 
 class World(TimedWorld, Protocol):
-    """The simulation as a measure or a trigger sees it."""
+    """The view of the simulation for measures and triggers."""
 
     @property
     def world_from_localized(self) -> Pose:
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
-        """The names of the compatibility quirks that are on (`uwsim.base.compatibility`)."""
+        """The names of the active compatibility quirks (`uwsim.base.compatibility`)."""
 
     def body(self, name: str) -> Body:
-        """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""
+        """Return a vehicle, link or object by its route ``a/b``; raise UnknownName if none."""
 
     def contacts(self, name: str) -> Sequence[Contact]:
-        """Where a vehicle (all its links) or object touches others now; UnknownName if none."""
+        """Return the contacts of a vehicle (all links) or object; raise UnknownName if none."""
 
     def contact_forces(self, name: str) -> Mapping[str, npt.NDArray[np.float64]]:
-        """Forces on a vehicle or object of what it touches; UnknownName if there is none.
+        """Return the contact forces on a vehicle or object; raise UnknownName if there is none.
 
-        The sum over all contacts with each other thing, by its name, (3,) in W [N], in the last
-        step. Empty where nothing is touched, or the engine does not simulate it.
+        Each force is the sum over all contacts with another body in the last step, by its name,
+        (3,) in W [N]. The mapping is empty without contacts, or if the engine does not simulate it.
         """
 
     def actuators(self, name: str) -> Actuators | None:
-        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
+        """Return the actuators of a vehicle, None if it is not simulated; raise UnknownName."""
 
     def camera(self, name: str) -> Camera:
-        """Find a virtual camera; UnknownName if none."""
+        """Return a virtual camera; raise UnknownName if there is none."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """The random generator of that name under the run's seed."""
+        """Return the random generator of that name under the run's seed."""
 
 
 class Stage(TimedWorld, Protocol):
-    """The simulation as a scene updater sees it: setters, and the world of measures."""
+    """The view of the simulation for scene updaters: setters, and the world of measures."""
 
     @property
     def world(self) -> World:
-        """Bodies, cameras, contacts, and the compatibility quirks that are on."""
+        """The bodies, cameras, contacts, and the active compatibility quirks."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """The random generator of that name under the run's seed."""
+        """Return the random generator of that name under the run's seed."""
 
     @property
     def vehicles(self) -> tuple[str, ...]:
-        """Names of the vehicles, in the file's order."""
+        """The names of the vehicles, in the file's order."""
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
-        """Colour of the fog [0..1]."""
+        """The colour of the fog [0..1]."""
 
     def find(self, name: str, *, named_by: str) -> Path:
-        """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
+        """Find a file that ``named_by`` names; raise AssetNotFound with the searched folders."""
 
     def set_fog(self, density: float) -> None:
         """Set the fog density [1/m] of the water; its colour stays the scene's."""
 
     def set_light_rate(self, rate: float) -> None:
-        """Scale the light of the scene; 1 is as usual."""
+        """Scale the light of the scene; 1 is the normal light."""
 
     def set_camera_noise(self, std: float) -> None:
         """Set the noise [0..1] of every colour camera."""
@@ -110,54 +110,54 @@ class Stage(TimedWorld, Protocol):
         """Add a flow to the currents of the scene; None removes it."""
 
     def put_back(self, vehicle: str) -> None:
-        """Put a vehicle where the scene put it, at rest; UnknownName if there is none."""
+        """Return a vehicle to its pose in the scene, at rest; raise UnknownName if none."""
 
-    def every(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
-        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop."""
+    def create_timer(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
+        """Call ``call`` at a ``rate`` [Hz] from now on; return the function that stops it."""
 
 
 class DeviceWorld(TimedWorld, Protocol):
-    """The simulation as a device sees it: surfaces, sand, actuators, packets and timers."""
+    """The view of the simulation for devices: surfaces, sand, actuators, packets and timers."""
 
     @property
     def world_from_localized(self) -> Pose:
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
-        """The names of the compatibility quirks that are on (`uwsim.base.compatibility`)."""
+        """The names of the active compatibility quirks (`uwsim.base.compatibility`)."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """The random generator of that name under the run's seed."""
+        """Return the random generator of that name under the run's seed."""
 
     def actuators(self, name: str) -> Actuators | None:
-        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
+        """Return the actuators of a vehicle, None if it is not simulated; raise UnknownName."""
 
     @property
     def rays(self) -> Rays:
-        """The surfaces of the scene where they are now."""
+        """The surfaces of the scene at their present poses."""
 
     @property
     def network(self) -> Network:
-        """The packets between communication devices."""
+        """The network of communication devices."""
 
     @property
     def ned_origin(self) -> Geodetic:
-        """Where on Earth the origin of W is."""
+        """The position of the origin of W on Earth."""
 
     def dig(self, point: npt.NDArray[np.float64]) -> int:
-        """Take sand around a point in W (3,) [m]; returns how many columns of it lost some."""
+        """Remove sand around a point in W (3,) [m]; return the number of columns that lost some."""
 
-    def catchable(self, surface: int) -> int | None:
-        """Return the number of the object with a surface; None where nothing may pick it up."""
+    def pickable_object(self, surface: int) -> int | None:
+        """Return the number of a surface's object; None if no picker can pick it up."""
 
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
-        """Return what returns the UDP packets that have come to a port since its last call.
+        """Return a function that returns the UDP packets received at a port since its last call.
 
-        None where the simulation takes none.
+        None if the simulation receives none.
         """
 
-    def every(
+    def create_timer(
         self,
         rate: float,
         call: Callable[[], None],
@@ -165,47 +165,47 @@ class DeviceWorld(TimedWorld, Protocol):
         is_needed: Callable[[], bool] | None = None,
         sampling: Sampling | None = None,
     ) -> Callable[[], None]:
-        """Have ``call`` called at the samples of ``rate`` [Hz] from now on; returns how to stop.
+        """Call ``call`` at a ``rate`` [Hz] from now on; return the function that stops it.
 
-        With ``is_needed`` it is called only where that says so; ``sampling`` takes a sample before,
-        needed or not.
+        With ``is_needed``, it is called only if that returns True. ``sampling`` takes a sample
+        before each call.
         """
 
 
 class SensorWorld(TimedWorld, Protocol):
-    """The simulation as a sensor sees it: surfaces, light and sound."""
+    """The view of the simulation for sensors: surfaces, light and sound."""
 
     @property
     def world_from_localized(self) -> Pose:
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
-        """The names of the compatibility quirks that are on (`uwsim.base.compatibility`)."""
+        """The names of the active compatibility quirks (`uwsim.base.compatibility`)."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """The random generator of that name under the run's seed."""
+        """Return the random generator of that name under the run's seed."""
 
     @property
     def rays(self) -> Rays:
-        """The surfaces of the scene where they are now."""
+        """The surfaces of the scene at their present poses."""
 
     @property
     def sea_water(self) -> SeaWater:
-        """The water as an acoustic medium."""
+        """The acoustic properties of the water."""
 
     @property
     def surface_height(self) -> float:
-        """Height of the water's surface in W [m]."""
+        """The height of the water's surface in W [m]."""
 
     @property
     def density_levels(self) -> Sequence[tuple[float, float]]:
-        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+        """The depth [m] and density [kg/m3] of the water's levels; uniform water has one."""
 
     def compiled_water(self, vehicle: str, n: int) -> CompiledFunction | None:
-        """Return the water at ``n`` points as a vehicle feels it; None if Python has to be asked.
+        """Return the function of the water at ``n`` points for a vehicle; None if it needs Python.
 
-        See `uwsim.world.mounts.read_water`; it is another one after the water has changed.
+        See `uwsim.world.mounts.read_water`. After a change of the water, call this again.
         """
 
     def water_velocity(
@@ -214,14 +214,14 @@ class SensorWorld(TimedWorld, Protocol):
         """Return the velocity of the water at points of W, (n, 3) [m/s].
 
         Args:
-            points: (n, 3) [m].
-            time: [s].
-            vehicle: name of the vehicle that asks: some currents are felt by one alone.
+            points: the points, (n, 3) [m].
+            time: the simulation time [s].
+            vehicle: the name of the vehicle; some currents act on one vehicle alone.
         """
 
     @property
     def earth_origin(self) -> Geodetic | None:
-        """Where on Earth the origin of W is: x east, y north; None if the scene does not say."""
+        """The position of the origin of W on Earth (x east, y north); None if it is not set."""
 
     def render(
         self,
@@ -229,54 +229,54 @@ class SensorWorld(TimedWorld, Protocol):
         intrinsics: Intrinsics,
         *,
         std: float,
-        random: np.random.Generator,
+        rng: np.random.Generator,
         grey: bool,
         is_polished: bool = False,
     ) -> npt.NDArray[np.uint8]:
         """Render the image of a camera, with noise; row 0 is the top.
 
         Args:
-            world_from_camera: where the camera is; OpenGL axes.
-            intrinsics: its pinhole.
-            std: noise of each channel, 0..1.
-            random: the camera's random stream.
-            grey: give (h, w), each term of the sum cut to a whole number; else (h, w, 3).
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: its pinhole model.
+            std: the standard deviation of the noise of each channel, 0..1.
+            rng: the camera's random stream.
+            grey: return (h, w), with each term of the sum truncated; else (h, w, 3).
             is_polished: draw soft shadows, highlights and smooth edges.
         """
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
-        """Measure the distance along the optical axis of each pixel, (h, w) [m].
+        """Return the distance along the optical axis of each pixel, (h, w) [m].
 
-        What is nearer than the near plane is not seen; +inf where nothing is before the far plane.
+        Surfaces nearer than the near plane are invisible. A pixel without a surface has +inf.
 
         Args:
-            world_from_camera: where the camera is; OpenGL axes.
-            intrinsics: its pinhole.
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: its pinhole model.
         """
 
 
 class ForceWorld(Protocol):
-    """The simulation as a force (`uwsim.forces`) sees it."""
+    """The view of the simulation for forces (`uwsim.forces`)."""
 
     @property
     def timestep(self) -> float:
-        """Length of a step [s]."""
+        """The length of a step [s]."""
 
     @property
     def world_from_localized(self) -> Pose:
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
 
     @property
     def surface_height(self) -> float:
-        """Height of the water's surface in W [m]."""
+        """The height of the water's surface in W [m]."""
 
     def attach(self, name: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> Attachment:
-        """Fix a frame to a body; UnknownName if there is none.
+        """Attach a frame to a body; raise UnknownName if there is none.
 
         Args:
             name: a vehicle (its base), a link ``vehicle/link`` (its kinematic frame), or an object
-                (its mesh frame), as `World.body` has them.
-            position: of the frame's origin in the body, (3,) [m].
+                (its mesh frame), as in `World.body`.
+            position: the frame's origin in the body, (3,) [m].
         """
 
     def water_velocity(
@@ -285,14 +285,13 @@ class ForceWorld(Protocol):
         """Return the velocity of the water at points of W, (n, 3) [m/s].
 
         Args:
-            points: (n, 3) [m].
-            time: [s].
-            vehicle: name of the vehicle whose water it is: some currents are felt by one alone;
-                empty for none.
+            points: the points, (n, 3) [m].
+            time: the simulation time [s].
+            vehicle: the name of the vehicle, or empty; some currents act on one vehicle alone.
         """
 
     def water_density(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
         """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 above it."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """The random generator of that name under the run's seed."""
+        """Return the random generator of that name under the run's seed."""

@@ -155,7 +155,7 @@ def test_a_formula_loses_as_many_packets_as_it_says(tmp_path: Path) -> None:
             simulation.publish("/left_modem/tx", packet(b"x"))
         simulation.advance(0.5)
         counts = simulation.world.network.modem("right/right_modem").counts
-    assert counts.errors + len(ends.heard) == 200
+    assert counts.n_errors + len(ends.heard) == 200
     assert 90 <= len(ends.heard) <= 150  # 120 expected, 4 sigma are 28
 
 

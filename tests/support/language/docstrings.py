@@ -28,6 +28,7 @@ PROPER_NOUNS = word_set(
     radii vargha vertices von"""
 )
 """The proper nouns and irregular plurals, which need no article."""
+TRUTH = re.compile(r"\s*True (if|while)\b")
 FIRST_WORD = re.compile(r"\S*\w\S*")
 WORD = re.compile(r"[A-Za-z]+(?:[-'’][A-Za-z]+)*")
 
@@ -54,6 +55,8 @@ def docstring_fault(owner: str, text: str) -> tuple[str, str] | None:
         return (
             ("docstring", f"begins with {first_word!r}; begin with a verb") if has_fault else None
         )
+    if TRUTH.match(text):
+        return None  # of a flag, as in Python's and NumPy's documentation
     if _is_fragment(word):
         return "docstring", f"begins with {first_word!r}; begin with an article and a noun"
     if not _begins_noun_phrase(first_word):

@@ -164,7 +164,7 @@ class BagFogUpdater(SceneUpdater):
         self._next: tuple[int, RecordedFrame] | None = None  # step at which it is due, and what
         self._n_frames = 0
         self._digest = hashlib.sha256()
-        stage.every(1.0 / stage.timestep, self._tick)
+        stage.create_timer(1.0 / stage.timestep, self._tick)
 
     def apply(self, value: float) -> None:
         """Set the fog; with the first level the replay begins."""

@@ -194,7 +194,7 @@ class ForcePublisher:
         self._stage = stage
         self._is_signless = "current-force" in stage.world.compatibility
         self._publish = stage.bus.publisher(FORCE_TOPIC, WrenchStamped)
-        stage.every(FORCE_RATE, self._say)
+        stage.create_timer(FORCE_RATE, self._say)
 
     def _say(self) -> None:
         time = self._stage.time

@@ -55,11 +55,11 @@ class EnergyModelSpec(Spec):
     def bind(self) -> EnergyModel:
         """Create the model."""
         return EnergyModel(
-            level=self.energy_level,
-            turn_on=self.turn_on_energy,
-            sending=self.p_t_consume,
-            receiving=self.p_r_consume,
-            idle=self.p_idle,
+            initial_energy=self.energy_level,
+            turn_on_energy=self.turn_on_energy,
+            sending_power=self.p_t_consume,
+            receiving_power=self.p_r_consume,
+            idle_power=self.p_idle,
         )
 
 
@@ -167,7 +167,7 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     def _link_budget(self, water: WaterChannel) -> LinkBudget | None:
         if self.source_level is None:
             return None
-        return LinkBudget.in_water(
+        return LinkBudget.from_water(
             water,
             source_level=self.source_level,
             frequency=1000.0 * self.frequency,

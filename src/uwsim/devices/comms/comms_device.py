@@ -20,7 +20,7 @@ from ...messages import (
 )
 from ...messages import Pose as PoseMessage
 from ...network import (
-    EVERYONE,
+    BROADCAST_ADDRESS,
     Channel,
     Mac,
     Modem,
@@ -174,7 +174,7 @@ class CommsDevice(Device):
             def publish_remaining_energy() -> None:
                 publish_energy(Float64(data=modem.energy(world.network.now) or 0.0))
 
-            world.every(ENERGY_RATE, publish_remaining_energy)
+            world.create_timer(ENERGY_RATE, publish_remaining_energy)
 
     @property
     def parent_from_device(self) -> Pose:
@@ -203,13 +203,13 @@ def _check_bytes(message: UInt8MultiArray) -> None:
 def _read_destination(message: UInt8MultiArray) -> int:
     """Return the address in the size of the dimension ``destination``, or that of everyone."""
     sizes = [dimension.size for dimension in message.layout.dim if dimension.label == "destination"]
-    return sizes[0] if sizes else EVERYONE
+    return sizes[0] if sizes else BROADCAST_ADDRESS
 
 
 def _packet_message(packet: Packet) -> UInt8MultiArray:
     """Return a packet with its source and, unless it is for everyone, its destination."""
     dimensions = [MultiArrayDimension(label="source", size=packet.source)]
-    if packet.destination != EVERYONE:
+    if packet.destination != BROADCAST_ADDRESS:
         dimensions.append(MultiArrayDimension(label="destination", size=packet.destination))
     return UInt8MultiArray(
         layout=MultiArrayLayout(dim=[*dimensions]), data=np.frombuffer(packet.data, np.uint8)

@@ -48,7 +48,7 @@ class LiveTopics:
         self._due = 0  # step from which on the next entry may be taken
         self._scene_change = ""
         self._entries: list[float] = []
-        simulation.world.schedule.every(RATE, self._publish)
+        simulation.world.schedule.create_timer(RATE, self._publish)
 
     def record_change(self, level: Level, *, last_level: Level | None) -> None:
         """Record that the scene was brought to ``level``; the first level changes nothing."""

@@ -139,7 +139,7 @@ class Scenery:
         intrinsics: Intrinsics,
         *,
         std: float,
-        random: np.random.Generator,
+        rng: np.random.Generator,
         grey: bool,
         is_polished: bool = False,
     ) -> npt.NDArray[np.uint8]:
@@ -157,7 +157,7 @@ class Scenery:
         )
         assert rendered.colour is not None
         if rendered.colour.dtype == np.uint16:
-            pixels = add_noise(rendered.colour.view(np.uint16), std, random)
+            pixels = add_noise(rendered.colour.view(np.uint16), std, rng)
         else:
             pixels = rendered.colour.view(np.uint8)
         return grey_truncated(pixels) if grey else pixels

@@ -34,7 +34,7 @@ class DeviceView(SceneView):
         self.network = network
         """The packets between communication devices."""
         self.datagrams = datagrams.open
-        self.every = scene.schedule.every
+        self.create_timer = scene.schedule.create_timer
         self.actuators = scene.vehicles.actuators
         self.stream = scene.stream
 
@@ -42,7 +42,7 @@ class DeviceView(SceneView):
         """Take sand around a point in W (3,) [m]; returns how many columns of it lost some."""
         return sum(heap.dig(point) for heap in self._scenery.heaps)
 
-    def catchable(self, surface: int) -> int | None:
+    def pickable_object(self, surface: int) -> int | None:
         """Return the number of the object with a surface; None where nothing may pick it up."""
         objects = {part.id: part.object for part in self._scenery.parts}
         thing = objects.get(surface)

@@ -32,7 +32,7 @@ class StageView(SceneView):
         self.set_fog = scene.scenery.set_fog
         self.set_light_rate = scene.scenery.set_light_rate
         self.set_current = scene.water.set
-        self.every = scene.schedule.every
+        self.create_timer = scene.schedule.create_timer
         self.stream = scene.stream
 
     @property

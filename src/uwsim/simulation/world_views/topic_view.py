@@ -43,7 +43,7 @@ class TopicView(SceneView):
         self.body = scene.bodies.find
         self.vehicle = scene.vehicles.find
         self.marker_frames = markers.frames
-        self.every = scene.schedule.every
+        self.create_timer = scene.schedule.create_timer
         self.at_next_step = scene.schedule.at_next_step
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
