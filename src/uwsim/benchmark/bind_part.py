@@ -1,4 +1,4 @@
-"""Binding of any part of a benchmark: a measure, a trigger or a scene updater."""
+"""The binding of any part of a benchmark: a measure, a trigger or a scene updater."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ Part = MeasureSpec | TriggerSpec | SceneUpdaterSpec
 
 
 def bind_part(part: Part, stage: Stage) -> Measure | Trigger | SceneUpdater:
-    """Bind a scene updater to the stage, a measure or a trigger to its world.
+    """Bind a scene updater to the stage, or a measure or a trigger to its world.
 
     Raises:
-        UwsimError: what it names is not there.
+        UwsimError: a name of the part is unknown.
     """
     return part.bind(stage) if isinstance(part, SceneUpdaterSpec) else part.bind(stage.world)

@@ -6,8 +6,8 @@ from lxml import etree
 
 from ..schema import Diagnostics
 
-GATE = ("log", "startOn", "stopOn")
-SWEEP = ("initialValue", "finalValue", "step", "interval")
+GATE_ELEMENTS = ("log", "startOn", "stopOn")
+SWEEP_ELEMENTS = ("initialValue", "finalValue", "step", "interval")
 ORDER: dict[str, tuple[str, ...]] = {
     "benchmark": ("measures", "startOn", "stopOn", "function", "sceneUpdater"),
     "measures": (
@@ -20,25 +20,25 @@ ORDER: dict[str, tuple[str, ...]] = {
         "reconstruction3D",
         "pathFollowing",
     ),
-    "time": ("name", *GATE),
-    "collision": ("name", "target", *GATE),
-    "positionError": ("name", "target", "position", "topic", *GATE),
-    "distance": ("name", "target", *GATE),
-    "euclideanNorm": ("name", "groundTruth", "target", *GATE),
-    "objectCenteredOnCam": ("name", "target", "camera", *GATE),
-    "reconstruction3D": ("name", "target", "topic", "from", "levelOfDetail", *GATE),
-    "pathFollowing": ("name", "target", "topic", "from", *GATE),
+    "time": ("name", *GATE_ELEMENTS),
+    "collision": ("name", "target", *GATE_ELEMENTS),
+    "positionError": ("name", "target", "position", "topic", *GATE_ELEMENTS),
+    "distance": ("name", "target", *GATE_ELEMENTS),
+    "euclideanNorm": ("name", "groundTruth", "target", *GATE_ELEMENTS),
+    "objectCenteredOnCam": ("name", "target", "camera", *GATE_ELEMENTS),
+    "reconstruction3D": ("name", "target", "topic", "from", "levelOfDetail", *GATE_ELEMENTS),
+    "pathFollowing": ("name", "target", "topic", "from", *GATE_ELEMENTS),
     "startOn": ("type", "target", "position"),
     "stopOn": ("type", "target", "position"),
     "position": ("x", "y", "z"),
     "groundTruth": ("value", "camera", "target", "publishOn", "from", "to"),
-    "sceneFogUpdater": (*SWEEP, "sceneUpdater"),
-    "sceneLightUpdater": (*SWEEP, "sceneUpdater"),
-    "cameraNoiseUpdater": (*SWEEP, "sceneUpdater"),
+    "sceneFogUpdater": (*SWEEP_ELEMENTS, "sceneUpdater"),
+    "sceneLightUpdater": (*SWEEP_ELEMENTS, "sceneUpdater"),
+    "cameraNoiseUpdater": (*SWEEP_ELEMENTS, "sceneUpdater"),
     "repeat": ("iterations", "interval", "sceneUpdater"),
     "armMoveUpdater": ("armPosition", "step", "interval", "target", "sceneUpdater"),
     "bagFogUpdater": (
-        *SWEEP, "bag", "imageTopic", "infoTopic", "imageDepth", "imagePub", "infoPub",
+        *SWEEP_ELEMENTS, "bag", "imageTopic", "infoTopic", "imageDepth", "imagePub", "infoPub",
         "sceneUpdater",
     ),
     "currentForceUpdater": (
@@ -50,31 +50,31 @@ ORDER: dict[str, tuple[str, ...]] = {
     "directionVariation": ("theta", "phi"),
     "directionPeriod": ("theta", "phi"),
 }  # fmt: skip
-"""Element -> its children in order."""
+"""The children of each element, in order."""
 
-REQUIRED: dict[str, tuple[str, ...]] = {
+REQUIRED_CHILDREN: dict[str, tuple[str, ...]] = {
     measure: ("startOn", "stopOn") for measure in ORDER["measures"]
 }
-"""Children that the original requires although they have a default."""
+"""The children that the original requires although they have a default."""
 
 
 def check_order(root: etree._Element, diagnostics: Diagnostics) -> None:
-    """Report elements that uwsim reads and the original's grammar refuses."""
+    """Report elements that uwsim reads and the original's grammar rejects."""
     for node in root.iter("*"):
         order = ORDER.get(str(node.tag), ())
-        last, shown = -1, ""
-        present = set()
+        last_index, last_tag = -1, ""
+        present_tags = set()
         for child in node.iterchildren("*"):
             tag = str(child.tag)
-            present.add(tag)
+            present_tags.add(tag)
             if tag not in order:
                 continue
-            if order.index(tag) < last:
+            if order.index(tag) < last_index:
                 diagnostics.error(
-                    child, f"<{tag}> comes after <{shown}>; the original expects it before"
+                    child, f"<{tag}> comes after <{last_tag}>; the original expects it before"
                 )
             else:
-                last, shown = order.index(tag), tag
-        for tag in REQUIRED.get(str(node.tag), ()):
-            if tag not in present:
+                last_index, last_tag = order.index(tag), tag
+        for tag in REQUIRED_CHILDREN.get(str(node.tag), ()):
+            if tag not in present_tags:
                 diagnostics.error(node, f"<{node.tag}> lacks <{tag}>; the original requires it")

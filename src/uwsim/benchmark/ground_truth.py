@@ -1,4 +1,4 @@
-r"""Ground truth: what an estimate is compared with, evaluated in the live scene.
+r"""Ground truth: the reference for an estimate, evaluated in the live scene.
 
 .. code-block:: xml
 
@@ -17,12 +17,12 @@ r"""Ground truth: what an estimate is compared with, evaluated in the live scene
       <publishOn>autoInit</publishOn>
     </groundTruth>
 
-A truth that comes on a topic (std_msgs/Float32MultiArray) is hidden from the algorithm under test:
-it can neither read nor publish there. `uwsim.benchmark.updaters.bag_fog_updater` publishes that of
+A truth on a topic (std_msgs/Float32MultiArray) is hidden from the algorithm under test, which can
+neither read nor publish it. `uwsim.benchmark.updaters.bag_fog_updater` publishes the truth of
 recorded images, from a CSV file.
 
 Image coordinates are in pixels from the centre of the first pixel, top left, v down, as in ROS and
-OpenCV (`uwsim.base.geometry.Intrinsics`); constants are compared as they are.
+OpenCV (`uwsim.base.geometry.Intrinsics`); constants have the coordinates of the estimate.
 """
 
 from __future__ import annotations
@@ -40,9 +40,9 @@ from ..base.numerics.linear import product, rotate_back, transform_points
 from ..messages import Float32MultiArray
 from ..schema import Spec, element
 from ..world import Body, Box, Camera, World
-from .metrics.min_area_rectangle import like_rectangle, rectangle
+from .metrics.min_area_rectangle import match_corners, min_area_rectangle
 
-BEHIND = "the target is behind the camera"
+TARGET_BEHIND_CAMERA = "the target is behind the camera"
 CORNERS = ("nw_x", "nw_y", "ne_x", "ne_y", "se_x", "se_y", "sw_x", "sw_y")
 
 
@@ -50,31 +50,31 @@ class GroundTruthSpec(Spec, abc.ABC):
     """A ``<groundTruth>`` element."""
 
     unit: ClassVar[str]
-    """Unit of its numbers."""
+    """The unit of the components."""
     camera: str | None = None
-    """Name of the virtual camera; None when there is none."""
+    """The name of the virtual camera; None when there is none."""
     publish_on: str | None = None
-    """Service called with the truth when the measure starts; None: no call."""
+    """The service called with the truth when the measure starts; None: no call."""
 
     @abc.abstractmethod
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
-        """Find what it looks at; raises UnknownName if that is not there."""
+        """Resolve the names of the truth; raises UnknownName if one is unknown."""
 
 
 class GroundTruth(abc.ABC):
-    """A vector of numbers that is true now."""
+    """A vector of numbers, the present truth."""
 
     components: tuple[str, ...]
-    """The names of its numbers."""
+    """The names of the numbers."""
 
     @property
-    def missing(self) -> str:
-        """Why there may be none now."""
+    def absence_reason(self) -> str:
+        """The reason why there may be no truth now."""
         return ""
 
     @property
     def n_images(self) -> int | None:
-        """Images that its camera took so far; None where no camera takes images of it."""
+        """The number of images of its camera so far; None if no camera takes images of it."""
         return None
 
     def close(self) -> None:  # noqa: B027 - most truths hold nothing
@@ -82,7 +82,7 @@ class GroundTruth(abc.ABC):
 
     @abc.abstractmethod
     def read(self) -> Array | None:
-        """Return the truth now (k,); None where there is none (the target is behind the camera)."""
+        """Return the present truth (k,); None if there is none (a target behind the camera)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -95,12 +95,12 @@ class ConstantSpec(GroundTruthSpec):
     """The numbers."""
 
     def bind(self, world: World, truth: str = "original") -> Constant:
-        """Needs nothing of the world."""
+        """Return the truth, which needs nothing of the world."""
         return Constant(self.values)
 
 
 class Constant(GroundTruth):
-    """Numbers given by the file, named 1, 2, ..."""
+    """The numbers of the file, named 1, 2, ..."""
 
     def __init__(self, values: tuple[float, ...]) -> None:
         self._values = np.array(values, dtype=np.float64)
@@ -118,19 +118,19 @@ class CornersFromCameraSpec(GroundTruthSpec):
     unit: ClassVar[str] = "px"
 
     camera: str = element(refers_to="camera")
-    """Name of the virtual camera."""
+    """The name of the virtual camera."""
     target: str = element(refers_to="body")
-    """Route of the body with the corners."""
+    """The route of the body with the corners."""
     publish_on: str | None = element(default=None)
-    """Service called with the corners when the measure starts; None: no call."""
+    """The service called with the corners when the measure starts; None: no call."""
 
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
-        """Find camera and target; raises UnknownName if one is not there."""
+        """Resolve camera and target; raises UnknownName if one is unknown."""
         camera, body = world.camera(self.camera), world.body(self.target)
-        unseen = "unseen" in world.compatibility
+        includes_behind = "unseen" in world.compatibility
         if truth == "face":
-            return FaceCorners(camera, body, unseen=unseen)
-        return CornersFromCamera(camera, body, unseen=unseen)
+            return FaceCorners(camera, body, includes_behind=includes_behind)
+        return CornersFromCamera(camera, body, includes_behind=includes_behind)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -140,19 +140,19 @@ class CentroidFromCameraSpec(GroundTruthSpec):
     unit: ClassVar[str] = "px"
 
     camera: str = element(refers_to="camera")
-    """Name of the virtual camera."""
+    """The name of the virtual camera."""
     target: str = element(refers_to="body")
-    """Route of the body whose origin is used."""
+    """The route of the body whose origin is used."""
     publish_on: str | None = element(default=None)
-    """Service called with the centroid when the measure starts; None: no call."""
+    """The service called with the centroid when the measure starts; None: no call."""
 
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
-        """Find camera and target; raises UnknownName if one is not there."""
+        """Resolve camera and target; raises UnknownName if one is unknown."""
         camera, body = world.camera(self.camera), world.body(self.target)
-        unseen = "unseen" in world.compatibility
+        includes_behind = "unseen" in world.compatibility
         if truth == "face":
-            return FaceCentre(camera, body, unseen=unseen)
-        return CentroidFromCamera(camera, body, unseen=unseen)
+            return FaceCentre(camera, body, includes_behind=includes_behind)
+        return CentroidFromCamera(camera, body, includes_behind=includes_behind)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,12 +162,12 @@ class RelativeLocationSpec(GroundTruthSpec):
     unit: ClassVar[str] = "m"
 
     from_: str = element("from", refers_to="body")
-    """Route of the body in whose frame the location is given (``<from>``)."""
+    """The route of the body in whose frame the location is given (``<from>``)."""
     to: str = element(refers_to="body")
-    """Route of the body whose origin is used."""
+    """The route of the body whose origin is used."""
 
     def bind(self, world: World, truth: str = "original") -> RelativeLocation:
-        """Find both bodies; raises UnknownName if one is not there."""
+        """Resolve both bodies; raises UnknownName if one is unknown."""
         return RelativeLocation(world.body(self.from_), world.body(self.to))
 
 
@@ -176,170 +176,178 @@ class RelativeLocation(GroundTruth):
 
     components = ("x", "y", "z")
 
-    def __init__(self, from_: Body, to: Body) -> None:
-        self._from, self._to = from_, to
+    def __init__(self, reference_body: Body, target: Body) -> None:
+        self._reference_body, self._target = reference_body, target
 
     def read(self) -> Array:
-        """Return the location now, (3,) [m]."""
-        frame = self._from.world_from_body
-        return rotate_back(frame.rotation, self._to.world_from_body.position - frame.position)
+        """Return the present location, (3,) [m]."""
+        frame = self._reference_body.world_from_body
+        return rotate_back(frame.rotation, self._target.world_from_body.position - frame.position)
 
 
-class _Seen(GroundTruth):
-    """Points of a body as a camera sees them; computed again only when one of the two moved.
+class ProjectedTruth(GroundTruth):
+    """The projected points of a body, computed again only after camera or body has moved.
 
-    Compatibility ``unseen``: what is behind the camera is seen through its centre, upside down.
+    Compatibility ``unseen``: points behind the camera are projected through its centre, upside
+    down.
     """
 
     @property
-    def missing(self) -> str:
-        """That the target is behind the camera."""
-        return BEHIND
+    def absence_reason(self) -> str:
+        """The reason why there may be no truth: the target is behind the camera."""
+        return TARGET_BEHIND_CAMERA
 
-    def __init__(self, camera: Camera, body: Body, points: Array, *, unseen: bool) -> None:
-        self._camera, self._body, self._unseen = camera, body, unseen
+    def __init__(self, camera: Camera, body: Body, points: Array, *, includes_behind: bool) -> None:
+        self._camera, self._body, self._includes_behind = camera, body, includes_behind
         self._points = points  # (n, 3) [m], body frame
-        self._seen_from: tuple[bytes, ...] = ()
-        self._seen: Array | None = None
+        self._last_poses: tuple[bytes, ...] = ()
+        self._last_truth: Array | None = None
 
     @property
     def n_images(self) -> int | None:
-        """Images that its camera took so far; None where it takes none."""
+        """The number of images of its camera so far; None if it takes none."""
         return self._camera.n_images
 
     def read(self) -> Array | None:
-        """Return the truth now [px]; None when a point is not in front of the camera."""
+        """Return the present truth [px]; None if a point is not in front of the camera."""
         camera, body = self._camera.world_from_camera, self._body.world_from_body
-        key = (
+        poses = (
             camera.position.tobytes(),
             camera.rotation.tobytes(),
             body.position.tobytes(),
             body.rotation.tobytes(),
         )
-        if key != self._seen_from:
+        if poses != self._last_poses:
             points = transform_points(self._points, body.rotation, body.position - camera.position)
-            seen = product(points, camera.rotation)  # (n, 3) [m], camera frame
+            camera_points = product(points, camera.rotation)  # (n, 3) [m], camera frame
             pixels = self._camera.intrinsics.project(
-                seen, includes_behind=self._unseen
+                camera_points, includes_behind=self._includes_behind
             )  # (n, 2) [px]
-            is_seen = all(map(math.isfinite, pixels.ravel().tolist()))
-            self._seen = self._from_pixels(pixels) if is_seen else None
-            self._seen_from = key
-        return self._seen
+            is_visible = all(map(math.isfinite, pixels.ravel().tolist()))
+            self._last_truth = self._from_pixels(pixels) if is_visible else None
+            self._last_poses = poses
+        return self._last_truth
 
     @abc.abstractmethod
     def _from_pixels(self, pixels: Array) -> Array:
-        """Make the truth of the projected points (n, 2) [px]."""
+        """Return the truth of the projected points (n, 2) [px]."""
 
 
-class CornersFromCamera(_Seen):
+class CornersFromCamera(ProjectedTruth):
     r"""The original's corners: those of the smallest rectangle round the projected bounding box.
 
-    The eight corners of the body's local bounding box are projected; of their convex hull the
-    rectangle of smallest area is taken (`uwsim.benchmark.metrics.min_area_rectangle`); x, y of NW,
-    NE, SE, SW. It is *not* where the corners of a face are: the box has depth, and perspective
-    makes its near face larger; ``u:truth="face"`` gives those.
+    The eight corners of the body's local bounding box are projected; the truth is the rectangle of
+    smallest area round their convex hull (`uwsim.benchmark.metrics.min_area_rectangle`): x, y of
+    NW, NE, SE, SW. These are *not* the corners of a face: the box has depth, and perspective makes
+    its near face larger; ``u:truth="face"`` gives the corners of a face.
     """
 
     components = CORNERS
 
-    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
-        super().__init__(camera, body, box_of(body).corners(), unseen=unseen)
+    def __init__(self, camera: Camera, body: Body, *, includes_behind: bool = False) -> None:
+        super().__init__(
+            camera, body, bounding_box(body).corners(), includes_behind=includes_behind
+        )
 
     def _from_pixels(self, pixels: Array) -> Array:
-        return rectangle(pixels).reshape(8)
+        return min_area_rectangle(pixels).reshape(8)
 
 
 class CentroidFromCamera(GroundTruth):
     """The original's centroid: the projected *origin* of the body, not the centre of its box.
 
-    Compatibility ``unseen``: as in `_Seen`.
+    Compatibility ``unseen``: as in `ProjectedTruth`.
     """
 
     components = ("x", "y")
 
     @property
-    def missing(self) -> str:
-        """That the target is behind the camera."""
-        return BEHIND
+    def absence_reason(self) -> str:
+        """The reason why there may be no truth: the target is behind the camera."""
+        return TARGET_BEHIND_CAMERA
 
-    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
-        self._camera, self._body, self._unseen = camera, body, unseen
+    def __init__(self, camera: Camera, body: Body, *, includes_behind: bool = False) -> None:
+        self._camera, self._body, self._includes_behind = camera, body, includes_behind
 
     @property
     def n_images(self) -> int | None:
-        """Images that its camera took so far; None where it takes none."""
+        """The number of images of its camera so far; None if it takes none."""
         return self._camera.n_images
 
     def read(self) -> Array | None:
-        """Return the centroid now, (2,) [px]; None when it is not in front of the camera."""
+        """Return the present centroid, (2,) [px]; None if it is not in front of the camera."""
         pixel = self.pixel()
         return None if pixel is None else np.array(pixel)
 
     def pixel(self) -> tuple[float, float] | None:
-        """As `read`, in plain numbers, because it is called at every step."""
+        """Return the centroid as plain numbers, for calls at every step."""
         camera = self._camera.world_from_camera
-        way = self._body.world_from_body.position - camera.position  # (3,) [m]
-        x, y, z = rotate_back(camera.rotation, way).tolist()
-        u, v = self._camera.intrinsics.pixel(x, y, z, includes_behind=self._unseen)
+        world_offset = self._body.world_from_body.position - camera.position  # (3,) [m]
+        x, y, z = rotate_back(camera.rotation, world_offset).tolist()
+        u, v = self._camera.intrinsics.pixel(x, y, z, includes_behind=self._includes_behind)
         return (u, v) if math.isfinite(u) and math.isfinite(v) else None
 
 
-class FaceCorners(_Seen):
+class FaceCorners(ProjectedTruth):
     """The projected corners of the body's top face.
 
     The top face is that of the local bounding box whose outward normal points most upwards in W
-    at the moment of binding (first of +z, -z, +y, -y, +x, -x where they tie); it stays the same
-    face however the body turns. Its corners are called NW, NE, SE, SW so that they lie nearest
-    to those of `CornersFromCamera` the first time they are seen; each keeps its name after that.
+    at the moment of binding (first of +z, -z, +y, -y, +x, -x of equal ones); it stays the same
+    face however the body turns. Its corners are named NW, NE, SE, SW so that they are nearest to
+    those of `CornersFromCamera` when first visible; each keeps its name after that.
     """
 
     components = CORNERS
 
-    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
-        super().__init__(camera, body, top_face(body), unseen=unseen)
-        self._box = CornersFromCamera(camera, body, unseen=unseen)
+    def __init__(self, camera: Camera, body: Body, *, includes_behind: bool = False) -> None:
+        super().__init__(camera, body, top_face(body), includes_behind=includes_behind)
+        self._box = CornersFromCamera(camera, body, includes_behind=includes_behind)
         self._order: list[int] | None = None
 
     def _from_pixels(self, pixels: Array) -> Array:
         if self._order is None:
-            around = self._box.read()
-            if around is None:
-                return like_rectangle(pixels, rectangle(pixels))[1].reshape(8)
-            self._order, _ = like_rectangle(pixels, around.reshape(4, 2))
-        ordered: Array = pixels[self._order].reshape(8)
-        return ordered
+            rectangle_corners = self._box.read()
+            if rectangle_corners is None:
+                return match_corners(pixels, min_area_rectangle(pixels))[1].reshape(8)
+            self._order, _ = match_corners(pixels, rectangle_corners.reshape(4, 2))
+        corners: Array = pixels[self._order].reshape(8)
+        return corners
 
 
-class FaceCentre(_Seen):
+class FaceCentre(ProjectedTruth):
     """The projected centre of the body's top face (see `FaceCorners`)."""
 
     components = ("x", "y")
 
-    def __init__(self, camera: Camera, body: Body, *, unseen: bool = False) -> None:
-        super().__init__(camera, body, top_face(body).mean(axis=0, keepdims=True), unseen=unseen)
+    def __init__(self, camera: Camera, body: Body, *, includes_behind: bool = False) -> None:
+        super().__init__(
+            camera,
+            body,
+            top_face(body).mean(axis=0, keepdims=True),
+            includes_behind=includes_behind,
+        )
 
     def _from_pixels(self, pixels: Array) -> Array:
         pixel: Array = pixels[0]
         return pixel
 
 
-def box_of(body: Body) -> Box:
+def bounding_box(body: Body) -> Box:
     """Return the local bounding box of a body; a point at its origin if it has no meshes."""
     return body.box or Box((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 def top_face(body: Body) -> Array:
-    """Return the corners of the face that points upwards, once around, body frame (4, 3) [m]."""
+    """Return the corners of the face that points upwards, in cyclic order, body axes (4, 3) [m]."""
     up = body.world_from_body.rotation[2]  # z of W in the body frame, (3,)
     axis = max((2, 1, 0), key=lambda i: (round(abs(float(up[i])), 9), i))
-    box = box_of(body)
+    box = bounding_box(body)
     low, high = np.array(box.lower), np.array(box.upper)
-    first, second = (axis + 1) % 3, (axis + 2) % 3
+    axis_u, axis_v = (axis + 1) % 3, (axis + 2) % 3
     corners = np.empty((4, 3))  # [m]
     corners[:, axis] = high[axis] if up[axis] >= 0.0 else low[axis]
-    corners[:, first] = [low[first], high[first], high[first], low[first]]
-    corners[:, second] = [low[second], low[second], high[second], high[second]]
+    corners[:, axis_u] = [low[axis_u], high[axis_u], high[axis_u], low[axis_u]]
+    corners[:, axis_v] = [low[axis_v], low[axis_v], high[axis_v], high[axis_v]]
     return corners
 
 
@@ -348,58 +356,58 @@ class TopicTruthSpec(GroundTruthSpec):
     """A ``<groundTruth type="topic">`` element; an extension."""
 
     topic: str
-    """Topic of the truth (std_msgs/Float32MultiArray); an empty message means that there is
+    """The topic of the truth (std_msgs/Float32MultiArray); an empty message means that there is
     none."""
     components: str
-    """Names of its numbers, separated by blanks: ``x y``."""
+    """The names of its numbers, separated by blanks: ``x y``."""
     unit: str = element(default="1")  # type: ignore[misc]  # of others it follows from the type
-    """Unit of its numbers."""
+    """The unit of its numbers."""
     publish_on: str | None = element(default=None)
-    """Service called with the truth when the measure starts; None: no call."""
+    """The service called with the truth when the measure starts; None: no call."""
 
     def bind(self, world: World, truth: str = "original") -> TopicTruth:
-        """Listen to the topic, and hide it from the algorithm."""
+        """Subscribe to the topic, and hide it from the algorithm."""
         world.bus.withhold(self.topic)
         inbox = world.bus.inbox(self.topic, Float32MultiArray, latched=True)
         return TopicTruth(self.topic, tuple(self.components.split()), inbox)
 
 
 class TopicTruth(GroundTruth):
-    """The newest message of a topic; a sample is taken whenever one arrives."""
+    """The newest message of a topic; each message is a sample."""
 
     def __init__(
         self, topic: str, components: tuple[str, ...], inbox: Inbox[Float32MultiArray]
     ) -> None:
-        self._topic, self._inbox, self._n = topic, inbox, 0
+        self._topic, self._inbox, self._n_messages = topic, inbox, 0
         self.components = components
 
     @property
-    def missing(self) -> str:
-        """What came instead, if anything."""
-        last, n = self._inbox.last_message, len(self.components)
-        if last is None:
+    def absence_reason(self) -> str:
+        """The reason why there is no truth: no message, or an invalid one."""
+        message, n = self._inbox.last_message, len(self.components)
+        if message is None:
             return f"nothing was published on {self._topic!r}"
-        if not last.data.size:
+        if not message.data.size:
             return f"{self._topic!r} has none for this image"
-        if last.data.size != n:
-            return f"the truth on {self._topic!r} has {last.data.size} numbers, expected {n}"
+        if message.data.size != n:
+            return f"the truth on {self._topic!r} has {message.data.size} numbers, expected {n}"
         return f"the truth on {self._topic!r} is not finite"
 
     @property
     def n_images(self) -> int:
-        """Messages that arrived so far: each belongs to an image."""
-        self._n += len(self._inbox.take())
-        return self._n
+        """The number of messages so far; each belongs to an image."""
+        self._n_messages += len(self._inbox.take())
+        return self._n_messages
 
     def read(self) -> Array | None:
-        """Return the newest truth, (k,); None before the first, and where there is none."""
-        last = self._inbox.last_message
-        numbers = np.zeros(0) if last is None else np.asarray(last.data, dtype=np.float64)
-        is_whole = numbers.shape == (len(self.components),) and bool(np.isfinite(numbers).all())
-        return numbers if is_whole else None
+        """Return the newest truth, (k,); None before the first, and if there is none."""
+        message = self._inbox.last_message
+        numbers = np.zeros(0) if message is None else np.asarray(message.data, dtype=np.float64)
+        is_valid = numbers.shape == (len(self.components),) and bool(np.isfinite(numbers).all())
+        return numbers if is_valid else None
 
     def close(self) -> None:
-        """Stop listening."""
+        """Unsubscribe."""
         self._inbox.close()
 
 
@@ -410,4 +418,4 @@ GROUND_TRUTHS: dict[str, type[GroundTruthSpec]] = {
     "relativeLocation": RelativeLocationSpec,
     "topic": TopicTruthSpec,
 }
-"""Type -> spec. In alphabetical order."""
+"""The spec of each type, in alphabetical order."""

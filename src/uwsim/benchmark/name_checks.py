@@ -1,4 +1,4 @@
-"""Checks of the names of measures, and of the function that is made of them."""
+"""Checks of the names of measures, and of the function of these."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .measures import MeasureSpec
 from .spec import FunctionSpec
 from .updaters import SceneUpdaterSpec, swept_parameters
 
-RESERVED = ("repeat", "seed", "total", "status", "ended_at")
-"""Columns of a result that no measure may be called by."""
+RESERVED_NAMES = ("repeat", "seed", "total", "status", "ended_at")
+"""The columns of a result whose names no measure may have."""
 MAX_NAME_LENGTH = 100
-"""So many letters a measure may be called by."""
+"""The greatest number of letters of a measure's name."""
 
 
 def check_names(
@@ -23,7 +23,7 @@ def check_names(
 ) -> None:
     """Check that the names of measures are identifiers and unique."""
     columns = () if updater is None else swept_parameters(updater)
-    seen: dict[str, MeasureSpec] = {}
+    named_specs: dict[str, MeasureSpec] = {}
     for spec in measures:
         name = spec.name[:60]
         if not (spec.name.isascii() and spec.name.isidentifier()):
@@ -38,18 +38,18 @@ def check_names(
                 f"the name {name!r}... has {len(spec.name)} letters; at most "
                 f"{MAX_NAME_LENGTH}, for files are called after it",
             )
-        elif spec.name in seen:
-            first = line_of(seen[spec.name])
-            line = "" if first is None else f" (line {first})"
+        elif spec.name in named_specs:
+            first_line = line_of(named_specs[spec.name])
+            line = "" if first_line is None else f" (line {first_line})"
             diagnostics.error(spec, f"another measure{line} is called {name!r}")
-        elif spec.name in RESERVED or spec.name in columns:
+        elif spec.name in RESERVED_NAMES or spec.name in columns:
             diagnostics.error(spec, f"{name!r} is another column of the result; call it otherwise")
         elif spec.name in expression.CONSTANTS or spec.name in expression.FUNCTIONS:
             kind = "constant" if spec.name in expression.CONSTANTS else "function"
             diagnostics.error(
                 spec, f"{name!r} is a {kind} of the language of scores; call it otherwise"
             )
-        seen.setdefault(spec.name, spec)
+        named_specs.setdefault(spec.name, spec)
 
 
 def check_function(

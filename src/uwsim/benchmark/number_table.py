@@ -1,4 +1,4 @@
-"""Tables of numbers in CSV files that a benchmark names: a line of names, then lines of numbers."""
+"""Tables of numbers in CSV files of a benchmark: a line of names, then lines of numbers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..base.geometry import Array
 from ..errors import AssetError, AssetNotFound, did_you_mean
 
 MAX_BYTES = 64 * 2**20
-"""The greatest size of a file."""
+"""The greatest size of a file [byte]."""
 MAX_COLUMNS = 100
 """The greatest number of columns."""
 
@@ -27,26 +27,26 @@ class NumberTable:
     """The numbers of a file."""
 
     name: str
-    """What the benchmark calls the file."""
+    """The name of the file in the benchmark."""
     header: tuple[str, ...]
-    """Names of the columns, without units."""
+    """The names of the columns, without units."""
     units: tuple[str, ...]
-    """Units of the columns, as ``m`` of ``x [m]``; empty where the file names none."""
+    """The units of the columns, as ``m`` of ``x [m]``; empty if the file has none."""
     rows: Array
-    """The numbers, (n, columns); NaN in empty cells and for what is no finite number."""
-    wrong: Mapping[int, str]
-    """Number of a column -> where its first cell is that is no finite number, and what it holds."""
+    """The numbers, (n, columns); NaN in empty cells and for everything but finite numbers."""
+    invalid_cells: Mapping[int, str]
+    """The position and text of the first invalid cell, by the index of its column."""
 
     def columns(self, names: Sequence[str], unit: str = "") -> Array:
         """Return some columns, (n, len(names)).
 
         Args:
-            names: of the columns.
-            unit: the one that they have to be in; empty: any.
+            names: the names of the columns.
+            unit: their required unit; empty: any.
 
         Raises:
-            AssetError: one is missing, in another unit, or has something other than finite numbers
-                and empty cells.
+            AssetError: one is missing, in another unit, or has cells that are neither finite
+                numbers nor empty.
         """
         for name in names:
             if name not in self.header:
@@ -55,29 +55,29 @@ class NumberTable:
                     f"{self.name}: has no column {name!r}; it has {', '.join(self.header)}.{near}",
                     name=self.name,
                 )
-        chosen = [self.header.index(name) for name in names]
-        for index in chosen:
+        indices = [self.header.index(name) for name in names]
+        for index in indices:
             if unit and self.units[index] not in ("", unit):
                 raise AssetError(
                     f"{self.name}: the column {self.header[index]!r} is in "
                     f"{self.units[index][:20]!r}; expected [{unit}].",
                     name=self.name,
                 )
-            if index in self.wrong:
-                raise AssetError(self.wrong[index], name=self.name)
-        return self.rows[:, chosen]
+            if index in self.invalid_cells:
+                raise AssetError(self.invalid_cells[index], name=self.name)
+        return self.rows[:, indices]
 
 
 def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
     """Read a table; its hash becomes an input of the result.
 
     Args:
-        name: of the file, relative to the folder of the file that names it.
+        name: the name of the file, relative to the folder of the benchmark.
         named_by: the benchmark file.
         at_most: the greatest number of lines.
 
     Raises:
-        AssetNotFound: it is not in the folder of the benchmark.
+        AssetNotFound: the file is not in the folder of the benchmark.
         AssetError: it is no table of numbers, or is too large.
     """
     folder = Path(named_by).parent if named_by else Path()
@@ -93,7 +93,7 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
         if not header or len(header) > MAX_COLUMNS or len(set(header)) < len(header):
             raise AssetError(f"{name}:1: expected a line of different names.", name=name)
         rows: list[list[float]] = []
-        wrong: dict[int, str] = {}
+        invalid_cells: dict[int, str] = {}
         for number, line in enumerate(lines, start=2):
             if not line:
                 continue
@@ -107,15 +107,17 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
             for index in (i for i, value in enumerate(rows[-1]) if math.isinf(value)):
                 rows[-1][index] = math.nan
                 cell = f"{line[index][:40]!r} is no finite number"
-                wrong.setdefault(index, f"{name}:{number}: {cell} (column {header[index]}).")
+                invalid_cells.setdefault(
+                    index, f"{name}:{number}: {cell} (column {header[index]})."
+                )
     except csv.Error as error:
         raise AssetError(f"{name}: is no CSV file: {error}.", name=name) from None
     numbers = np.array(rows, dtype=np.float64).reshape(-1, len(header))
-    return NumberTable(name, tuple(header), units, numbers, wrong)
+    return NumberTable(name, tuple(header), units, numbers, invalid_cells)
 
 
 def _number(cell: str) -> float:
-    """Return the number of a cell; NaN for an empty one, infinite for what is none."""
+    """Return the number of a cell; NaN for an empty one, infinite for an invalid one."""
     try:
         return float(cell) if cell.strip() else math.nan
     except ValueError:

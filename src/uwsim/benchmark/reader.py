@@ -40,7 +40,7 @@ from ..schema import (
     read_text,
 )
 from ..world import TIMESTEP
-from .element_names import name_of, place_of
+from .element_names import element_name, error_node
 from .element_order import check_order
 from .ground_truth import GROUND_TRUTHS, ConstantSpec, GroundTruthSpec
 from .measures import MEASURES, MeasureSpec, PathFollowingSpec
@@ -181,7 +181,7 @@ class _Reader:
         if box.find("*") is None:
             self.diagnostics.warning(box, "<measures> is empty: nothing is measured")
         for node in self.children(box):
-            cls = self.measures.get(name_of(node))
+            cls = self.measures.get(element_name(node))
             if cls is None:
                 self.unknown(node, box, self.measures)
             elif (spec := self.measure(cls, node)) is not None:
@@ -199,10 +199,11 @@ class _Reader:
         if spec.value not in cls.values:
             self.diagnostics.error(
                 node,
-                f"u:value is {spec.value!r}; the value of <{name_of(node)}> is always its last",
+                f"u:value is {spec.value!r}; "
+                f"the value of <{element_name(node)}> is always its last",
             )
         for message in spec.errors():
-            self.diagnostics.error(place_of(node, message), message)
+            self.diagnostics.error(error_node(node, message), message)
         return spec
 
     def by_hand(self, cls: type, node: etree._Element) -> dict[str, Any]:
@@ -256,7 +257,7 @@ class _Reader:
         """Read ``<groundTruth>``, by its type."""
         placeholder = ConstantSpec(values=())
         kind = str(node.attrib.pop("type", "")).strip()
-        if not kind and {name_of(child) for child in self.children(node)} == {"value"}:
+        if not kind and {element_name(child) for child in self.children(node)} == {"value"}:
             kind = "constant"
             self.diagnostics.warning(
                 node, "<groundTruth> without a type, as in 2013: read as constant"
@@ -281,20 +282,20 @@ class _Reader:
         for extra in nodes[1:]:
             self.diagnostics.error(
                 extra,
-                f"<{name_of(extra)}> is a sibling of <{name_of(nodes[0])}> in <sceneUpdater>; "
-                "only one may: nest it in a <sceneUpdater> of its own",
+                f"<{element_name(extra)}> is a sibling of <{element_name(nodes[0])}> in "
+                "<sceneUpdater>; only one may: nest it in a <sceneUpdater> of its own",
             )
         if not nodes:
             return None
         node = nodes[0]
-        cls = self.updaters.get(name_of(node))
+        cls = self.updaters.get(element_name(node))
         if cls is None:
             self.unknown(node, box, self.updaters)
             return None
         spec = read(cls, node, self.diagnostics, known_fields=self.by_hand(cls, node))
         wrong = [] if spec is None else list(spec.errors())
         for message in wrong:
-            self.diagnostics.error(place_of(node, message), message)
+            self.diagnostics.error(error_node(node, message), message)
         return None if wrong else spec
 
     def compatibility(self, root: etree._Element) -> tuple[str, ...]:
@@ -317,7 +318,7 @@ class _Reader:
         return list(box.iterchildren("*"))
 
     def unknown(self, node: etree._Element, box: etree._Element, known: Mapping[str, T]) -> None:
-        name = name_of(node)
+        name = element_name(node)
         message = (
             f"{format_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
         )

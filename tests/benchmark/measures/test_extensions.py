@@ -114,7 +114,7 @@ def test_a_control_that_cannot_be_is_refused_with_its_line(
         ("<target>girona50</target>",
          "2: No vehicle is called 'girona50'. Did you mean 'girona500'?"),
         ("<target>blackbox</target>", "2: No vehicle is called 'blackbox'"),
-        ("", "2: <u:energy> lacks <target>: name of the vehicle"),
+        ("", "2: <u:energy> lacks <target>: the name of the vehicle"),
         ("<target>girona500</target> <hotelLoad>-1</hotelLoad>",
          "2: <hotelLoad> is '-1'; expected a number >= 0 [W]"),
         ("<target>girona500</target> <battery>0</battery>",

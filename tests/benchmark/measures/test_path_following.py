@@ -178,7 +178,7 @@ def test_the_original_adds_the_place_of_the_frame_to_the_path(
     world = FakeWorld({"v": body, "f": frame}, compatibility=frozenset({"path-frame"}))
     measure = following(world, from_="f")
     moved = Polyline(np.array(STRAIGHT) + np.array(place))
-    expected, _ = moved.nearest(0, np.array([2.0, 1.0, 0.0]))
+    expected, _ = moved.find_nearest(0, np.array([2.0, 1.0, 0.0]))
     assert measure.details["distance"] == pytest.approx(expected, abs=EXACT)
     assert (abs(expected - 1.0) > 1e-6) is quirk
 

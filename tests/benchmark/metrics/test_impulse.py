@@ -17,14 +17,14 @@ def test_a_hit_has_its_whole_impulse_whatever_the_step() -> None:
             impulse.add(150.0 * UP)
         for _ in range(100):
             impulse.add(None)
-        assert impulse.largest == pytest.approx(3.0)
+        assert impulse.peak == pytest.approx(3.0)
 
 
 def test_a_lasting_force_counts_for_the_window_only() -> None:
     impulse = Impulse(0.002)
     for _ in range(5000):
         impulse.add(52.0 * UP)
-    assert impulse.largest == pytest.approx(2.6)
+    assert impulse.peak == pytest.approx(2.6)
 
 
 def test_two_hits_that_are_far_apart_do_not_add() -> None:
@@ -36,10 +36,10 @@ def test_two_hits_that_are_far_apart_do_not_add() -> None:
         impulse.add(1000.0 * UP)
         for _ in range(100):
             impulse.add(None)
-    assert impulse.largest == pytest.approx(4.0)  # the first two, 22 ms apart
+    assert impulse.peak == pytest.approx(4.0)  # the first two, 22 ms apart
 
 
 def test_opposite_forces_cancel() -> None:
     impulse = Impulse(0.002)
     impulse.add(UP - UP)
-    assert impulse.largest == 0.0
+    assert impulse.peak == 0.0

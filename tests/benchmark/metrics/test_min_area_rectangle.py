@@ -8,7 +8,11 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from uwsim.benchmark.metrics.min_area_rectangle import convex_hull, like_rectangle, rectangle
+from uwsim.benchmark.metrics.min_area_rectangle import (
+    convex_hull,
+    match_corners,
+    min_area_rectangle,
+)
 
 clouds = arrays.arrays(np.float64, (8, 2), elements=st.integers(0, 300).map(float))
 
@@ -19,12 +23,12 @@ def area(corners: np.ndarray) -> float:
 
 def test_an_upright_rectangle_is_named_from_the_top_left_clockwise() -> None:
     points = np.array([[30.0, 40.0], [10.0, 20.0], [30.0, 20.0], [10.0, 40.0], [20.0, 30.0]])
-    assert rectangle(points).tolist() == [[10, 20], [30, 20], [30, 40], [10, 40]]
+    assert min_area_rectangle(points).tolist() == [[10, 20], [30, 20], [30, 40], [10, 40]]
 
 
 @given(clouds)
 def test_no_angle_gives_a_smaller_rectangle_and_all_points_lie_inside(points: np.ndarray) -> None:
-    corners = rectangle(points)
+    corners = min_area_rectangle(points)
     for degrees in range(0, 90):
         cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
         turned = points @ np.array([[cos, -sin], [sin, cos]])
@@ -40,7 +44,7 @@ def test_no_angle_gives_a_smaller_rectangle_and_all_points_lie_inside(points: np
 
 @given(clouds)
 def test_nw_lies_up_and_left_whatever_the_angle(points: np.ndarray) -> None:
-    nw, ne, se, sw = rectangle(points)
+    nw, ne, se, sw = min_area_rectangle(points)
     assert ne[0] - nw[0] >= abs(ne[1] - nw[1]) - 1e-6  # the top side leans by 45 degrees at most
     assert se[1] - ne[1] >= abs(se[0] - ne[0]) - 1e-6
     assert nw + se == pytest.approx(ne + sw, abs=1e-6)
@@ -48,7 +52,7 @@ def test_nw_lies_up_and_left_whatever_the_angle(points: np.ndarray) -> None:
 
 @given(clouds, st.permutations(range(8)))
 def test_the_order_of_the_points_does_not_matter(points: np.ndarray, order: list[int]) -> None:
-    assert rectangle(points[order]).tolist() == rectangle(points).tolist()
+    assert min_area_rectangle(points[order]).tolist() == min_area_rectangle(points).tolist()
 
 
 def test_where_two_rectangles_tie_the_upright_one_is_taken() -> None:
@@ -58,14 +62,14 @@ def test_where_two_rectangles_tie_the_upright_one_is_taken() -> None:
     )
     diamond = np.array([[10, 0], [20, 10], [10, 20], [0, 10.0]])
     upright = far * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    assert rectangle(octagon) == pytest.approx(upright)
-    tilted = rectangle(diamond)
+    assert min_area_rectangle(octagon) == pytest.approx(upright)
+    tilted = min_area_rectangle(diamond)
     assert tilted == pytest.approx(np.array([[0, 10], [10, 0], [20, 10], [10, 20.0]]))
 
 
 @pytest.mark.parametrize("points", [[[5.0, 6.0]] * 3, [[0.0, 0.0], [4.0, 0.0], [2.0, 0.0]]])
 def test_points_without_area_have_a_rectangle_too(points: list[list[float]]) -> None:
-    corners = rectangle(np.array(points))
+    corners = min_area_rectangle(np.array(points))
     assert area(corners) == 0.0
     assert corners[:, 0].min() == min(x for x, _ in points)
     assert corners[:, 0].max() == max(x for x, _ in points)
@@ -81,6 +85,6 @@ def test_corners_once_around_are_ordered_like_named_ones(start: int, backwards: 
     named = np.array([[0.0, 0.0], [9.0, 1.0], [9.0, 4.0], [0.0, 5.0]])
     shift = np.array([100.0, 50.0])
     around = np.roll(named[::-1] if backwards else named, start, axis=0) + shift
-    order, ordered = like_rectangle(around, named)
+    order, ordered = match_corners(around, named)
     assert ordered.tolist() == (named + shift).tolist()
     assert around[order].tolist() == ordered.tolist()

@@ -19,7 +19,7 @@ def test_no_place_on_a_segment_is_nearer_than_the_nearest(
 ) -> None:
     line = Polyline(np.array(points))
     segment = which % line.n_segments
-    distance, along = line.nearest(segment, np.array(point))
+    distance, along = line.find_nearest(segment, np.array(point))
     first, second = np.array(points[segment]), np.array(points[segment + 1])
     on_it = first + np.linspace(0.0, 1.0, 201)[:, None] * (second - first)
     sampled = np.linalg.norm(on_it - np.array(point), axis=1).min()
@@ -32,12 +32,12 @@ def test_no_place_on_a_segment_is_nearer_than_the_nearest(
 def test_a_3_4_5_triangle() -> None:
     line = Polyline(np.array([[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [4.0, 0.0, 3.0]]))
     assert (line.n_segments, line.length) == (2, 7.0)
-    assert line.nearest(0, np.array([1.0, 2.0, 0.0])) == (2.0, 1.0)
-    assert line.nearest(0, np.array([8.0, 3.0, 0.0])) == (5.0, 4.0)
-    assert line.nearest(1, np.array([4.0, 1.0, 2.0])) == (1.0, 6.0)
+    assert line.find_nearest(0, np.array([1.0, 2.0, 0.0])) == (2.0, 1.0)
+    assert line.find_nearest(0, np.array([8.0, 3.0, 0.0])) == (5.0, 4.0)
+    assert line.find_nearest(1, np.array([4.0, 1.0, 2.0])) == (1.0, 6.0)
 
 
 def test_a_point_alone_is_a_line_of_length_0() -> None:
     line = Polyline(np.array([[1.0, 1.0, 1.0]]))
     assert (line.n_segments, line.length) == (1, 0.0)
-    assert line.nearest(0, np.array([1.0, 4.0, 5.0])) == pytest.approx((5.0, 0.0))
+    assert line.find_nearest(0, np.array([1.0, 4.0, 5.0])) == pytest.approx((5.0, 0.0))

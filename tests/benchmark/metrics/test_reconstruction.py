@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from uwsim.base.geometry import rotation_from_rpy, rotation_z
 from uwsim.benchmark.metrics.coverage import Coverage, original_cells, whole_cells
-from uwsim.benchmark.metrics.reconstruction import Reconstruction, turned_box, upright
+from uwsim.benchmark.metrics.reconstruction import Reconstruction, rotate_box, upright_rotation
 from uwsim.errors import BadSetting
 from uwsim.world import Box
 
@@ -204,16 +204,16 @@ def test_too_fine_a_grid_is_refused_before_it_fills_the_memory() -> None:
 def test_quarter_turns_are_followed_and_smaller_ones_rounded() -> None:
     for roll, pitch, yaw in itertools.product(range(4), repeat=3):
         quarter = rotation_from_rpy(*(np.pi / 2 * np.array([roll, pitch, yaw])))
-        assert np.allclose(upright(quarter), quarter, atol=1e-12)
+        assert np.allclose(upright_rotation(quarter), quarter, atol=1e-12)
         tilted = quarter @ rotation_from_rpy(0.2, -0.3, 0.25)
-        assert np.allclose(upright(tilted), quarter, atol=1e-12)
+        assert np.allclose(upright_rotation(tilted), quarter, atol=1e-12)
 
 
 @settings(max_examples=40)
 @given(*[st.floats(-np.pi, np.pi)] * 3)
 def test_the_last_row_is_the_axis_that_points_most_upwards(r: float, p: float, y: float) -> None:
     rotation = rotation_from_rpy(r, p, y)
-    turned = upright(rotation)
+    turned = upright_rotation(rotation)
     assert np.array_equal(np.abs(turned).sum(axis=0), [1.0, 1.0, 1.0])
     assert np.array_equal(np.abs(turned).sum(axis=1), [1.0, 1.0, 1.0])
     up = rotation[2] @ turned[2]
@@ -221,9 +221,9 @@ def test_the_last_row_is_the_axis_that_points_most_upwards(r: float, p: float, y
 
 
 def test_the_corners_of_a_box_turned_by_45_degrees_make_no_box_around_it() -> None:
-    turned = turned_box(BOX, rotation_z(np.pi / 4))
+    turned = rotate_box(BOX, rotation_z(np.pi / 4))
     assert turned.upper[0] == pytest.approx(0.2 * math.sqrt(0.5))
-    quarter = turned_box(BOX, rotation_z(np.pi / 2))
+    quarter = rotate_box(BOX, rotation_z(np.pi / 2))
     assert quarter.lower == pytest.approx((-0.3, -0.5, 0.0))
     assert quarter.upper == pytest.approx((0.3, 0.5, 0.4))
 

@@ -21,7 +21,7 @@ def test_the_running_statistics_are_those_of_the_samples(samples: list[float]) -
     }  # fmt: skip
     found = {name: signal.details[name] for name in expected}
     assert found == pytest.approx(expected, abs=1e-5, rel=1e-9)
-    assert signal.last == (abs(samples[-1]), samples[-1])
+    assert signal.last_sample == (abs(samples[-1]), samples[-1])
 
 
 def test_without_samples_there_is_nothing_but_their_number() -> None:
@@ -30,7 +30,7 @@ def test_without_samples_there_is_nothing_but_their_number() -> None:
         "n": 0.0,
         "a.n": 0.0,
     }
-    assert signal.last == (None, None)
+    assert signal.last_sample == (None, None)
     assert signal.value("mean") is None
 
 

@@ -23,7 +23,7 @@ def response(
     direction: tuple[float, ...] = (1.0,),
 ) -> StepResponse:
     """Sample ``error(t)`` along a direction at every step."""
-    found = StepResponse(DT, band=band, least_step=least_step, holds=holds)
+    found = StepResponse(DT, band=band, least_step=least_step, is_constant=holds)
     times = np.arange(round(seconds / DT) + 1) * DT
     for k, value in enumerate(error(times).tolist()):
         found.add(value * np.array(direction), 1 if k else 0)
@@ -89,7 +89,7 @@ def test_integrals_of_an_error_that_runs_straight_are_exact() -> None:
 
 
 def test_integrals_of_an_error_that_holds_are_exact() -> None:
-    found = StepResponse(0.5, band=0.02, least_step=0.0, holds=True)
+    found = StepResponse(0.5, band=0.02, least_step=0.0, is_constant=True)
     for error, steps in ((2.0, 0), (-1.0, 4), (0.0, 2)):
         found.add(np.array([error]), steps)
     assert found.ise == pytest.approx(4.0 * 2.0 + 1.0 * 1.0, abs=1e-12)
@@ -114,7 +114,7 @@ def test_a_response_in_space_has_the_numbers_of_the_same_response_on_a_line() ->
 
 
 def test_going_aside_is_no_overshoot_but_keeps_from_settling() -> None:
-    found = StepResponse(DT, band=0.02, least_step=0.01, holds=False)
+    found = StepResponse(DT, band=0.02, least_step=0.01, is_constant=False)
     for k, t in enumerate(np.arange(0.0, 10.0, DT)):
         found.add(np.array([math.exp(-5.0 * t), 0.1]) - [0.0, 0.1 * (k == 0)], int(k > 0))
     shape, reasons = found.shape()
@@ -153,6 +153,6 @@ def test_without_a_step_there_is_no_shape_but_there_are_integrals() -> None:
 
 
 def test_before_a_sample_there_is_nothing() -> None:
-    found = StepResponse(DT, band=0.02, least_step=0.0, holds=False)
+    found = StepResponse(DT, band=0.02, least_step=0.0, is_constant=False)
     assert (found.n, found.size) == (0, None)
     assert set(found.shape()[0].values()) == {None}

@@ -7,7 +7,7 @@ import sys
 import cv2
 import numpy as np
 
-from uwsim.benchmark.metrics.min_area_rectangle import rectangle
+from uwsim.benchmark.metrics.min_area_rectangle import min_area_rectangle
 from uwsim.bus import Node
 from uwsim.messages import (
     Empty,
@@ -122,6 +122,6 @@ class Blob:
         outlines, _ = cv2.findContours(orange, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
         if outlines:
             points = max(outlines, key=cv2.contourArea).reshape(-1, 2)
-            quad = rectangle(points.astype(np.float64))
+            quad = min_area_rectangle(points.astype(np.float64))
             self.corners(floats(quad.reshape(-1)))
             self.centroid(floats(quad.mean(axis=0)))

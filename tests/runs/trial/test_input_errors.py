@@ -110,7 +110,7 @@ ERRORS = {
     ),
     "a missing target": (
         changed("      <target> cornersTopic </target>\n", ""),
-        "<euclideanNorm>", "lacks <target>: topic of the estimate (std_msgs/Float32MultiArray)",
+        "<euclideanNorm>", "lacks <target>: the topic of the estimate (std_msgs/Float32MultiArray)",
     ),
     "an unknown trigger": (
         changed("<type>service<", "<type>servise<"),

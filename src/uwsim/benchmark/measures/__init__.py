@@ -29,7 +29,7 @@ MEASURES: dict[str, type[MeasureSpec]] = {
     "u:energy": EnergySpec,
     "u:grasp": GraspSpec,
 }
-"""Element name -> spec. In alphabetical order."""
+"""The spec of each element, in alphabetical order."""
 
 __all__ = [
     "MEASURES",

@@ -1,4 +1,4 @@
-r"""Collision: how hard a body has hit others.
+r"""Collision: the approach speeds of a body's contacts.
 
 .. code-block:: xml
 
@@ -15,8 +15,8 @@ from ...schema import element
 from ...world import Contact, World
 from .measure import Measure, MeasureSpec
 
-WORST = 0.5
-"""An approach at this speed costs the whole score [m/s]."""
+ZERO_SCORE_SPEED = 0.5
+"""The approach speed that reduces the score to 0 [m/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,9 +24,9 @@ class CollisionSpec(MeasureSpec):
     """A ``<collision>`` element of a benchmark file."""
 
     target: str = element(refers_to="contacts")
-    """Name of the vehicle or object."""
+    """The name of the vehicle or object."""
     stop_on_contact: bool = element(default=False, attribute=True, namespaced=True)
-    """Whether the first contact ends the level, in status ``collision`` (``u:stopOnContact``)."""
+    """A flag: the first contact ends the level, in status ``collision`` (``u:stopOnContact``)."""
 
     @property
     def start_value(self) -> float:
@@ -34,25 +34,25 @@ class CollisionSpec(MeasureSpec):
         return 1.0
 
     def bind(self, world: World) -> Collision:
-        """Watch the target; raises UnknownName if it is not there."""
+        """Resolve the target; raises UnknownName if there is none."""
         world.contacts(self.target)
         return Collision(self, world)
 
 
 class Collision(Measure):
-    r"""A score from 1, never hit anything, down to 0.
+    r"""A score from 1 (no contact) down to 0.
 
     .. math:: \max\left(0,\ 1 - \frac{\bar s}{0.5} - \frac{s_{max}}{0.5}\right)
 
-    where s is the speed at a step at which parts of the body and of another approach each other
-    along the normal of their contact, the mean over its contacts [m/s], and 0 at any other step;
-    :math:`\bar s` is its mean over *all* steps at which the measure is on. Details: the highest s,
-    the mean of s over the steps in contact, and the share of steps in contact. A body that lies on
-    another is in contact and approaches nothing.
+    s is the speed at a step at which parts of the body and of another approach each other along the
+    normal of their contact, the mean over its contacts [m/s]; it is 0 at any other step.
+    :math:`\bar s` is its mean over *all* steps at which the measure is active. Details: the highest
+    s, the mean of s over the steps in contact, and the share of steps in contact. A body that rests
+    on another is in contact, with s = 0.
 
     Compatibility ``collision``: only contacts that list the body first, and only its own velocity
-    count, as in the original, and of what it touches only the first with which a contact closes.
-    ``restart``: when it goes on again it begins anew.
+    count, as in the original, and only contacts with the first body that it approaches.
+    ``restart``: it is reset when it becomes active again.
     """
 
     unit = "1"
@@ -61,76 +61,83 @@ class Collision(Measure):
     def __init__(self, spec: CollisionSpec, world: World) -> None:
         self._world, self._target = world, spec.target
         self._is_original = "collision" in world.compatibility
-        self._begins_anew = "restart" in world.compatibility
-        self._stops = spec.stop_on_contact
-        self._stopped_for: str | None = None
+        self._is_reset = "restart" in world.compatibility
+        self._ends_at_contact = spec.stop_on_contact
+        self._end_reason: str | None = None
         self._n_steps = 0
         self._n_in_contact = 0
-        self._sum = 0.0  # of s [m/s]
-        self._highest = 0.0  # s [m/s]
+        self._speed_sum = 0.0  # of s [m/s]
+        self._max_speed = 0.0  # s [m/s]
 
     def start(self) -> None:
-        """Take the first step."""
-        if self._begins_anew:
+        """Evaluate the first step."""
+        if self._is_reset:
             self._n_steps = self._n_in_contact = 0
-            self._sum = self._highest = 0.0
+            self._speed_sum = self._max_speed = 0.0
         self.update()
 
     def update(self) -> None:
-        """Take one more step."""
+        """Evaluate one more step."""
         contacts = self._world.contacts(self._target)
         if self._is_original:
             contacts = [contact for contact in contacts if contact.is_first]
         self._n_steps += 1
         if contacts:
-            speed = self._speed(contacts)
+            speed = self._approach_speed(contacts)
             self._n_in_contact += 1
-            self._sum += speed
-            self._highest = max(self._highest, speed)
-            if self._stops and self._stopped_for is None:
-                what = f" {contacts[0].other!r}" if contacts[0].other else ""
-                self._stopped_for = f"{self._target!r} touched{what} at {self._world.time:g} s"
+            self._speed_sum += speed
+            self._max_speed = max(self._max_speed, speed)
+            if self._ends_at_contact and self._end_reason is None:
+                other_name = f" {contacts[0].other!r}" if contacts[0].other else ""
+                self._end_reason = f"{self._target!r} touched{other_name} at {self._world.time:g} s"
 
-    def _speed(self, contacts: Sequence[Contact]) -> float:
-        """Mean over the contacts that close [m/s]."""
+    def _approach_speed(self, contacts: Sequence[Contact]) -> float:
+        """Return the mean speed of the contacts that close [m/s]."""
         if self._is_original:
-            first = next((each.other for each in contacts if each.own_speed > 0.0), None)
-            speeds = [each.own_speed for each in contacts if each.other == first]
+            first_body = next(
+                (contact.other for contact in contacts if contact.own_speed > 0.0), None
+            )
+            speeds = [contact.own_speed for contact in contacts if contact.other == first_body]
         else:
-            speeds = [each.approach_speed for each in contacts]
-        closing = [speed for speed in speeds if speed > 0.0]
-        return sum(closing) / len(closing) if closing else 0.0
+            speeds = [contact.approach_speed for contact in contacts]
+        closing_speeds = [speed for speed in speeds if speed > 0.0]
+        return sum(closing_speeds) / len(closing_speeds) if closing_speeds else 0.0
 
     @property
     def value(self) -> float | None:
         """The score so far [1]."""
         if self._n_steps == 0:
             return None
-        return max(0.0, 1.0 - self._sum / (WORST * self._n_steps) - self._highest / WORST)
+        return max(
+            0.0,
+            1.0
+            - self._speed_sum / (ZERO_SCORE_SPEED * self._n_steps)
+            - self._max_speed / ZERO_SCORE_SPEED,
+        )
 
     @property
     def details(self) -> dict[str, float | None]:
-        """Highest and mean speed of approach [m/s], and the share of time in contact [1]."""
+        """The highest and mean speed of approach [m/s], and the share of time in contact [1]."""
         if self._n_steps == 0:
             return dict.fromkeys(("max_speed", "mean_speed", "contact_share"))
         n = self._n_in_contact
         return {
-            "max_speed": self._highest,
-            "mean_speed": self._sum / n if n else 0.0,
+            "max_speed": self._max_speed,
+            "mean_speed": self._speed_sum / n if n else 0.0,
             "contact_share": n / self._n_steps,
         }
 
     @property
     def ends_level(self) -> str | None:
-        """Status of the first contact, if ``u:stopOnContact`` is set."""
-        return self._stopped_for
+        """The reason that states the first contact, if ``u:stopOnContact`` is set."""
+        return self._end_reason
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The score and its parts."""
+        """The names of the score and its parts."""
         return ("value", "max_speed", "mean_speed", "contact_share")
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """As of now."""
+        """The present score and its parts."""
         return (self.value, *self.details.values())

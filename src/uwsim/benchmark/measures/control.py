@@ -26,14 +26,14 @@ from ...errors import BadSetting, UnknownName
 from ...messages import Float32MultiArray, Float64, Float64MultiArray
 from ...schema import element
 from ...world import Body, World
-from ..metrics.held_commands import FIXED, READERS, Figure, HeldCommands
+from ..metrics.held_commands import KNOWN_AXES, READERS, HeldCommands, Quantity
 from ..metrics.step_response import INTEGRALS, UNITS, StepResponse
 from .measure import Measure, MeasureSpec
 
-OF_COMMANDS = ("variation", "effort", "max")
-"""Quantities that need a topic of commands; the others need an error."""
-ERRORS: tuple[type, ...] = (Float64, Float32MultiArray, Float64MultiArray)
-"""What an error may come in."""
+COMMAND_QUANTITIES = ("variation", "effort", "max")
+"""The quantities that need a topic of commands; the others need an error."""
+ERROR_TYPES: tuple[type, ...] = (Float64, Float32MultiArray, Float64MultiArray)
+"""The message types of an error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,21 +41,21 @@ class ControlSpec(MeasureSpec):
     """A ``<u:control>`` element of a benchmark file: commands, an error, or both."""
 
     topic: str | None = element(default=None)
-    """Topic of the commands (Twist, TwistStamped, Wrench, WrenchStamped, Float64MultiArray or
+    """The topic of the commands (Twist, TwistStamped, Wrench, WrenchStamped, Float64MultiArray or
     JointState)."""
     axes: str = ""
-    """Axes of the commands that count, separated by blanks; all when left out."""
+    """The axes of the commands that count, separated by blanks; all when left out."""
     target: str | None = element(default=None, refers_to="body")
-    """Route of the body whose error counts."""
+    """The route of the body whose error counts."""
     position: tuple[float, float, float] | None = None
-    """Where the target should be, in L [m]."""
+    """The desired position of the target, in L [m]."""
     error_topic: str | None = element(default=None)
-    """Topic with the error instead (std_msgs/Float64, Float32MultiArray or
+    """The topic with the error instead (std_msgs/Float64, Float32MultiArray or
     Float64MultiArray)."""
     band: float = element(default=0.02, above=0.0, below=1.0)
-    """Half-width of the settling band, relative to the step [1]."""
+    """The half-width of the settling band, relative to the step [1]."""
     least_step: float = element(default=0.01, minimum=0.0)
-    """A first error up to this is no step [m, or the error topic's unit]."""
+    """The greatest first error that is no step [m, or the error topic's unit]."""
     quantity: (
         Literal[
             "variation", "effort", "max", "ise", "iae", "itae", "overshoot", "riseTime",
@@ -63,74 +63,73 @@ class ControlSpec(MeasureSpec):
         ]
         | None
     ) = element(default=None)  # fmt: skip
-    """Which of its details is its value; without: ``variation`` where there is a topic, else
-    ``iae``."""
+    """The detail that is the value; without: ``variation`` if there is a topic, else ``iae``."""
 
     @property
-    def judged(self) -> str:
+    def selected_quantity(self) -> str:
         """The quantity that is its value."""
         return self.quantity or ("variation" if self.topic is not None else "iae")
 
     @property
     def has_error(self) -> bool:
-        """Whether an error is judged, too."""
+        """A flag: the measure evaluates an error, too."""
         return self.target is not None or self.error_topic is not None
 
     def errors(self) -> Sequence[str]:
-        """Elements that do not go together."""
-        found = []
+        """Return errors in the combination of elements."""
+        errors = []
         if self.topic is None and not self.has_error:
-            found.append("needs a <topic> of commands, a <target>, or an <errorTopic>")
+            errors.append("needs a <topic> of commands, a <target>, or an <errorTopic>")
         if self.target is not None and self.error_topic is not None:
-            found.append("<target> and <errorTopic> both give the error; use one")
+            errors.append("<target> and <errorTopic> both give the error; use one")
         if (self.target is None) != (self.position is None):
-            found.append("<target> and <position> go together; give both or none")
+            errors.append("<target> and <position> go together; give both or none")
         if self.axes and self.topic is None:
-            found.append("<axes> are those of a <topic>, which is not given")
-        if self.quantity in OF_COMMANDS and self.topic is None:
-            found.append(f"<quantity> {self.quantity!r} is that of a <topic>, which is not given")
-        if self.quantity not in (None, *OF_COMMANDS) and not self.has_error:
-            found.append(
+            errors.append("<axes> are those of a <topic>, which is not given")
+        if self.quantity in COMMAND_QUANTITIES and self.topic is None:
+            errors.append(f"<quantity> {self.quantity!r} is that of a <topic>, which is not given")
+        if self.quantity not in (None, *COMMAND_QUANTITIES) and not self.has_error:
+            errors.append(
                 f"<quantity> {self.quantity!r} needs an error: <target> and <position>, "
                 "or <errorTopic>"
             )
-        return found
+        return errors
 
     def bind(self, world: World) -> Control:
-        """Find body and topics.
+        """Resolve body and topics.
 
         Raises:
             UnknownName: there is no such body, or commands of that type have no such axis.
-            BadSetting: a topic is known to carry something else.
+            BadSetting: a topic has another type.
         """
         body = None if self.target is None else world.body(self.target)
         commands = errors = None
         if self.topic is not None:
-            carried = _check_type(world, self.topic, tuple(READERS))
-            for axis in self.axes.split() if carried in FIXED else ():
-                if axis not in FIXED[carried]:
-                    raise UnknownName("axis", axis, FIXED[carried])
+            type_ = _check_type(world, self.topic, tuple(READERS))
+            for axis in self.axes.split() if type_ in KNOWN_AXES else ():
+                if axis not in KNOWN_AXES[type_]:
+                    raise UnknownName("axis", axis, KNOWN_AXES[type_])
             commands = world.bus.inbox(self.topic, object, latched=True)
         if self.error_topic is not None:
-            _check_type(world, self.error_topic, ERRORS)
+            _check_type(world, self.error_topic, ERROR_TYPES)
             errors = world.bus.inbox(self.error_topic, object)
         return Control(self, world, body, commands, errors)
 
 
 class Control(Measure):
-    """Effort and variation of the commands, and the shape of an error over time.
+    """The effort and variation of the commands, and the shape of an error over time.
 
-    *Commands.* They are counted as `uwsim.benchmark.metrics.held_commands` describes. A command
-    holds until the next. What is in force when the measure goes on counts for effort and largest
-    value, not as a change. Details: ``variation``, ``effort`` and ``max`` over all axes that count,
-    the same of each axis, and ``n``, the number of messages since the measure went on. Sums over
-    axes of different units are sums of bare numbers: choose ``axes``.
+    *Commands.* `uwsim.benchmark.metrics.held_commands` has the formulas. A command holds until the
+    next. The command in force when the measure starts counts for effort and largest value, not as a
+    change. Details: ``variation``, ``effort`` and ``max`` over all axes that count, the same of
+    each axis, and ``n``, the number of messages since the measure started. Sums over axes of
+    different units are sums of plain numbers: choose ``axes``.
 
-    *Error.* Either the body's: ``position`` less where its origin is, in L, at every step; or
-    what comes on the error topic, held from message to message. Details: those of
-    `uwsim.benchmark.metrics.step_response`. Time counts from the first error.
+    *Error.* Either that of the body: ``position`` minus its origin, in L, at every step; or that of
+    the error topic, held from message to message. Details: those of
+    `uwsim.benchmark.metrics.step_response`. Time begins at the first error.
 
-    What passes while the measure is off does not count. A message that is not finite, or not of
+    The time while the measure is inactive does not count. A message that is not finite, or not of
     the kind and size of those before, is ignored, with a note.
     """
 
@@ -149,156 +148,160 @@ class Control(Measure):
         self._goal = np.array(spec.position or (0.0, 0.0, 0.0))  # in L [m]
         self._commands = HeldCommands(tuple(spec.axes.split()))
         if spec.topic is not None:
-            self._commands.expect(FIXED.get(world.bus.message_type(spec.topic) or object, {}))
+            self._commands.expect(KNOWN_AXES.get(world.bus.message_type(spec.topic) or object, {}))
         self._response = StepResponse(
-            world.timestep, band=spec.band, least_step=spec.least_step, holds=body is None
+            world.timestep, band=spec.band, least_step=spec.least_step, is_constant=body is None
         )
-        self._n = 0  # commands
-        self._came = False  # whether any command did
-        self._passed_over = False  # whether any message was
-        self._refused = ""  # why the newest message could not be taken
-        self._was_on = False
-        self._now = 0  # step of the last look
-        self._since = 0  # step up to which the command in force was counted
-        self._sampled: int | None = None  # step of the last error, while on
+        self._n_commands = 0  # commands
+        self._has_commands = False  # whether any command arrived
+        self._has_ignored = False  # whether any message was ignored
+        self._error_text = ""  # the error of the newest message
+        self._was_active = False
+        self._step = 0  # step of the last update
+        self._integrated_step = 0  # step up to which the command in force was integrated
+        self._sample_step: int | None = None  # step of the last error, while active
         self._error: Array | None = None  # the newest (k,)
 
-    # -- what happens --------------------------------------------------------------------------
+    # -- updates -------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Take what is in force; what passed while it was off does not count."""
-        self._let_last()
-        self._was_on = True
-        self._now = self._since = self._world.step
-        self._sampled = None
+        """Start with the command in force; nothing before counts."""
+        self._integrate_command()
+        self._was_active = True
+        self._step = self._integrated_step = self._world.step
+        self._sample_step = None
         for message in self._inbox.take() if self._inbox is not None else ():
-            self._take(message, counts=False)
-        self._commands.notice()
+            self._apply_message(message, is_counted=False)
+        self._commands.update_max()
         self._sample()
 
     def update(self) -> None:
-        """Take what has come, and the error."""
+        """Apply the received messages, and sample the error."""
         messages = self._inbox.take() if self._inbox is not None else ()
-        self._now = self._world.step
+        self._step = self._world.step
         if messages:
-            self._let_last()
+            self._integrate_command()
             for message in messages:
-                self._take(message, counts=True)
+                self._apply_message(message, is_counted=True)
         self._sample()
 
-    def _let_last(self) -> None:
-        """Count the command in force up to now."""
-        self._commands.last((self._now - self._since) * self._world.timestep)
-        self._since = self._now
+    def _integrate_command(self) -> None:
+        """Integrate the command in force up to now."""
+        self._commands.integrate((self._step - self._integrated_step) * self._world.timestep)
+        self._integrated_step = self._step
 
-    def _take(self, message: object, *, counts: bool) -> None:
+    def _apply_message(self, message: object, *, is_counted: bool) -> None:
         reader = READERS.get(type(message))
         if reader is None:
-            self._pass_over(self._spec.topic, message, tuple(READERS))
+            self._report_type(self._spec.topic, message, tuple(READERS))
             return
         command = reader(message)
-        self._came = True
+        self._has_commands = True
         units = {name: axis.unit for name, axis in self._commands.axes.items()}
-        fits = all(units.get(name, unit) == unit for name, unit in command.units.items())
-        if not fits or not all(map(math.isfinite, command.values.values())):
-            self._passed_over = True
+        is_valid = all(units.get(name, unit) == unit for name, unit in command.units.items())
+        if not is_valid or not all(map(math.isfinite, command.values.values())):
+            self._has_ignored = True
             return
-        if counts:
-            self._n += 1
+        if is_counted:
+            self._n_commands += 1
             self._commands.change(command)
         else:
             self._commands.hold(command)
 
     def _sample(self) -> None:
-        """Take the error as it is now, if there is one."""
+        """Sample the present error, if there is one."""
         if self._body is not None:
-            here = self._body.world_from_body.position[None]
-            self._error = self._goal - self._localized_from_world.transform(here)[0]
+            position = self._body.world_from_body.position[None]
+            self._error = self._goal - self._localized_from_world.transform(position)[0]
         for message in self._errors.take() if self._errors is not None else ():
-            self._hear(message)
+            self._apply_error(message)
         if self._error is not None:
-            steps = 0 if self._sampled is None else self._now - self._sampled
+            steps = 0 if self._sample_step is None else self._step - self._sample_step
             self._response.add(self._error, steps)
-            self._sampled = self._now
+            self._sample_step = self._step
 
-    def _hear(self, message: Any) -> None:
-        """Take a message of the error topic."""
-        if not isinstance(message, ERRORS):
-            self._pass_over(self._spec.error_topic, message, ERRORS)
+    def _apply_error(self, message: Any) -> None:
+        """Apply a message of the error topic."""
+        if not isinstance(message, ERROR_TYPES):
+            self._report_type(self._spec.error_topic, message, ERROR_TYPES)
             return
         data = message.data  # type: ignore[attr-defined]  # every type of ERRORS has it
         error = np.atleast_1d(np.asarray(data, dtype=np.float64))  # (k,)
-        fits = self._error is None or error.shape == self._error.shape
-        if fits and error.size and np.isfinite(error).all():
+        has_shape = self._error is None or error.shape == self._error.shape
+        if has_shape and error.size and np.isfinite(error).all():
             self._error = error
         else:
-            self._passed_over = True
+            self._has_ignored = True
 
-    def _pass_over(self, topic: str | None, message: object, types: tuple[type, ...]) -> None:
-        self._refused = f"{topic!r} carries {_name(type(message))}; expected {_names(types)}"
+    def _report_type(self, topic: str | None, message: object, types: tuple[type, ...]) -> None:
+        self._error_text = (
+            f"{topic!r} carries {_type_name(type(message))}; expected {_type_names(types)}"
+        )
 
     # -- results --------------------------------------------------------------------------
 
     @property
     def value(self) -> float | None:
-        """The quantity asked for."""
-        return self._figure(_snake(self._spec.judged))[0]
+        """The selected quantity."""
+        return self._quantity(_snake_case(self._spec.selected_quantity))[0]
 
     @property
     def unit(self) -> str:  # type: ignore[override]  # it is that of the commands
-        """Of the value."""
-        return self._figure(_snake(self._spec.judged))[1]
+        """The unit of the value."""
+        return self._quantity(_snake_case(self._spec.selected_quantity))[1]
 
     @property
     def why(self) -> str | None:
-        """Why there is no value."""
+        """The reason why there is no value."""
         if self.value is not None:
             return None
-        return self.reasons[_snake(self._spec.judged)]
+        return self.reasons[_snake_case(self._spec.selected_quantity)]
 
     @property
     def details(self) -> dict[str, float | None]:
-        """Every number there is."""
-        return {name: value for name, (value, _) in self._figures().items()}
+        """All quantities."""
+        return {name: value for name, (value, _) in self._quantities().items()}
 
     @property
     def detail_units(self) -> dict[str, str]:  # type: ignore[override]  # those of the commands
-        """Their units."""
-        return {name: unit for name, (_, unit) in self._figures().items()}
+        """The units of the quantities."""
+        return {name: unit for name, (_, unit) in self._quantities().items()}
 
     @property
     def reasons(self) -> dict[str, str]:
-        """Why details are None that are."""
+        """The reasons why quantities are None."""
         shape = self._response.shape()[1]
-        absent = self._no_error() if self._response.n == 0 else ""
-        found = {}
-        for name, (value, _) in self._figures().items():
+        absence_reason = self._missing_error_reason() if self._response.n == 0 else ""
+        reasons = {}
+        for name, (value, _) in self._quantities().items():
             if value is not None:
                 continue
-            if not self._was_on:
-                found[name] = "it was never on"
+            if not self._was_active:
+                reasons[name] = "it was never on"
             elif name in UNITS:
-                found[name] = absent or shape[name]
+                reasons[name] = absence_reason or shape[name]
             else:
-                found[name] = self._no_command()
-        return found
+                reasons[name] = self._missing_command_reason()
+        return reasons
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """That messages were passed over, and axes that never came."""
+        """The notes on ignored messages and on axes without a command."""
         notes = []
-        if self._refused:
-            notes.append(self._refused)
-        if self._passed_over:
+        if self._error_text:
+            notes.append(self._error_text)
+        if self._has_ignored:
             notes.append("messages were passed over: not finite, or not of the kind before")
-        lacking = [axis for axis in self._commands.chosen if axis not in self._commands.axes]
-        if lacking and self._commands.is_known:
-            notes.append(f"no command had the axis {', '.join(lacking)}")
+        missing_axes = [
+            axis for axis in self._commands.selection if axis not in self._commands.axes
+        ]
+        if missing_axes and self._commands.is_known:
+            notes.append(f"no command had the axis {', '.join(missing_axes)}")
         return tuple(notes)
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """Of the commands and of the error, whichever there are."""
+        """The columns of the commands and of the error, whichever there are."""
         has_error = self._spec.has_error
         error = "error" if self._body is None else f"error [{self._error_unit('step')}]"
         return (
@@ -308,11 +311,11 @@ class Control(Measure):
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """As of now."""
+        """The present quantities."""
         values: list[float | None] = []
         if self._inbox is not None:
-            self._let_last()
-            values += [self._commands.variation, self._commands.effort, float(self._n)]
+            self._integrate_command()
+            values += [self._commands.variation, self._commands.effort, float(self._n_commands)]
         if self._spec.has_error:
             values += [self._response.size, self._response.iae if self._response.n else None]
         return tuple(values)
@@ -323,27 +326,27 @@ class Control(Measure):
             if inbox is not None:
                 inbox.close()
 
-    def _figure(self, name: str) -> Figure:
-        """One number and its unit; those that need no look at the whole response cost little."""
-        if name in OF_COMMANDS:
-            self._let_last()
+    def _quantity(self, name: str) -> Quantity:
+        """Return one number and its unit, without the step response unless it is needed."""
+        if name in COMMAND_QUANTITIES:
+            self._integrate_command()
             return self._commands.total(name)
         if name in INTEGRALS:
             return self._integrals()[name]
         return self._shape()[name]
 
-    def _figures(self) -> dict[str, Figure]:
-        """Every number and its unit."""
-        found: dict[str, Figure] = {}
+    def _quantities(self) -> dict[str, Quantity]:
+        """Return all numbers and their units."""
+        quantities: dict[str, Quantity] = {}
         if self._inbox is not None:
-            self._let_last()
-            found |= self._commands.figures()
-            found["n"] = (float(self._n), "1")
+            self._integrate_command()
+            quantities |= self._commands.quantities()
+            quantities["n"] = (float(self._n_commands), "1")
         if self._spec.has_error:
-            found |= {**self._integrals(), **self._shape()}
-        return found
+            quantities |= {**self._integrals(), **self._shape()}
+        return quantities
 
-    def _integrals(self) -> dict[str, Figure]:
+    def _integrals(self) -> dict[str, Quantity]:
         response = self._response
         values = (response.ise, response.iae, response.itae)
         return {
@@ -351,43 +354,45 @@ class Control(Measure):
             for name, value in zip(INTEGRALS, values, strict=True)
         }
 
-    def _shape(self) -> dict[str, Figure]:
+    def _shape(self) -> dict[str, Quantity]:
         return {
             name: (value, self._error_unit(name))
             for name, value in self._response.shape()[0].items()
         }
 
     def _error_unit(self, name: str) -> str:
-        of_a_body, of_a_topic = UNITS[name]
-        return of_a_topic if self._body is None else of_a_body
+        body_unit, topic_unit = UNITS[name]
+        return topic_unit if self._body is None else body_unit
 
-    def _no_command(self) -> str:
-        came = self._commands.is_known
-        lacking = ", ".join(self._commands.chosen)
-        if not came and self._came and lacking:
-            return f"the commands on {self._spec.topic!r} have no axis {lacking}"
-        return self._refused or f"no command on {self._spec.topic!r}"
+    def _missing_command_reason(self) -> str:
+        has_known_axis = self._commands.is_known
+        axes = ", ".join(self._commands.selection)
+        if not has_known_axis and self._has_commands and axes:
+            return f"the commands on {self._spec.topic!r} have no axis {axes}"
+        return self._error_text or f"no command on {self._spec.topic!r}"
 
-    def _no_error(self) -> str:
-        return self._refused or f"no error on {self._spec.error_topic!r}"
+    def _missing_error_reason(self) -> str:
+        return self._error_text or f"no error on {self._spec.error_topic!r}"
 
 
 def _check_type(world: World, topic: str, types: tuple[type, ...]) -> type:
-    """Return what a topic is known to carry, else `object`; BadSetting if it is none of these."""
-    carried = world.bus.message_type(topic)
-    if carried is not None and carried not in types:
-        raise BadSetting(f"{topic!r} carries {_name(carried)}; expected {_names(types)}.")
-    return carried or object
+    """Return the type of a topic if it is known, else `object`; BadSetting for another type."""
+    known_type = world.bus.message_type(topic)
+    if known_type is not None and known_type not in types:
+        raise BadSetting(
+            f"{topic!r} carries {_type_name(known_type)}; expected {_type_names(types)}."
+        )
+    return known_type or object
 
 
-def _name(type: type) -> str:
+def _type_name(type: type) -> str:
     return str(getattr(type, "__msgtype__", type.__name__))
 
 
-def _names(types: tuple[type, ...]) -> str:
-    return "one of " + ", ".join(sorted(_name(type).rpartition("/")[2] for type in types))
+def _type_names(types: tuple[type, ...]) -> str:
+    return "one of " + ", ".join(sorted(_type_name(type).rpartition("/")[2] for type in types))
 
 
-def _snake(name: str) -> str:
-    """``settlingTime`` -> ``settling_time``."""
+def _snake_case(name: str) -> str:
+    """Convert ``settlingTime`` to ``settling_time``."""
     return "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)

@@ -1,4 +1,4 @@
-r"""Distance: how far a body has travelled.
+r"""Distance: the path length of a body.
 
 .. code-block:: xml
 
@@ -21,7 +21,7 @@ class DistanceSpec(MeasureSpec):
     """A ``<distance>`` element of a benchmark file."""
 
     target: str = element(refers_to="body")
-    """Name of the body to follow."""
+    """The name of the body."""
 
     @property
     def start_value(self) -> float:
@@ -29,38 +29,37 @@ class DistanceSpec(MeasureSpec):
         return 0.0
 
     def bind(self, world: World) -> Distance:
-        """Follow the target in ``world``; raises UnknownName if it is not there."""
+        """Resolve the target in ``world``; raises UnknownName if there is none."""
         return Distance(world.body(self.target))
 
 
 class Distance(Measure):
-    r"""Length of the path of a body's origin :math:`p` in the world frame.
+    r"""The length of the path of a body's origin :math:`p` in the world frame.
 
     .. math:: d = \sum_k \lVert p_k - p_{k-1} \rVert
 
-    over the simulation steps :math:`k` at which the measure is on. What the body
-    travels while it is off does not count.
+    over the simulation steps :math:`k` at which the measure is active.
     """
 
     unit = "m"
 
     def __init__(self, body: Body) -> None:
         self._body = body
-        self._last: Array | None = None  # (3,) [m]
-        self._travelled = 0.0  # [m]
+        self._last_position: Array | None = None  # (3,) [m]
+        self._path_length = 0.0  # [m]
 
     def start(self) -> None:
-        """Count from where the body is now."""
-        self._last = self._body.world_from_body.position
+        """Begin at the present position of the body."""
+        self._last_position = self._body.world_from_body.position
 
     def update(self) -> None:
-        """Add the segment covered by the last step."""
+        """Add the length of the last step."""
         position = self._body.world_from_body.position
-        if self._last is not None:
-            self._travelled += length(position - self._last)
-        self._last = position
+        if self._last_position is not None:
+            self._path_length += length(position - self._last_position)
+        self._last_position = position
 
     @property
     def value(self) -> float | None:
-        """Path length so far [m]; None when the measure was never on."""
-        return None if self._last is None else self._travelled
+        """The path length so far [m]; None if the measure was never active."""
+        return None if self._last_position is None else self._path_length

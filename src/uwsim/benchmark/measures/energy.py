@@ -26,9 +26,9 @@ class BatterySpec(Spec):
     """A ``<battery>``: its capacity, full when the measure starts."""
 
     capacity: float = element(text=True, above=0.0)
-    """Energy that can be drawn, in ``unit``."""
+    """The energy that can be drawn, in ``unit``."""
     unit: Literal["J", "Wh"] = element(default="J", attribute=True)
-    """Joules or watt hours."""
+    """The unit: joules or watt hours."""
 
     @property
     def joules(self) -> float:
@@ -41,28 +41,28 @@ class EnergySpec(MeasureSpec):
     """A ``<u:energy>`` element of a benchmark file."""
 
     target: str = element(refers_to="actuators")
-    """Name of the vehicle. Without ``<u:dynamics>`` it has no energy."""
+    """The name of the vehicle. Without ``<u:dynamics>`` it has no energy."""
     hotel_load: float = element(default=0.0, minimum=0.0)
-    """What computers, sensors and lamps draw all the time [W]."""
+    """The constant power of computers, sensors and lamps [W]."""
     battery: BatterySpec | None = None
-    """Its battery; None: no charge is computed."""
+    """The battery; None: no charge is computed."""
 
     def bind(self, world: World) -> Energy:
-        """Find the vehicle's consumers; raises UnknownName if there is no such vehicle."""
+        """Resolve the vehicle's consumers; raises UnknownName if there is no such vehicle."""
         return Energy(self, world, world.actuators(self.target))
 
 
 class Energy(Measure):
-    r"""The integral of electrical power over the time the measure is on.
+    r"""The integral of electrical power over the time in which the measure is active.
 
     .. math:: E = \int \Big( P_{hotel} + \sum_i P_i \Big)\, dt
 
     over the thrusters and joints i of the vehicle, by the trapezoidal rule over the simulation's
-    steps. What a thruster draws at a thrust and a joint at a torque and a speed is in
-    ``docs/energy-and-control.md``, with coefficients from the vehicle's hydrodynamics file.
+    steps. The section ``u:energy`` of ``docs/measures.md`` has the power of a thruster at a thrust
+    and of a joint at a torque and a speed, with coefficients from the vehicle's hydrodynamics file.
     Details: the energy of all thrusters, of all joints, of the hotel load, of each thruster and of
-    each joint; the mean and the highest power; and the charge left, :math:`\max(0, 1 - E/C)`, of a
-    battery of capacity C that was full when the measure first went on.
+    each joint; the mean and the highest power; and the remaining charge, :math:`\max(0, 1 - E/C)`,
+    of a battery of capacity C that was full when the measure first started.
 
     A vehicle that is not simulated has no forces and so no energy.
     """
@@ -78,64 +78,66 @@ class Energy(Measure):
         self._n_thrusters = len(thrusters)
         self._names = [f"thruster.{name}" for name in thrusters]
         self._names += [f"joint.{name}" for name in joints]
-        # Plain floats: a few numbers at every step are dearer as arrays.
-        self._powers = [0.0] * len(self._names)  # at the last look [W]
-        self._power = 0.0  # what all drew together at the last look [W]
+        # Plain floats: a few numbers at every step cost more as arrays.
+        self._powers = [0.0] * len(self._names)  # at the last sample [W]
+        self._power = 0.0  # their sum at the last sample [W]
         self._energies = [0.0] * len(self._names)  # [J]
         self._peak: float | None = None  # [W]
-        self._last = 0  # step of the last look
+        self._last_step = 0  # step of the last sample
         self._n_steps = 0
 
     def start(self) -> None:
         """Start counting from the energy drawn so far."""
         if self._actuators is not None:
-            self._look(self._actuators)
+            self._sample(self._actuators)
 
     def update(self) -> None:
         """Add the energy drawn since the last step."""
         if self._actuators is None:
             return
-        before, last = self._powers, self._last
-        self._look(self._actuators)
-        steps = self._last - last
-        half = 0.5 * steps * self._world.timestep  # [s]
+        last_powers, last_step = self._powers, self._last_step
+        self._sample(self._actuators)
+        steps = self._last_step - last_step
+        half_duration = 0.5 * steps * self._world.timestep  # [s]
         self._energies = [
-            energy + (was + now) * half
-            for energy, was, now in zip(self._energies, before, self._powers, strict=True)
+            energy + (last_power + power) * half_duration
+            for energy, last_power, power in zip(
+                self._energies, last_powers, self._powers, strict=True
+            )
         ]
         self._n_steps += steps
 
-    def _look(self, actuators: Actuators) -> None:
-        self._powers, self._last = actuators.powers().tolist(), self._world.step
+    def _sample(self, actuators: Actuators) -> None:
+        self._powers, self._last_step = actuators.powers().tolist(), self._world.step
         self._power = self._spec.hotel_load + sum(self._powers)
         self._peak = max(self._power, self._peak or 0.0)
 
     @property
-    def _time(self) -> float:
-        """How long it was on [s]."""
+    def _active_time(self) -> float:
+        """The time in which the measure was active [s]."""
         return self._n_steps * self._world.timestep
 
     @property
     def value(self) -> float | None:
-        """Energy drawn so far [J]; None for a vehicle without forces."""
+        """The energy drawn so far [J]; None for a vehicle without forces."""
         if self._peak is None:
             return None
-        return self._spec.hotel_load * self._time + sum(self._energies)
+        return self._spec.hotel_load * self._active_time + sum(self._energies)
 
     @property
     def why(self) -> str | None:
-        """Why there is no value."""
+        """The reason why there is no value."""
         if self._actuators is None:
             return f"the vehicle {self._spec.target!r} has no <u:dynamics>: nothing drives it"
         return super().why
 
     @property
     def details(self) -> dict[str, float | None]:
-        """Energy by consumer [J], power [W] and charge [1]."""
+        """The energy by consumer [J], power [W] and charge [1]."""
         is_known = self._peak is not None
         n = self._n_thrusters
         energies = self._energies
-        by_kind = (sum(energies[:n]), sum(energies[n:]), self._spec.hotel_load * self._time)
+        by_kind = (sum(energies[:n]), sum(energies[n:]), self._spec.hotel_load * self._active_time)
         return {
             **{
                 name: energy if is_known else None
@@ -153,7 +155,7 @@ class Energy(Measure):
     @property
     def _mean_power(self) -> float | None:
         energy = self.value
-        return None if energy is None or not self._n_steps else energy / self._time
+        return None if energy is None or not self._n_steps else energy / self._active_time
 
     @property
     def _charge(self) -> float | None:
@@ -164,7 +166,7 @@ class Energy(Measure):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """Why there is no charge, or no mean."""
+        """The reasons why there is no charge, or no mean."""
         reasons = {}
         if self._capacity is None:
             reasons["charge"] = "no <battery> is given"
@@ -174,18 +176,18 @@ class Energy(Measure):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """Energy, power and charge."""
+        """The names of energy, power and charge."""
         return ("energy [J]", "power [W]", "charge [1]")
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """As of now."""
+        """The present energy, power and charge."""
         power = None if self._peak is None else self._power
         return (self.value, power, self._charge)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """That the battery ran empty."""
+        """The note on an empty battery."""
         if self._charge != 0.0:
             return ()
         return (f"the battery of {self._spec.target!r} ran empty; it was drawn on all the same",)

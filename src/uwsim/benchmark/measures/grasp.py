@@ -1,4 +1,4 @@
-r"""u:grasp: whether an object is lifted and held, and how an attempt at it went.
+r"""u:grasp: the lift and hold of an object, and the course of the attempt.
 
 .. code-block:: xml
 
@@ -29,16 +29,16 @@ from ..metrics.impulse import Impulse
 from .measure import Measure, MeasureSpec
 from .phases import Phases
 
-RAISED = 0.02
-"""An object that a vehicle holds so far above where it lay is off the ground [m]."""
-LIFTED = 0.1
-"""One that was lower than this and fell may be tried again: it was missed, not dropped [m]."""
-FELL = 0.5
-"""An object that nothing of the vehicle has touched for so long was dropped [s]."""
-SETTLING = 1.0
-"""Between leaving the ground and the first look at slip [s]."""
+RAISED_HEIGHT = 0.02
+"""The height above its rest position from which a held object is off the ground [m]."""
+DROP_HEIGHT = 0.1
+"""The height below which a fallen object is missed, not dropped, and may be tried again [m]."""
+DROP_TIME = 0.5
+"""The time without contact to the vehicle after which an object is dropped [s]."""
+SETTLING_TIME = 1.0
+"""The time between leaving the ground and the first evaluation of slip [s]."""
 NOT_FOUND = "not found"
-"""What a reason begins with when an algorithm gives up its search."""
+"""The prefix of an algorithm's reason for ending its search without result."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,41 +46,42 @@ class GraspSpec(MeasureSpec):
     """A ``<u:grasp>`` element of a benchmark file."""
 
     target: str = element(refers_to="contacts")
-    """Name of the object."""
+    """The name of the object."""
     vehicle: str = element(refers_to="vehicle")
-    """Name of the vehicle that is to lift it."""
+    """The name of the vehicle that is to lift it."""
     jaw: str = element(refers_to="body")
-    """Route of the frame in which slip is measured: where the jaw closes."""
+    """The route of the frame in which slip is measured, between the fingers of the jaw."""
     ground: str = element(default="terrain", refers_to="contacts")
-    """Name of what the object lies on."""
+    """The name of the body below the object."""
     lift: float = element(default=0.5, above=0.0)
-    """How far it is to be lifted [m]."""
+    """The height to which it is to be lifted [m]."""
     hold: float = element(default=10.0, above=0.0)
-    """How long it is to be held once it was lifted so far [s]."""
+    """The time for which it is to be held at that height [s]."""
     max_impulse: float = element(default=40.0, above=0.0)
-    """A larger impulse on ground or object within 50 ms is a collision [N s]."""
+    """The greatest impulse on ground or object within 50 ms that is no collision [N s]."""
     topic: str | None = None
-    """Topic on which the algorithm says its phase (std_msgs/String)."""
+    """The topic on which the algorithm publishes its phase (std_msgs/String)."""
     phases: str = ""
     """The phases that count, in their order, separated by blanks."""
     truth: str = ""
-    """Topics that hold the truth, separated by blanks: who reads one is marked in the result."""
+    """The topics with the truth, separated by blanks; the result states whether the algorithm reads
+    one."""
 
     def errors(self) -> Sequence[str]:
-        """Phases without a topic, or one twice; one name for two things."""
-        names, found = self.phases.split(), []
+        """Return errors: phases without a topic, a phase twice, one name for two bodies."""
+        names, errors = self.phases.split(), []
         if names and self.topic is None:
-            found.append("<phases> need a <topic> on which they are published")
+            errors.append("<phases> need a <topic> on which they are published")
         if len(set(names)) < len(names):
-            found.append("<phases> has a phase twice")
+            errors.append("<phases> has a phase twice")
         if len({self.target, self.vehicle, self.ground}) < 3:
-            found.append("<target>, <vehicle> and <ground> have to be three different things")
+            errors.append("<target>, <vehicle> and <ground> have to be three different things")
         if self.jaw in (self.target, self.ground):
-            found.append(f"<jaw> is {self.jaw!r}; expected a frame of {self.vehicle!r}")
-        return found
+            errors.append(f"<jaw> is {self.jaw!r}; expected a frame of {self.vehicle!r}")
+        return errors
 
     def bind(self, world: World) -> Grasp:
-        """Find object, vehicle and jaw; raises UnknownName if one is not there."""
+        """Resolve object, vehicle and jaw; raises UnknownName if one is unknown."""
         world.contacts(self.target)
         world.contacts(self.vehicle)
         inbox = world.bus.inbox(self.topic, String) if self.topic else None
@@ -90,21 +91,21 @@ class GraspSpec(MeasureSpec):
 class Grasp(Measure):
     r"""1 if the object was lifted by ``lift`` and then held for ``hold`` seconds, else 0.
 
-    The object counts as *carried* while the vehicle touches it, the ground does not, and it is at
-    least 2 cm higher than it lay. The *hold* begins when it is carried at ``lift`` above where it
-    lay, and lasts while it is carried. All of this is the truth of the simulation; the algorithm
+    The object is *carried* while it is in contact with the vehicle and not with the ground, and at
+    least 2 cm above its rest height. The *hold* begins when it is carried at ``lift`` above that
+    height, and lasts while it is carried. All of this is the truth of the simulation; the algorithm
     adds only its phases.
 
-    Slip is how far the point of the object that was in the middle of its contacts with the vehicle
-    when the hold began has moved in the jaw's frame, the largest value during the hold;
-    ``slip_raising`` the same from 1 s after the object was off the ground until the hold began.
+    Slip is the displacement in the jaw's frame, since the hold began, of the object's point that
+    was then the mean of its contacts with the vehicle: the largest value during the hold.
+    ``slip_raising`` is the same from 1 s after the object was off the ground until the hold began.
     Impulses are :math:`\max_t \lVert \int_{t-50\,\mathrm{ms}}^{t} F\,dt \rVert` of the net force
     of the vehicle on the object, and of the ground on the vehicle; the two forces of a closed jaw
-    cancel. ``excursion`` is how far the vehicle's base went from where it was when the object was
-    first touched, until that was off the ground.
+    cancel. ``excursion`` is the largest displacement of the vehicle's base from the first contact
+    with the object until that was off the ground.
 
-    It ends the level with success, with a collision, and when the object was dropped; and it is
-    its judge (`task_status`).
+    It ends the level with success, with a collision, and when the object was dropped; and it
+    determines its status (`task_status`).
     """
 
     unit = "1"
@@ -125,161 +126,176 @@ class Grasp(Measure):
 
     def __init__(self, spec: GraspSpec, world: World, inbox: Inbox[String] | None) -> None:
         self._spec, self._world = spec, world
-        self._thing: Body = world.body(spec.target)
+        self._object: Body = world.body(spec.target)
         self._jaw: Body = world.body(spec.jaw)
         self._base: Body = world.body(spec.vehicle)
         self._phases = Phases(spec.phases.split(), world, inbox)
         self._on_object = Impulse(world.timestep)
         self._on_ground = Impulse(world.timestep)
-        self._began: float | None = None  # [s]
-        self._lay = 0.0  # height in W [m]
-        self._height = 0.0  # largest, above where it lay [m]
-        self._held = 0.0  # longest hold [s]
-        self._marks: dict[str, float] = {}  # of what happened first when, in the level [s]
-        self._hold_since: float | None = None  # [s]
-        self._grip: tuple[Array, Array] | None = None  # of the hold: `_point_at_jaw`
-        self._raising: tuple[Array, Array] | None = None  # of the raising
+        self._start_time: float | None = None  # [s]
+        self._rest_height = 0.0  # height in W [m]
+        self._height = 0.0  # largest, above the rest height [m]
+        self._longest_hold = 0.0  # longest hold [s]
+        self._event_times: dict[str, float] = {}  # the first time of each event, in the level [s]
+        self._hold_start: float | None = None  # [s]
+        self._hold_point: tuple[Array, Array] | None = None  # of the hold: `_point_at_jaw`
+        self._raising_point: tuple[Array, Array] | None = None  # of the raising
         self._slip: float | None = None
         self._slip_raising: float | None = None
-        self._touched_at: Array | None = None  # the base's position then, (3,) [m]
+        self._contact_position: Array | None = None  # the base's position then, (3,) [m]
         self._excursion: float | None = None
-        self._let_go: float | None = None  # when the vehicle last touched it [s]
-        self._carried_since: float | None = None  # [s]
+        self._last_contact: float | None = None  # when the vehicle last touched it [s]
+        self._carry_start: float | None = None  # [s]
         self._n_collisions = 0
-        self._touched_ground: float | None = None  # [s]
+        self._ground_contact: float | None = None  # [s]
         self._end: tuple[str, str | None] | None = None
-        self._truths_read: dict[str, None] = {}
+        self._read_topics: dict[str, None] = {}
 
     def start(self) -> None:
-        """Take note of where the object lies."""
-        self._began = self._world.time
-        self._lay = float(self._thing.world_from_body.position[2])
-        self._look_who_reads()
+        """Store the rest height of the object."""
+        self._start_time = self._world.time
+        self._rest_height = float(self._object.world_from_body.position[2])
+        self._find_read_topics()
         self.update()
 
     def update(self) -> None:
-        """Look at contacts and poses after one more step."""
-        if self._began is None or self._end is not None:
+        """Evaluate contacts and poses after one more step."""
+        if self._start_time is None or self._end is not None:
             return
-        time = self._world.time - self._began
+        time = self._world.time - self._start_time
         self._phases.update()
-        by = self._world.contact_forces(self._spec.target)
-        is_held = self._spec.vehicle in by
-        self._feel(time, by)
+        forces = self._world.contact_forces(self._spec.target)
+        is_held = self._spec.vehicle in forces
+        self._add_forces(time, forces)
         if is_held:
-            self._mark("touched", time)
-            self._let_go = time
-        height = 0.0  # nothing else asks for it
-        if is_held and self._spec.ground not in by:
-            height = float(self._thing.world_from_body.position[2]) - self._lay
-        is_carried = height > RAISED
+            self._record_event("touched", time)
+            self._last_contact = time
+        height = 0.0  # unused unless the object is held
+        if is_held and self._spec.ground not in forces:
+            height = float(self._object.world_from_body.position[2]) - self._rest_height
+        is_carried = height > RAISED_HEIGHT
         if is_carried:
-            self._mark("raised", time)
+            self._record_event("raised", time)
             self._height = max(self._height, height)
-            self._carried_since = time if self._carried_since is None else self._carried_since
+            self._carry_start = time if self._carry_start is None else self._carry_start
         else:
-            self._carried_since = self._raising = self._hold_since = None
-        self._follow(time)
+            self._carry_start = self._raising_point = self._hold_start = None
+        self._track_motion(time)
         if is_carried:
             self._time_hold(time, height)
-        self._look_for_the_end(time, is_carried)
+        self._check_end(time, is_carried)
 
-    def _look_for_the_end(self, time: float, is_carried: bool) -> None:
-        """End the level when the object was dropped, or the algorithm has given up."""
+    def _check_end(self, time: float, is_carried: bool) -> None:
+        """End the level if the object was dropped, or the algorithm has given up."""
         if self._end is not None:
             return
-        if self._height > LIFTED and self._let_go is not None and time - self._let_go > FELL:
-            what = "while it was held" if "lifted" in self._marks else "on its way up"
-            self._end = "dropped", f"{self._spec.target!r} fell at {time:g} s, {what}"
-        elif self._phases.gave_up is not None and not is_carried:
+        if (
+            self._height > DROP_HEIGHT
+            and self._last_contact is not None
+            and time - self._last_contact > DROP_TIME
+        ):
+            phase = "while it was held" if "lifted" in self._event_times else "on its way up"
+            self._end = "dropped", f"{self._spec.target!r} fell at {time:g} s, {phase}"
+        elif self._phases.abort_reason is not None and not is_carried:
             self._end = self._failure()
 
-    def _feel(self, time: float, by: Mapping[str, Array]) -> None:
-        """Add to the impulses; too large a one is a collision."""
+    def _add_forces(self, time: float, forces: Mapping[str, Array]) -> None:
+        """Add to the impulses; too large an impulse is a collision."""
         spec = self._spec
-        self._on_object.add(by.get(spec.vehicle))
+        self._on_object.add(forces.get(spec.vehicle))
         ground = self._world.contact_forces(spec.vehicle).get(spec.ground)
         self._on_ground.add(ground)
         if ground is not None:
-            if self._touched_ground is None or time - self._touched_ground > 0.1:
+            if self._ground_contact is None or time - self._ground_contact > 0.1:
                 self._n_collisions += 1
-            self._touched_ground = time
-        for what, impulse in ((spec.target, self._on_object), (spec.ground, self._on_ground)):
-            if self._end is None and impulse.largest > spec.max_impulse:
-                size = f"{impulse.largest:.3g} N s within 50 ms"
-                self._end = "collision", f"{spec.vehicle!r} hit {what!r} at {time:g} s: {size}"
+            self._ground_contact = time
+        for other_body, impulse in ((spec.target, self._on_object), (spec.ground, self._on_ground)):
+            if self._end is None and impulse.peak > spec.max_impulse:
+                size = f"{impulse.peak:.3g} N s within 50 ms"
+                self._end = (
+                    "collision",
+                    f"{spec.vehicle!r} hit {other_body!r} at {time:g} s: {size}",
+                )
 
-    def _follow(self, time: float) -> None:
-        """Follow the base while the jaw closes, and the object while it is raised."""
-        if "touched" in self._marks and "raised" not in self._marks:
+    def _track_motion(self, time: float) -> None:
+        """Track the base while the jaw closes, and the object while it is raised."""
+        if "touched" in self._event_times and "raised" not in self._event_times:
             base = self._base.world_from_body.position
-            if self._touched_at is None:
-                self._touched_at = base
-            self._excursion = max(self._excursion or 0.0, length(base - self._touched_at))
-        since = self._carried_since
-        if since is not None and time - since >= SETTLING and "lifted" not in self._marks:
-            if self._raising is None:
-                self._raising = self._point_at_jaw()
-            self._slip_raising = max(self._slip_raising or 0.0, self._moved(*self._raising))
+            if self._contact_position is None:
+                self._contact_position = base
+            self._excursion = max(self._excursion or 0.0, length(base - self._contact_position))
+        carry_start = self._carry_start
+        if (
+            carry_start is not None
+            and time - carry_start >= SETTLING_TIME
+            and "lifted" not in self._event_times
+        ):
+            if self._raising_point is None:
+                self._raising_point = self._contact_point()
+            self._slip_raising = max(
+                self._slip_raising or 0.0, self._displacement(*self._raising_point)
+            )
 
     def _time_hold(self, time: float, height: float) -> None:
-        """Begin the hold, follow it, and end the level when it was long enough."""
-        if self._hold_since is None:
+        """Begin the hold, track it, and end the level when it was long enough."""
+        if self._hold_start is None:
             if height < self._spec.lift:
                 return
-            self._mark("lifted", time)
-            self._hold_since, self._slip = time, 0.0
-            self._grip = self._point_at_jaw()
-        assert self._grip is not None
-        self._slip = max(self._slip or 0.0, self._moved(*self._grip))
-        self._held = max(self._held, time - self._hold_since)
-        if self._held >= self._spec.hold - 1e-9:
-            self._mark("done", time)
+            self._record_event("lifted", time)
+            self._hold_start, self._slip = time, 0.0
+            self._hold_point = self._contact_point()
+        assert self._hold_point is not None
+        self._slip = max(self._slip or 0.0, self._displacement(*self._hold_point))
+        self._longest_hold = max(self._longest_hold, time - self._hold_start)
+        if self._longest_hold >= self._spec.hold - 1e-9:
+            self._record_event("done", time)
             self._end = "ok", None
 
-    def _point_at_jaw(self) -> tuple[Array, Array]:
-        """The middle of its contacts with the vehicle: in the object's frame, and in the jaw's."""
-        touching = self._world.contacts(self._spec.target)
-        places = [one.position for one in touching if one.other == self._spec.vehicle]
-        middle = np.mean(places, axis=0) if places else self._jaw.world_from_body.position
-        point = self._thing.world_from_body.inverse().transform(middle[None])[0]
-        return point, self._place(point)
+    def _contact_point(self) -> tuple[Array, Array]:
+        """Return the mean of its contacts with the vehicle, in the object's and the jaw's frame."""
+        contacts = self._world.contacts(self._spec.target)
+        positions = [
+            contact.position for contact in contacts if contact.other == self._spec.vehicle
+        ]
+        centre = np.mean(positions, axis=0) if positions else self._jaw.world_from_body.position
+        point = self._object.world_from_body.inverse().transform(centre[None])[0]
+        return point, self._jaw_position(point)
 
-    def _place(self, point: Array) -> Array:
-        """Where a point of the object is in the jaw's frame, (3,) [m]."""
-        jaw_from_thing: Pose = self._jaw.world_from_body.inverse() @ self._thing.world_from_body
-        place: Array = jaw_from_thing.transform(point[None])[0]
-        return place
+    def _jaw_position(self, point: Array) -> Array:
+        """Return the position of a point of the object in the jaw's frame, (3,) [m]."""
+        jaw_from_object: Pose = self._jaw.world_from_body.inverse() @ self._object.world_from_body
+        position: Array = jaw_from_object.transform(point[None])[0]
+        return position
 
-    def _moved(self, point: Array, was: Array) -> float:
-        return length(self._place(point) - was)
+    def _displacement(self, point: Array, start: Array) -> float:
+        return length(self._jaw_position(point) - start)
 
-    def _mark(self, event: str, time: float) -> None:
-        self._marks.setdefault(event, time)
+    def _record_event(self, event: str, time: float) -> None:
+        self._event_times.setdefault(event, time)
 
     @property
     def value(self) -> float | None:
-        """1 for a success, 0 for anything else; None when the measure was never on."""
-        if self._began is None:
+        """The success: 1, or 0 for a failure; None if the measure was never active."""
+        if self._start_time is None:
             return None
-        return 1.0 if "done" in self._marks else 0.0
+        return 1.0 if "done" in self._event_times else 0.0
 
     @property
     def details(self) -> dict[str, float | None]:
-        """What happened when [s], how far, how hard; the phases."""
-        is_on = self._began is not None
+        """The times of events [s], distances, impulses, and the phases."""
+        was_active = self._start_time is not None
         times = {
-            f"time_{name}": self._marks.get(name)
+            f"time_{name}": self._event_times.get(name)
             for name in ("touched", "raised", "lifted", "done")
         }
         return {
-            "height": self._height if is_on else None,
-            "held": self._held if is_on else None,
+            "height": self._height if was_active else None,
+            "held": self._longest_hold if was_active else None,
             "slip": self._slip,
             "slip_raising": self._slip_raising,
-            "impulse_on_object": self._on_object.largest if is_on else None,
-            "impulse_on_ground": self._on_ground.largest if is_on else None,
-            "collisions": float(self._n_collisions) if is_on else None,
+            "impulse_on_object": self._on_object.peak if was_active else None,
+            "impulse_on_ground": self._on_ground.peak if was_active else None,
+            "collisions": float(self._n_collisions) if was_active else None,
             "excursion": self._excursion,
             **times,
             **self._phases.details,
@@ -287,23 +303,23 @@ class Grasp(Measure):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """Which topics with the truth the algorithm read."""
-        self._look_who_reads()
-        if not self._truths_read:
+        """The note on topics with the truth that the algorithm read."""
+        self._find_read_topics()
+        if not self._read_topics:
             return ()
-        topics = ", ".join(self._truths_read)
+        topics = ", ".join(self._read_topics)
         return (f"the algorithm reads the truth ({topics}): an upper bound for others",)
 
-    def _look_who_reads(self) -> None:
+    def _find_read_topics(self) -> None:
         for topic in self._spec.truth.split():
             ends = self._world.bus.ends(topic)
             if ends is not None and ends.is_read:
-                self._truths_read[topic] = None
+                self._read_topics[topic] = None
 
     @property
     def reasons(self) -> dict[str, str]:
-        """Why details are None."""
-        why = {
+        """The reasons why details are None."""
+        reasons = {
             "slip": "it was never lifted",
             "slip_raising": "it was never raised for a second",
             "excursion": "it was never touched",
@@ -313,49 +329,54 @@ class Grasp(Measure):
             "time_done": "it was not held long enough",
         }
         return {
-            name: why[name] for name, value in self.details.items() if value is None and name in why
+            name: reasons[name]
+            for name, value in self.details.items()
+            if value is None and name in reasons
         }
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """Success, height above where it lay, the two forces, slip so far, number of the phase."""
+        """The names: success, height above the rest position, two forces, slip, phase number."""
         forces = ("force_on_object [N]", "force_on_ground [N]")
         return ("value", "height [m]", *forces, "slip [m]", "phase [1]")
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """As of now."""
-        if self._began is None:
+        """The present values."""
+        if self._start_time is None:
             return (None,) * len(self.log_header)
-        height = float(self._thing.world_from_body.position[2]) - self._lay
-        forces = (self._on_object.now, self._on_ground.now)
+        height = float(self._object.world_from_body.position[2]) - self._rest_height
+        forces = (self._on_object.force, self._on_ground.force)
         return (self.value, height, *forces, self._slip, float(self._phases.number))
 
     @property
     def ends_level(self) -> str | None:
-        """That the task is done, or can no longer be."""
+        """The reason: the task is done, or can no longer be."""
         if self._end is None:
             return None
         return self._end[1] or "the object was lifted and held"
 
     @property
     def task_status(self) -> tuple[str, str | None] | None:
-        """``ok`` for a success; else the first that applies of the failures."""
+        """The status ``ok`` for a success; else the first failure that applies."""
         return self._failure() if self._end is None else self._end
 
     def _failure(self) -> tuple[str, str]:
-        """Status of a level without success, and why."""
-        thing, why = f"{self._spec.target!r}", self._phases.gave_up
-        if self._height > LIFTED:
-            return "dropped", why or f"{thing} was raised, and not held for {self._spec.hold:g} s"
-        if "touched" in self._marks:
-            return "missed", why or f"{thing} was touched, and never lifted"
-        if why is not None:
-            is_search = why.startswith(NOT_FOUND) or self._phases.is_at_first
-            return "not found" if is_search else "lost target", why
+        """Return the status of a level without success, and the reason."""
+        target, reason = f"{self._spec.target!r}", self._phases.abort_reason
+        if self._height > DROP_HEIGHT:
+            return (
+                "dropped",
+                reason or f"{target} was raised, and not held for {self._spec.hold:g} s",
+            )
+        if "touched" in self._event_times:
+            return "missed", reason or f"{target} was touched, and never lifted"
+        if reason is not None:
+            is_search = reason.startswith(NOT_FOUND) or self._phases.is_at_first
+            return "not found" if is_search else "lost target", reason
         if self._phases.is_at_first:
-            return "not found", f"{thing} was still searched for when the time was over"
-        return "timeout", f"{thing} was not touched before the time was over"
+            return "not found", f"{target} was still searched for when the time was over"
+        return "timeout", f"{target} was not touched before the time was over"
 
     @property
     def moment(self) -> str | None:
@@ -363,7 +384,7 @@ class Grasp(Measure):
         return self._phases.name
 
     @property
-    def watched(self) -> tuple[Body, Body]:
+    def viewed_bodies(self) -> tuple[Body, Body]:
         """The vehicle and its jaw."""
         return self._base, self._jaw
 

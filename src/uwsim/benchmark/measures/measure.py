@@ -17,93 +17,95 @@ class MeasureSpec(Spec, abc.ABC):
     """An element of ``<measures>`` in a benchmark file."""
 
     values: ClassVar[tuple[str, ...]] = ("last",)
-    """What ``u:value`` may be."""
+    """The allowed statistics of ``u:value``."""
     error_flag: ClassVar[int] = 0
-    """What a missing value adds to the original's sum of errors (compatibility ``rows``)."""
+    """The number that a missing value adds to the original's sum of errors (compatibility
+    ``rows``)."""
 
     name: str
-    """Name of its column, and of the value in the function; an identifier."""
+    """The name of its column, and of the value in the function; an identifier."""
     start_on: TriggerSpec = field(default_factory=OnInitSpec)
-    """It is on from here ..."""
+    """The trigger that activates the measure."""
     stop_on: TriggerSpec = field(default_factory=NeverSpec)
-    """... to here."""
+    """The trigger that deactivates the measure."""
     log: float | None = element(default=None, above=0.0)
-    """Period of its log [s]; None: no log."""
+    """The period of its log [s]; None: no log."""
     value: Literal["last", "mean", "rms", "max"] = element(
         default="last", attribute=True, namespaced=True
     )
-    """Which statistic of a signal is its value (``u:value``)."""
+    """The statistic of a signal that is its value (``u:value``)."""
 
     def errors(self) -> Sequence[str]:
-        """Errors in the combination of elements that are valid one by one."""
+        """Return errors in the combination of elements that are valid one by one."""
         return ()
 
     @property
     def start_value(self) -> float | None:
-        """The original's value before anything was measured; None: none."""
+        """The original's value before the first measurement; None: no value."""
         return None
 
     @property
-    def once_initialised(self) -> MeasureSpec:
-        """The spec to bind once it `has_initialised` an algorithm."""
+    def spec_once_initialised(self) -> MeasureSpec:
+        """The spec to bind after the measure `has_initialised` an algorithm."""
         return self
 
     @property
     def original_fields(self) -> Mapping[str, str]:
-        """Its fields in ``result.dat``: name there -> column of the result."""
+        """The columns of the result by the names of its fields in ``result.dat``."""
         return {self.name: self.name}
 
     @abc.abstractmethod
     def bind(self, world: World) -> Measure:
-        """Find what it looks at; raises UnknownName if that is not there."""
+        """Resolve the names of the spec; raises UnknownName if one is unknown."""
 
 
 class Measure(abc.ABC):
     """A quantity that is measured while its triggers are on.
 
-    It is bound afresh for every level. At the first step at which it is on it is started, at
-    every later one updated; at the first at which it is off again, or when the level ends, it
-    `went_off`.
+    It is bound anew for every level. `start` is called at the first step at which it is active,
+    `update` at every later one, and `went_off` at the first at which it is inactive again, or when
+    the level ends.
     """
 
     unit: ClassVar[str]
-    """Unit of its value."""
+    """The unit of its value."""
     detail_units: ClassVar[Mapping[str, str]] = {}
-    """Units of those details that have another than its value: column suffix -> unit.
+    """The units of those details that have another than its value: column suffix -> unit.
 
-    ``time`` is that of all ``time.<name>`` that have no entry."""
+    ``time`` is that of all ``time.<name>`` that have no entry.
+    """
     fed_by_algorithm: ClassVar[bool] = False
-    """Whether it scores what the algorithm under test publishes."""
+    """A flag: it scores messages that the algorithm under test publishes."""
 
     @abc.abstractmethod
     def start(self) -> None:
-        """Begin, at the first step at which it is on."""
+        """Begin, at the first step at which it is active."""
 
     @abc.abstractmethod
     def update(self) -> None:
-        """Look at the world after one more step."""
+        """Evaluate the world after one more step."""
 
-    def went_off(self) -> None:  # noqa: B027 - to most measures it is nothing
-        """Stop, at the first step at which it is off again, or at the last of the level."""
+    def went_off(self) -> None:  # noqa: B027 - most measures ignore it
+        """Stop, at the first step at which it is inactive again, or at the last of the level."""
 
     @property
     @abc.abstractmethod
     def value(self) -> float | None:
-        """What was measured so far; None when there was nothing to measure."""
+        """The value so far; None when there was nothing to measure."""
 
     @property
     def why(self) -> str | None:
-        """Why the value is None."""
+        """The reason why the value is None."""
         return None if self.value is not None else "it was never on"
 
     @property
     def details(self) -> Mapping[str, float | None]:
-        """What else goes into the result: column suffix -> value."""
+        """The further values of the result: column suffix -> value."""
         return {}
 
     @property
     def reasons(self) -> Mapping[str, str]:
-        """Why details are None, where that is not `why`: column suffix -> reason."""
+        """The reasons why details are None, if they differ from `why`: suffix -> reason."""
         return {}
 
     @property
@@ -113,49 +115,49 @@ class Measure(abc.ABC):
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """A line of its log, as of now."""
+        """The present values of a line of its log."""
         return (self.value,)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the reader of the result should know, besides the value."""
+        """The notes for the reader of the result, besides the value."""
         return ()
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What belongs beside the status of a row although the row has all values."""
+        """The remarks beside the status of a row that has all values."""
         return ()
 
     @property
     def has_initialised(self) -> bool:
-        """Whether it has initialised the algorithm under test with the position of its target."""
+        """A flag: it has initialised the algorithm under test with the position of its target."""
         return False
 
     @property
     def longest_silence(self) -> float:
-        """Longest time without an estimate while it was on [s]; 0 without estimates."""
+        """The longest time without an estimate while it was active [s]; 0 without estimates."""
         return 0.0
 
     @property
     def ends_level(self) -> str | None:
-        """Why it ends the level, status ``collision`` unless it has a `task_status`; None: not."""
+        """The reason to end the level, status ``collision`` or its `task_status`; None: no end."""
         return None
 
     @property
     def task_status(self) -> tuple[str, str | None] | None:
-        """Status of the level as a task and, unless it is ``ok``, why; None: it is no judge.
+        """The status of the level as a task and, unless it is ``ok``, the reason; None: no task.
 
-        It counts at the end of the level, unless the algorithm failed.
+        It is used at the end of the level, unless the algorithm failed.
         """
         return None
 
     @property
     def moment(self) -> str | None:
-        """Name of the phase of a task, of which the report is to have an image; None: none."""
+        """The name of the phase of a task of which the report has an image; None: none."""
         return None
 
     @property
-    def watched(self) -> tuple[Body, Body] | None:
+    def viewed_bodies(self) -> tuple[Body, Body] | None:
         """The vehicle and the body that such an image shows."""
         return None
 

@@ -1,4 +1,4 @@
-r"""Object centred on a camera: how far from the middle of the image a body appears.
+r"""Object centred on a camera: the distance of a body from the middle of the image.
 
 .. code-block:: xml
 
@@ -28,9 +28,9 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
     values: ClassVar[tuple[str, ...]] = VALUES
 
     target: str = element(refers_to="body")
-    """Route of the body whose origin is looked at."""
+    """The route of the body whose origin is projected."""
     camera: str = element(refers_to="camera")
-    """Name of the virtual camera."""
+    """The name of the virtual camera."""
 
     @property
     def start_value(self) -> float:
@@ -38,41 +38,43 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
         return 0.0
 
     def bind(self, world: World) -> ObjectCenteredOnCam:
-        """Find camera and target; raises UnknownName if one is not there."""
+        """Resolve camera and target; raises UnknownName if one is unknown."""
         camera = world.camera(self.camera)
-        unseen = "unseen" in world.compatibility
-        seen = CentroidFromCamera(camera, world.body(self.target), unseen=unseen)
+        includes_behind = "unseen" in world.compatibility
+        projection = CentroidFromCamera(
+            camera, world.body(self.target), includes_behind=includes_behind
+        )
         size = (camera.intrinsics.width, camera.intrinsics.height)
-        return ObjectCenteredOnCam(seen, size, self.value, unseen=unseen)
+        return ObjectCenteredOnCam(projection, size, self.value, includes_behind=includes_behind)
 
 
 class ObjectCenteredOnCam(Measure):
-    r"""Distance :math:`\sqrt{d_x^2 + d_y^2}` of a body's projected origin from the image centre.
+    r"""The distance :math:`\sqrt{d_x^2 + d_y^2}` of a body's projected origin from the centre.
 
     With the image coordinates u, v of the origin and the centre of an image w wide and h high,
     :math:`d_x = (w - 1)/2 - u` and, as the original counts rows from the bottom,
-    :math:`d_y = v - (h - 1)/2`. One sample for each step at which the origin
-    projects into the image; no value when it does not at the last look. ``visible`` is the
-    fraction of looks at which it did. Not modelled: something in between that hides it.
+    :math:`d_y = v - (h - 1)/2`. There is a sample for each step at which the origin projects into
+    the image, and no value if it does not at the last step. ``visible`` is the share of steps at
+    which it does. Not modelled: occlusion.
 
-    Compatibility ``unseen``: a sample at each step, wherever the origin projects to; what is behind
-    the camera is seen through its centre, upside down. ``visible`` is then 1.
+    Compatibility ``unseen``: a sample at each step, wherever the origin projects to; points behind
+    the camera are projected through its centre, upside down. ``visible`` is then 1.
     """
 
     unit = "px"
 
     def __init__(
         self,
-        seen: CentroidFromCamera,
+        projection: CentroidFromCamera,
         size: tuple[int, int],
         value: str,
         *,
-        unseen: bool = False,
+        includes_behind: bool = False,
     ) -> None:
-        self._seen, self._size, self._which = seen, size, value
-        self._unseen = unseen
+        self._projection, self._size, self._statistic = projection, size, value
+        self._includes_behind = includes_behind
         self._signal = Signal(("x", "y"))
-        self._looks = 0
+        self._n_steps = 0
         self._is_visible = False
 
     def start(self) -> None:
@@ -81,39 +83,41 @@ class ObjectCenteredOnCam(Measure):
 
     def update(self) -> None:
         """Take a sample, if the body is in the image."""
-        pixel = self._seen.pixel()
-        self._looks += 1
+        pixel = self._projection.pixel()
+        self._n_steps += 1
         u, v = (math.nan, math.nan) if pixel is None else pixel
-        self._is_visible = pixel is not None and (self._unseen or is_in_image(u, v, *self._size))
+        self._is_visible = pixel is not None and (
+            self._includes_behind or is_in_image(u, v, *self._size)
+        )
         if self._is_visible:
             centre_u, centre_v = image_centre(*self._size)
-            off = (centre_u - u, v - centre_v)
-            self._signal.add(math.hypot(*off), off)
+            offset = (centre_u - u, v - centre_v)
+            self._signal.add(math.hypot(*offset), offset)
 
     @property
     def value(self) -> float | None:
         """The last distance, or the statistic given by ``u:value`` [px]."""
-        return self._signal.value(self._which) if self._is_visible else None
+        return self._signal.value(self._statistic) if self._is_visible else None
 
     @property
     def why(self) -> str | None:
-        """Why there is no value."""
-        if not self._looks:
+        """The reason why there is no value."""
+        if not self._n_steps:
             return "it was never on"
         return None if self._is_visible else "the target is not in the image"
 
     @property
     def details(self) -> dict[str, float | None]:
-        """Statistics of distance and components, and how often the body was in the image."""
-        visible = self._signal.n / self._looks if self._looks else None
-        return {**self._signal.details, "visible": visible}
+        """The statistics of distance and components, and the share of steps with it in view."""
+        visible_share = self._signal.n / self._n_steps if self._n_steps else None
+        return {**self._signal.details, "visible": visible_share}
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The distance and its components."""
+        """The names of the distance and its components."""
         return ("total", "x", "y")
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The newest sample; nothing while the body is not in the image."""
-        return self._signal.last if self._is_visible else (None, None, None)
+        """The newest sample; None while the body is not in the image."""
+        return self._signal.last_sample if self._is_visible else (None, None, None)

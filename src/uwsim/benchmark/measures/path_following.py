@@ -1,4 +1,4 @@
-r"""Path following: how far a body strays from a path.
+r"""Path following: the distance of a body from a path.
 
 .. code-block:: xml
 
@@ -36,10 +36,10 @@ from ..metrics.signal import VALUES, Signal
 from ..reference_path import ReferencePathSpec, path_message
 from .measure import Measure, MeasureSpec
 
-PARTS = {"iae": "m s", "distance": "m", "waypoint": "1", "ise": "m^2 s", "share": "1"}
-"""Details -> unit; first the original's three, in its order."""
-STATISTICS = {"mean": "m", "rms": "m", "max": "m", "std": "m", "n": "1"}
-"""Statistics of the distance -> unit."""
+DETAIL_UNITS = {"iae": "m s", "distance": "m", "waypoint": "1", "ise": "m^2 s", "share": "1"}
+"""The details and their units; first the original's three, in its order."""
+STATISTIC_UNITS = {"mean": "m", "rms": "m", "max": "m", "std": "m", "n": "1"}
+"""The statistics of the distance and their units."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,11 +54,11 @@ class PathFollowingSpec(MeasureSpec):
     error_flag: ClassVar[int] = -1
 
     target: str = element(refers_to="body")
-    """Route of the body."""
+    """The route of the body."""
     topic: str | None = element(default=None)
-    """Topic of the path (nav_msgs/Path); without one there is no path, and so no value."""
+    """The topic of the path (nav_msgs/Path); without one there is no path, and so no value."""
     from_: str | None = element("from", default=None, refers_to="body")
-    """Route of the body in whose frame the path is given; None: W, not L."""
+    """The route of the body in whose frame the path is given; None: W, not L."""
     reference: ReferencePathSpec | None = element("path", namespaced=True, default=None)
     """The path. With ``<topic>`` too, it is published there when the measure starts."""
     path: str = field(default="", compare=False, metadata={"path": True})
@@ -74,7 +74,7 @@ class PathFollowingSpec(MeasureSpec):
         return 0.0
 
     def bind(self, world: World) -> PathFollowing:
-        """Find target and frame; raises UnknownName if one is not there."""
+        """Resolve target and frame; raises UnknownName if one is unknown."""
         inbox = None if self.topic is None else world.bus.inbox(self.topic, Path, latched=True)
         frame = None if self.from_ is None else world.body(self.from_)
         points = None if self.reference is None else self.reference.read(self.path)
@@ -82,35 +82,34 @@ class PathFollowingSpec(MeasureSpec):
 
 
 class PathFollowing(Measure):
-    r"""Distance :math:`d` of a body's origin from a path, or its integral over time.
+    r"""The distance :math:`d` of a body's origin from a path, or its integral over time.
 
     .. math:: \text{iae} = \int d \, dt \qquad \text{ise} = \int d^2 \, dt
 
-    d is taken at every step and runs in a straight line from one to the next, so that the
-    integrals over a step are :math:`(d_0 + d_1) \Delta t / 2` and
-    :math:`(d_0^2 + d_0 d_1 + d_1^2) \Delta t / 3`. What passes while the measure is off, or before
-    there is a path, does not count.
+    d is sampled at every step and linear in time between steps, so that the integrals over a step
+    are :math:`(d_0 + d_1) \Delta t / 2` and :math:`(d_0^2 + d_0 d_1 + d_1^2) \Delta t / 3`. The
+    time while the measure is inactive, or without a path, does not count.
 
-    The path is that of ``<u:path>``. Without it, it is the newest one there is when the measure
-    starts, or the first to arrive after that; later ones are ignored until the next level. Its
-    points are joined by straight segments in the frame ``from`` as that stands at each step
-    (orientations and the message's frame_id are not looked at).
+    The path is that of ``<u:path>``. Without it, it is the newest path when the measure starts, or
+    the first to arrive after that; later ones are ignored until the next level. Straight segments
+    join its points in the frame ``from``, at the pose of that frame at each step (orientations and
+    the message's frame_id are not used).
 
-    The first segment is the current one to begin with; at each step at which the body is nearer to
-    the next segment than to the current one, that becomes the current one. So a body that leaps
-    over two waypoints is measured against a segment behind it for a step, one that begins in the
-    middle of the path against the first segments until it comes near them, and there is no way
-    back. A point that repeats the one before it is left out.
+    The first segment is current at the start. When the body is nearer to the next segment than to
+    the current one, the next becomes current; an earlier segment never does. A body that passes two
+    waypoints in a step is measured against a segment behind it for a step. One that begins in the
+    middle of the path is measured against the first segments until it comes near them. A point that
+    repeats the previous one is left out.
 
-    Details: ``iae`` (the value) [m s], ``ise`` [m^2 s], ``distance`` now [m], ``waypoint``, the
-    point, from 0, at which the current segment begins, ``share`` of the path's length up to the
-    foremost place that was nearest [1], and the statistics of the distance over all steps [m].
+    Details: ``iae`` (the value) [m s], ``ise`` [m^2 s], the present ``distance`` [m], ``waypoint``,
+    the index of the point at which the current segment begins, ``share`` of the path's length up to
+    the farthest nearest point so far [1], and the statistics of the distance over all steps [m].
 
-    Compatibility ``path-ise``: ``iae`` is the sum of :math:`d_1 \Delta t`, and stands under
-    ``ise``, too. ``path-frame``: to the points of the path the place of ``from`` in W is added.
+    Compatibility ``path-ise``: ``iae`` is the sum of :math:`d_1 \Delta t`, also under ``ise``.
+    ``path-frame``: the position of ``from`` in W is added to the points of the path.
     ``path-repeats``: a repeated point is a segment of length 0; as the body is never nearer to it
-    than to the segment before, it holds up all that follows. ``path-point``: a path of one point is
-    no path; here it is a segment of length 0. (The original reads beyond the end of its list.)
+    than to the previous segment, that stays current. ``path-point``: a path of one point is
+    invalid; here it is a segment of length 0. (The original reads beyond the end of its list.)
     """
 
     unit = "m s"
@@ -125,33 +124,33 @@ class PathFollowing(Measure):
         points: Array | None = None,
     ) -> None:
         self._world, self._target, self._frame, self._inbox = world, target, frame, inbox
-        self._topic, self._which = spec.topic, spec.value
+        self._topic, self._statistic = spec.topic, spec.value
         self._is_original = "path-ise" in world.compatibility
-        self._adds_place = "path-frame" in world.compatibility
+        self._adds_position = "path-frame" in world.compatibility
         self._keeps_repeats = "path-repeats" in world.compatibility
         self._refuses_points = "path-point" in world.compatibility
         if spec.value != "last":
             self.unit = "m"  # type: ignore[misc]  # depends on u:value
         ise = {"ise": "m s"} if self._is_original else {}
-        self.detail_units = {**PARTS, **STATISTICS, **ise}  # type: ignore[misc]
+        self.detail_units = {**DETAIL_UNITS, **STATISTIC_UNITS, **ise}  # type: ignore[misc]
         self._path: Polyline | None = None
-        self._waypoints: list[int] = []  # at which of its points each segment begins
-        self._refused = ""  # why the newest path could not be taken
+        self._waypoints: list[int] = []  # the index of the point at which each segment begins
+        self._error = ""  # the error of the newest path
         self._reference = points
-        self._was_on = False
+        self._was_active = False
         self._segment = 0
-        self._furthest = 0.0  # along the path [m]
+        self._farthest_length = 0.0  # along the path [m]
         self._iae = 0.0  # [m s]
         self._ise = 0.0  # [m^2 s]
-        self._before: tuple[int, float] | None = None  # the last step looked at, and d [m]
+        self._last_sample: tuple[int, float] | None = None  # the last step, and its d [m]
         self._signal = Signal(())
 
     def start(self) -> None:
-        """Begin, with the newest path there is."""
-        self._was_on = True
-        self._before = None
+        """Begin with the newest path."""
+        self._was_active = True
+        self._last_sample = None
         if self._reference is not None:
-            self._take(self._reference)
+            self._set_path(self._reference)
             if self._topic is not None:
                 self._world.bus.publisher(self._topic, Path)(path_message(self._reference))
         self.update()
@@ -159,21 +158,23 @@ class PathFollowing(Measure):
     def update(self) -> None:
         """Sample the distance, and integrate from the last step to this one."""
         if self._path is None:
-            self._look_for_path()
+            self._read_path()
         if self._path is None:
             return
-        place = self._place()
-        distance, along = self._path.nearest(self._segment, place)
+        position = self._position()
+        distance, length = self._path.find_nearest(self._segment, position)
         if self._segment + 1 < self._path.n_segments:
-            of_next = self._path.nearest(self._segment + 1, place)
-            if of_next[0] < distance:
+            next_nearest = self._path.find_nearest(self._segment + 1, position)
+            if next_nearest[0] < distance:
                 self._segment += 1
-                distance, along = of_next
-        self._furthest = max(self._furthest, along)
-        if self._before is not None:
-            step, before = self._before
-            self._add(before, distance, (self._world.step - step) * self._world.timestep)
-        self._before = (self._world.step, distance)
+                distance, length = next_nearest
+        self._farthest_length = max(self._farthest_length, length)
+        if self._last_sample is not None:
+            step, last_distance = self._last_sample
+            self._integrate(
+                last_distance, distance, (self._world.step - step) * self._world.timestep
+            )
+        self._last_sample = (self._world.step, distance)
         self._signal.add(distance, ())
 
     @property
@@ -181,106 +182,108 @@ class PathFollowing(Measure):
         """The integral of the error [m s], or the statistic given by ``u:value`` [m]."""
         if not self._signal.n:
             return None
-        return self._iae if self._which == "last" else self._signal.value(self._which)
+        return self._iae if self._statistic == "last" else self._signal.value(self._statistic)
 
     @property
     def why(self) -> str | None:
-        """Why there is no value."""
+        """The reason why there is no value."""
         if self._signal.n:
             return None
-        if not self._was_on:
+        if not self._was_active:
             return "it was never on"
         if self._topic is None:
             return "neither <topic> nor <u:path> gives a path"
-        return self._refused or f"no path on {self._topic!r}"
+        return self._error or f"no path on {self._topic!r}"
 
     @property
     def details(self) -> dict[str, float | None]:
-        """Integrals and statistics of the distance, and how far along the path the body came."""
-        parts: dict[str, float | None] = dict.fromkeys(PARTS)
+        """The integrals and statistics of the distance, and the share of the path reached."""
+        parts: dict[str, float | None] = dict.fromkeys(DETAIL_UNITS)
         if self._path is not None:
             length = self._path.length
             parts = {
                 "iae": self._iae,
-                "distance": self._signal.last[0],
+                "distance": self._signal.last_sample[0],
                 "waypoint": float(self._waypoints[self._segment]),
                 "ise": self._iae if self._is_original else self._ise,
-                "share": self._furthest / length if length > 0.0 else None,
+                "share": self._farthest_length / length if length > 0.0 else None,
             }
         return {**parts, **self._signal.details}
 
     @property
     def reasons(self) -> dict[str, str]:
-        """Why there is no share."""
+        """The reason why there is no share."""
         is_point = self._path is not None and self._path.length == 0.0
         return {"share": "the path has no length"} if is_point else {}
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The integral, the distance now, where on the path; then what the original has not."""
-        return tuple(PARTS)
+        """The names of integral, distance and waypoint; then those that the original lacks."""
+        return tuple(DETAIL_UNITS)
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """As of now."""
+        """The present values."""
         details = self.details
         return tuple(details[name] for name in self.log_header)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was wrong with a path that could not be taken."""
-        return (self._refused,) if self._refused else ()
+        """The error of an invalid path."""
+        return (self._error,) if self._error else ()
 
     def close(self) -> None:
         """Unsubscribe."""
         if self._inbox is not None:
             self._inbox.close()
 
-    def _look_for_path(self) -> None:
-        """Take the newest path that arrived, if it can be taken."""
+    def _read_path(self) -> None:
+        """Read the newest path that arrived, if it is valid."""
         messages = self._inbox.take() if self._inbox is not None else []
         if not messages:
             return
-        points = _points(messages[-1])
+        points = _path_points(messages[-1])
         if points is None:
-            self._refused = f"the path on {self._topic!r} has points that are no finite numbers"
+            self._error = f"the path on {self._topic!r} has points that are no finite numbers"
         elif not len(points):
-            self._refused = f"the path on {self._topic!r} has no points"
+            self._error = f"the path on {self._topic!r} has no points"
         elif len(points) == 1 and self._refuses_points:
-            self._refused = f"the path on {self._topic!r} has one point"
+            self._error = f"the path on {self._topic!r} has one point"
         else:
-            self._take(points)
+            self._set_path(points)
 
-    def _take(self, points: Array) -> None:
-        """Take a path of points (n, 3) [m]."""
-        if self._adds_place and self._frame is not None:
+    def _set_path(self, points: Array) -> None:
+        """Set the path to points (n, 3) [m]."""
+        if self._adds_position and self._frame is not None:
             points = points + self._frame.world_from_body.position
-        differs = np.r_[True, np.any(points[1:] != points[:-1], axis=1) | self._keeps_repeats]
-        self._waypoints = np.flatnonzero(differs).tolist()
-        self._path = Polyline(points[differs])
+        is_distinct = np.r_[True, np.any(points[1:] != points[:-1], axis=1) | self._keeps_repeats]
+        self._waypoints = np.flatnonzero(is_distinct).tolist()
+        self._path = Polyline(points[is_distinct])
 
-    def _place(self) -> Array:
-        """Where the body is, in the path's frame, (3,) [m]."""
+    def _position(self) -> Array:
+        """Return the position of the body in the path's frame, (3,) [m]."""
         position = self._target.world_from_body.position
         if self._frame is None:
             return position
         world_from_frame = self._frame.world_from_body
         return rotate_back(world_from_frame.rotation, position - world_from_frame.position)
 
-    def _add(self, before: float, distance: float, duration: float) -> None:
+    def _integrate(self, last_distance: float, distance: float, duration: float) -> None:
         """Integrate between two samples [m, m, s]."""
         if self._is_original:
             self._iae += distance * duration
             return
-        self._iae += (before + distance) * duration / 2.0
-        self._ise += (before**2 + before * distance + distance**2) * duration / 3.0
+        self._iae += (last_distance + distance) * duration / 2.0
+        self._ise += (last_distance**2 + last_distance * distance + distance**2) * duration / 3.0
 
 
-def _points(path: Path) -> Array | None:
-    """The points of a path, (n, 3) [m]; None when one is no finite number."""
+def _path_points(path: Path) -> Array | None:
+    """Return the points of a path, (n, 3) [m]; None if one is not finite."""
     try:
-        places = [pose.pose.position for pose in path.poses]
-        points = np.array([(place.x, place.y, place.z) for place in places], dtype=np.float64)
+        positions = [pose.pose.position for pose in path.poses]
+        points = np.array(
+            [(position.x, position.y, position.z) for position in positions], dtype=np.float64
+        )
     except (AttributeError, TypeError, ValueError):  # a message built by other code
         return None
     return points.reshape(-1, 3) if np.isfinite(points).all() else None

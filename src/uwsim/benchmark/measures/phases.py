@@ -1,4 +1,4 @@
-"""The phases of an algorithm under test, as it publishes them, and how long each lasted."""
+"""The phases that an algorithm under test publishes, and the duration of each."""
 
 from __future__ import annotations
 
@@ -8,74 +8,74 @@ from ...base.inbox import Inbox
 from ...messages import String
 from ...world import World
 
-GAVE_UP = "aborted"
-"""A message ``aborted: why`` says that the algorithm gave up."""
+ABORT_NAME = "aborted"
+"""The name in a message ``aborted: why``, with which the algorithm gives up."""
 
 
 class Phases:
-    """Listens to a topic with the name of the present phase.
+    """A subscription to a topic with the name of the present phase.
 
-    A message is the name of a phase, with or without ``: more about it``; other names are no
-    phase. ``aborted: why`` says that the algorithm gave up.
+    A message is the name of a phase, optionally with ``: details``; other names are ignored.
+    ``aborted: why`` states that the algorithm gave up.
 
     Args:
         names: the phases that count, in their order.
         world: the simulation.
-        inbox: what was published; None: nothing is.
+        inbox: the received messages; None: there are none.
     """
 
     def __init__(self, names: Sequence[str], world: World, inbox: Inbox[String] | None) -> None:
         self._names, self._world, self._inbox = list(names), world, inbox
         self._seconds = dict.fromkeys(self._names, 0.0)
-        self._now: str | None = None
-        self._since = world.time
-        self._farthest = 0  # 1 is the first
-        self.gave_up: str | None = None
-        """Why the algorithm gave up; None: it did not."""
+        self._name: str | None = None
+        self._count_time = world.time
+        self._max_number = 0  # 1 is the first
+        self.abort_reason: str | None = None
+        """The reason why the algorithm gave up; None: it did not."""
 
     def update(self) -> None:
-        """Take note of what was published since the last call."""
+        """Read the messages since the last call."""
         if self._inbox is None:
             return
         for message in self._inbox.take():
-            name, _, more = (part.strip() for part in message.data.partition(":"))
-            if name == GAVE_UP:
-                self.gave_up = self.gave_up or (more or "the algorithm gave up")[:200]
+            name, _, details = (part.strip() for part in message.data.partition(":"))
+            if name == ABORT_NAME:
+                self.abort_reason = self.abort_reason or (details or "the algorithm gave up")[:200]
             elif name in self._seconds:
-                self._count()
-                self._now = name
-                self._farthest = max(self._farthest, self._names.index(name) + 1)
+                self._add_time()
+                self._name = name
+                self._max_number = max(self._max_number, self._names.index(name) + 1)
 
-    def _count(self) -> None:
-        """Add the time since the last look to the present phase."""
+    def _add_time(self) -> None:
+        """Add the time since the last call to the present phase."""
         time = self._world.time
-        if self._now is not None:
-            self._seconds[self._now] += time - self._since
-        self._since = time
+        if self._name is not None:
+            self._seconds[self._name] += time - self._count_time
+        self._count_time = time
 
     @property
     def name(self) -> str | None:
         """The present phase; None before any."""
-        return self._now
+        return self._name
 
     @property
     def number(self) -> int:
-        """Number of the present phase, 1 the first; 0 before any."""
-        return 0 if self._now is None else self._names.index(self._now) + 1
+        """The number of the present phase, 1 the first; 0 before any."""
+        return 0 if self._name is None else self._names.index(self._name) + 1
 
     @property
     def is_at_first(self) -> bool:
-        """Whether nothing but the first phase was ever reached."""
-        return self._farthest == 1
+        """A flag: no phase but the first was ever reached."""
+        return self._max_number == 1
 
     @property
     def details(self) -> dict[str, float | None]:
         """The number of the farthest phase, 1 the first, and the time in each [s]."""
         if not self._names:
             return {}
-        self._count()
+        self._add_time()
         return {
-            "phase": float(self._farthest),
+            "phase": float(self._max_number),
             **{f"time.{name}": self._seconds[name] for name in self._names},
         }
 

@@ -1,4 +1,4 @@
-r"""Position error: how far a body is from where it should be.
+r"""Position error: the distance of a body from its desired position.
 
 .. code-block:: xml
 
@@ -27,7 +27,7 @@ from ...world import Body, World
 from ..metrics.signal import VALUES, Signal
 from .measure import Measure, MeasureSpec
 
-TURN = ("rx", "ry", "rz", "rw")
+ATTITUDE = ("rx", "ry", "rz", "rw")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,12 +37,12 @@ class PositionErrorSpec(MeasureSpec):
     values: ClassVar[tuple[str, ...]] = VALUES
 
     target: str = element(refers_to="body")
-    """Route of the body."""
+    """The route of the body."""
     position: tuple[float, float, float]
-    """Where it should be, in L [m]."""
+    """The desired position, in L [m]."""
     topic: str | None = element(default=None)
-    """Topic with the wanted position instead (geometry_msgs/PoseStamped, in L): its newest
-    message when the measure starts, or the first after that. None: ``position`` counts."""
+    """The topic with the desired position instead (geometry_msgs/PoseStamped, in L): its newest
+    message when the measure starts, or the first after that. None: ``position``."""
 
     @property
     def start_value(self) -> float:
@@ -50,7 +50,7 @@ class PositionErrorSpec(MeasureSpec):
         return 100.0 if self.topic is None else -1.0
 
     def bind(self, world: World) -> PositionError:
-        """Find the target; raises UnknownName if it is not there."""
+        """Resolve the target; raises UnknownName if there is none."""
         inbox = (
             None if self.topic is None else world.bus.inbox(self.topic, PoseStamped, latched=True)
         )
@@ -58,10 +58,10 @@ class PositionErrorSpec(MeasureSpec):
 
 
 class PositionError(Measure):
-    r"""Distance :math:`\lVert p - q \rVert` of a body's origin from where it should be.
+    r"""The distance :math:`\lVert p - q \rVert` of a body's origin from its desired position.
 
-    One sample a step. The components x, y, z are those of :math:`p - q` in L; rx, ry, rz, rw are
-    the body's attitude in L now, a quaternion xyzw, as in the original.
+    There is a sample at each step. The components x, y, z are those of :math:`p - q` in L; rx, ry,
+    rz, rw are the body's present attitude in L, a quaternion xyzw, as in the original.
 
     Compatibility ``position-frame``: the components are in W, and so is the topic's position.
     ``position-start``: the first sample is taken a step later; until then the value is 100, and -1
@@ -69,36 +69,40 @@ class PositionError(Measure):
     """
 
     unit = "m"
-    detail_units: ClassVar[Mapping[str, str]] = dict.fromkeys(TURN, "1")
+    detail_units: ClassVar[Mapping[str, str]] = dict.fromkeys(ATTITUDE, "1")
 
     def __init__(
         self, spec: PositionErrorSpec, world: World, body: Body, inbox: Inbox[PoseStamped] | None
     ) -> None:
         self._body, self._inbox, self._topic = body, inbox, spec.topic
-        self._which = spec.value
+        self._statistic = spec.value
         self._localized_from_world = world.world_from_localized.inverse()
         is_original = "position-frame" in world.compatibility
         self._frame_from_world = Pose.identity() if is_original else self._localized_from_world
         self._goal: Array | None = None  # (3,) [m], in L, or in W
         if inbox is None:
-            place = Pose(np.array(spec.position), np.eye(3))  # in L
-            self._goal = (world.world_from_localized @ place if is_original else place).position
+            localized_from_goal = Pose(np.array(spec.position), np.eye(3))  # in L
+            self._goal = (
+                world.world_from_localized @ localized_from_goal
+                if is_original
+                else localized_from_goal
+            ).position
         self._signal = Signal(("x", "y", "z"))
-        self._was_on = False
+        self._was_active = False
         self._was_updated = False
         self._starts_at_100 = "position-start" in world.compatibility
 
     def start(self) -> None:
         """Take the first sample."""
-        self._was_on = True
+        self._was_active = True
         if not self._starts_at_100:
             self.update()
 
     def update(self) -> None:
-        """Take a sample, once it is known where the body should be."""
+        """Take a sample if the desired position is known."""
         self._was_updated = True
         if self._goal is None:
-            self._goal = self._received()
+            self._goal = self._read_goal()
         if self._goal is not None:
             error = (self._position() - self._goal).tolist()
             self._signal.add(math.hypot(*error), error)
@@ -108,30 +112,30 @@ class PositionError(Measure):
         """The last distance, or the statistic given by ``u:value`` [m]."""
         if self._starts_at_100 and not self._signal.n:
             return -1.0 if self._was_updated else 100.0
-        return self._signal.value(self._which)
+        return self._signal.value(self._statistic)
 
     @property
     def why(self) -> str | None:
-        """Why there is no value."""
+        """The reason why there is no value."""
         if self.value is not None:
             return None
-        return f"no position on {self._topic!r}" if self._was_on else "it was never on"
+        return f"no position on {self._topic!r}" if self._was_active else "it was never on"
 
     @property
     def details(self) -> dict[str, float | None]:
-        """Statistics of distance and components, and the attitude now."""
-        return {**self._signal.details, **dict(zip(TURN, self._turn(), strict=True))}
+        """The statistics of distance and components, and the present attitude."""
+        return {**self._signal.details, **dict(zip(ATTITUDE, self._attitude(), strict=True))}
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The distance, its components, the attitude."""
-        return ("total", "x", "y", "z", *TURN)
+        """The names of the distance, its components and the attitude."""
+        return ("total", "x", "y", "z", *ATTITUDE)
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
         """The newest sample."""
-        total, *components = self._signal.last
-        return (self.value if total is None else total, *components, *self._turn())
+        total, *components = self._signal.last_sample
+        return (self.value if total is None else total, *components, *self._attitude())
 
     def close(self) -> None:
         """Unsubscribe."""
@@ -139,15 +143,15 @@ class PositionError(Measure):
             self._inbox.close()
 
     def _position(self) -> Array:
-        """Where the body is, in the frame of the components, (3,) [m]."""
+        """Return the position of the body in the frame of the components, (3,) [m]."""
         frame = self._frame_from_world
         return rotate(frame.rotation, self._body.world_from_body.position) + frame.position
 
-    def _turn(self) -> tuple[float, ...]:
+    def _attitude(self) -> tuple[float, ...]:
         w, x, y, z = (self._localized_from_world @ self._body.world_from_body).quaternion.tolist()
         return (x, y, z, w)
 
-    def _received(self) -> Array | None:
+    def _read_goal(self) -> Array | None:
         messages = self._inbox.take() if self._inbox is not None else []
         if not messages:
             return None

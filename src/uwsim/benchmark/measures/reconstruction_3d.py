@@ -22,7 +22,7 @@ from ...messages import PointCloud2, points
 from ...schema import REQUIRED_BY_DTD, element
 from ...world import Body, Box, World
 from ..metrics.coverage import Coverage
-from ..metrics.reconstruction import Reconstruction, turned_box, upright
+from ..metrics.reconstruction import Reconstruction, rotate_box, upright_rotation
 from .measure import Measure, MeasureSpec
 
 ORIGINAL_FIELDS = {
@@ -31,9 +31,9 @@ ORIGINAL_FIELDS = {
     "coverage %": "coverage",
     "outliers %": "outlier_share",
 }
-"""The original's name of a detail -> ours."""
+"""The details by the original's name."""
 MAX_NOTES = 5
-"""Greatest number of kinds of unreadable clouds that are reported."""
+"""The greatest number of kinds of invalid clouds that are reported."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,15 +41,16 @@ class Reconstruction3DSpec(MeasureSpec):
     """A ``<reconstruction3D>`` element of a benchmark file."""
 
     target: str = element(refers_to="body")
-    """Route of the body that is rebuilt."""
+    """The route of the reconstructed body."""
     topic: str
-    """Topic of the clouds (sensor_msgs/PointCloud2)."""
+    """The topic of the clouds (sensor_msgs/PointCloud2)."""
     from_: str | None = element("from", default=None, original=REQUIRED_BY_DTD, refers_to="body")
-    """Route of the body in whose frame the clouds are given; without one they are in W, not L."""
+    """The route of the body in whose frame the clouds are given; without one they are in W, not
+    L."""
     level_of_detail: float = element(default=0.003, above=0.0)
-    """Cell size of the coverage [m]."""
+    """The cell size of the coverage [m]."""
     detailed_results_to_globals: bool = element(default=False, attribute=True)
-    """Whether result.dat has the details instead of the value."""
+    """A flag: result.dat has the details instead of the value."""
 
     @property
     def original_fields(self) -> Mapping[str, str]:
@@ -64,11 +65,11 @@ class Reconstruction3DSpec(MeasureSpec):
         return 0.0
 
     def bind(self, world: World) -> Reconstruction3D:
-        """Find target and frame.
+        """Resolve target and frame.
 
         Raises:
-            UnknownName: one of them is not there.
-            BadSetting: the target has no shape, or the level of detail makes too many cells.
+            UnknownName: one of them is unknown.
+            BadSetting: the target has no shape, or the level of detail gives too many cells.
         """
         target = world.body(self.target)
         frame = None if self.from_ is None else world.body(self.from_)
@@ -86,28 +87,29 @@ class Reconstruction3DSpec(MeasureSpec):
 
 
 class Reconstruction3D(Measure):
-    """Mean distance of the points of all clouds so far from the surface of a body's box.
+    """The mean distance of the points of all clouds so far from the surface of a body's box.
 
-    Each cloud is brought from the frame ``from`` to the body's as both stand at the step at which
-    it arrives; the message's frame_id is not looked at, and points of which a coordinate is NaN,
-    infinite or beyond 1e9 m are skipped. `uwsim.benchmark.metrics.reconstruction` says which points
-    are ground, outliers and inliers: only inliers have an error. The box is the body's own bounding
-    box, however it lies; its top is the side that looks most upwards when the level begins.
+    Each cloud is transformed from the frame ``from`` to the body's, with the poses of both at the
+    step of its arrival. The message's frame_id is not used, and points with a coordinate that is
+    NaN, infinite or beyond 1e9 m are skipped. `uwsim.benchmark.metrics.reconstruction` defines
+    ground, outliers and inliers: only inliers have an error. The box is the body's own bounding
+    box, in any attitude; its top is the side that points most upwards when the level begins.
 
-    There is no value when no cloud came, or none of its points was an inlier. Clouds add up until
-    the level ends, so none of them gets too old: that the topic is silent is no failure.
+    There is no value without a cloud, or without an inlier. All clouds of the level count, so a
+    pause of the topic is no failure.
 
     Details: ``mean_error`` (the value) [m]; ``error_variance`` over n - 1, None with one inlier
-    [m^2]; ``coverage``, the share of the nodes on the five faces above ground that a point lies
-    near [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, outliers among outliers and
-    inliers [1]; and how many points and clouds there were of each kind. An error of 0 needs a
-    perfect *box*: what of the body's shape lies within its bounding box counts as error. Repeating
-    one good point makes the mean small: compare the coverage.
+    [m^2]; ``coverage``, the share of the nodes on the five faces above ground with a point near
+    them [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, outliers among outliers and
+    inliers [1]; and the numbers of points and clouds of each kind. Only a *box* has an error of 0:
+    the distance of the body's surface from its bounding box counts as error. Repeating one accurate
+    point makes the mean small: compare the coverage.
 
-    Compatibility ``reconstruction-transform``: clouds are brought to the body's frame as both
-    stood when the level began. ``reconstruction-box``: two corners of the box are turned into W
-    and sorted, which is right only for quarter turns. ``reconstruction-coverage``: the original's
-    number of nodes. ``reconstruction-empty``: without inliers the error is 0 and its variance -0.
+    Compatibility ``reconstruction-transform``: clouds are transformed to the body's frame with the
+    poses of both when the level began. ``reconstruction-box``: two corners of the box are rotated
+    to W and sorted, which is right only for quarter turns. ``reconstruction-coverage``: the
+    original's number of nodes. ``reconstruction-empty``: without inliers the error is 0 and its
+    variance -0.
     """
 
     unit = "m"
@@ -131,51 +133,57 @@ class Reconstruction3D(Measure):
         self._target, self._frame, self._topic = target, frame, spec.topic
         self._inbox = world.bus.inbox(spec.topic, PointCloud2)
         rotation = target.world_from_body.rotation
-        self._box_from_target = rotation if "reconstruction-box" in quirks else upright(rotation)
-        turned = turned_box(box, self._box_from_target)
-        self._points = Reconstruction(
-            turned,
-            Coverage(turned, spec.level_of_detail, is_original="reconstruction-coverage" in quirks),
+        self._box_from_target = (
+            rotation if "reconstruction-box" in quirks else upright_rotation(rotation)
         )
-        self._fixed = self._target_from_frame() if "reconstruction-transform" in quirks else None
+        rotated_box = rotate_box(box, self._box_from_target)
+        self._points = Reconstruction(
+            rotated_box,
+            Coverage(
+                rotated_box, spec.level_of_detail, is_original="reconstruction-coverage" in quirks
+            ),
+        )
+        self._fixed_pose = (
+            self._target_from_frame() if "reconstruction-transform" in quirks else None
+        )
         self._is_never_empty = "reconstruction-empty" in quirks
-        self._was_on = False
+        self._was_active = False
         self._n_clouds = 0
-        self._refused: dict[str, None] = {}  # what was wrong with clouds
+        self._errors: dict[str, None] = {}  # the errors of clouds
 
     def start(self) -> None:
-        """Forget the clouds that came before."""
-        self._was_on = True
+        """Discard the clouds received before."""
+        self._was_active = True
         self._inbox.clear()
 
     def update(self) -> None:
         """Add the clouds that arrived."""
         for cloud in self._inbox.take():
             try:
-                found = points(cloud)
+                cloud_points = points(cloud)
             except BadSetting as error:
-                if len(self._refused) < MAX_NOTES:
-                    self._refused[f"a cloud on {self._topic!r} was not used: {error}"] = None
+                if len(self._errors) < MAX_NOTES:
+                    self._errors[f"a cloud on {self._topic!r} was not used: {error}"] = None
                 continue
             self._n_clouds += 1
-            self._add(found)
+            self._add(cloud_points)
 
     @property
     def value(self) -> float | None:
-        """Mean distance of the inliers from the surface [m]."""
-        if self._is_never_empty and self._was_on:
+        """The mean distance of the inliers from the surface [m]."""
+        if self._is_never_empty and self._was_active:
             return self._points.mean or 0.0
         return self._points.mean
 
     @property
     def why(self) -> str | None:
-        """Why there is no value."""
+        """The reason why there is no value."""
         if self.value is not None:
             return None
-        if not self._was_on:
+        if not self._was_active:
             return "it was never on"
         if not self._n_clouds:
-            return next(iter(self._refused), f"no cloud on {self._topic!r}")
+            return next(iter(self._errors), f"no cloud on {self._topic!r}")
         points = self._points
         return (
             f"none of the points on {self._topic!r} belongs to the target: {points.n_ground} are "
@@ -184,7 +192,7 @@ class Reconstruction3D(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The original's four, and how many points and clouds there were."""
+        """The original's four details, and the numbers of points and clouds."""
         points = self._points
         variance = points.variance
         if self._is_never_empty and not points.n_inliers:
@@ -203,7 +211,7 @@ class Reconstruction3D(Measure):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """Why there is no variance, or no share, where there is a value."""
+        """The reasons why there is no variance, or no share, although there is a value."""
         points = self._points
         if points.n_inliers == 1:
             return {"error_variance": "there was one inlier only"}
@@ -218,14 +226,14 @@ class Reconstruction3D(Measure):
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """As of now."""
+        """The present values."""
         details = self.details
         return tuple(details[name] for name in self.log_header)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What was wrong with clouds that could not be used."""
-        return tuple(self._refused)
+        """The errors of invalid clouds."""
+        return tuple(self._errors)
 
     def close(self) -> None:
         """Unsubscribe."""
@@ -237,12 +245,12 @@ class Reconstruction3D(Measure):
             return target_from_world
         return target_from_world @ self._frame.world_from_body
 
-    def _add(self, found: Array) -> None:
+    def _add(self, cloud_points: Array) -> None:
         """Add a cloud (n, 3) [m], given in the frame ``from``."""
-        target_from_frame = self._fixed or self._target_from_frame()
-        turn = self._box_from_target
+        target_from_frame = self._fixed_pose or self._target_from_frame()
+        box_from_target = self._box_from_target
         self._points.add(
-            found,
-            product(turn, target_from_frame.rotation),
-            product(turn, target_from_frame.position),
+            cloud_points,
+            product(box_from_target, target_from_frame.rotation),
+            product(box_from_target, target_from_frame.position),
         )

@@ -1,4 +1,4 @@
-"""Time: how long the measure was on.
+"""Time: the duration for which the measure is active.
 
 .. code-block:: xml
 
@@ -27,51 +27,51 @@ class TimeSpec(MeasureSpec):
         return 0.0
 
     def bind(self, world: World) -> Time:
-        """Watch the clock of ``world``."""
+        """Create the measure on the clock of ``world``."""
         return Time(world)
 
 
 class Time(Measure):
-    """Simulation time from the step at which the measure goes on to that at which it goes off.
+    """The simulation time from the step at which the measure starts to that at which it stops.
 
-    Without that, to the last step of the level. What passes while it is off does not count; it
-    adds up when the measure goes on again. Never wall time.
+    Without a stop it is the time to the last step of the level. The times of several activations
+    are added. It is never wall time.
 
-    Compatibility ``time-log``: it is 0 until it goes off or the level ends. ``restart``: when it
-    goes on again it begins anew.
+    Compatibility ``time-log``: it is 0 until it stops or the level ends. ``restart``: it is reset
+    when it becomes active again.
     """
 
     unit = "s"
 
     def __init__(self, world: World) -> None:
         self._world = world
-        self._last: int | None = None  # step
-        self._steps = 0
+        self._last_step: int | None = None  # step
+        self._n_steps = 0
         self._is_known = True  # whether it can be read now
-        self._is_known_late = "time-log" in world.compatibility
-        self._begins_anew = "restart" in world.compatibility
+        self._is_known_at_end = "time-log" in world.compatibility
+        self._is_reset = "restart" in world.compatibility
 
     def start(self) -> None:
-        """Count from now."""
-        self._last = self._world.step
-        self._is_known = not self._is_known_late
-        if self._begins_anew:
-            self._steps = 0
+        """Begin at the present step."""
+        self._last_step = self._world.step
+        self._is_known = not self._is_known_at_end
+        if self._is_reset:
+            self._n_steps = 0
 
     def update(self) -> None:
-        """Add what has passed since the last look."""
-        if self._last is not None:
-            self._steps += self._world.step - self._last
-        self._last = self._world.step
+        """Add the time since the last call."""
+        if self._last_step is not None:
+            self._n_steps += self._world.step - self._last_step
+        self._last_step = self._world.step
 
     def went_off(self) -> None:
-        """Add the step in which it went off."""
+        """Add the step in which the measure stopped."""
         self.update()
         self._is_known = True
 
     @property
     def value(self) -> float | None:
-        """Time so far [s]; None when the measure was never on."""
-        if self._last is None:
+        """The time so far [s]; None if the measure was never active."""
+        if self._last_step is None:
             return None
-        return self._steps * self._world.timestep if self._is_known else 0.0
+        return self._n_steps * self._world.timestep if self._is_known else 0.0

@@ -1,1 +1,1 @@
-"""Metrics: numbers in, numbers out; what measures compute from what they have observed."""
+"""Metrics: the computations of measures, on numbers alone."""

@@ -1,14 +1,12 @@
 r"""Coverage: the share of a box's surface that has measured points near it.
 
-A grid is laid over the box: along each axis :math:`k = \lfloor e / \text{lod} \rfloor` cells, at
-least one, of the size e/k, with the extent e of the box and the level of detail; so there are
-k + 1 nodes, the first and the last on faces. A point marks the up to eight nodes of the cell it
-lies in (four where it lies on a side of one, and so on, to a billionth of a cell). Counted are the
-nodes on five faces: the sixth, z' = 0, lies on the ground and cannot be seen. Every point marks,
-what is ground or an outlier, too.
+A grid divides the box: along each axis :math:`k = \lfloor e / \text{lod} \rfloor` cells, at least
+one, of the size e/k, with the extent e of the box and the level of detail. There are k + 1 nodes,
+the first and the last on faces. A point marks the nodes of its cell, at most eight (four if it is
+on a side of a cell, and so on, to a billionth of a cell). The nodes on five faces are counted: the
+sixth, z' = 0, is on the ground and not visible. Ground points and outliers mark nodes, too.
 
-As only nodes on faces count, only they are kept: a point marks some of a face where it lies less
-than a cell from it.
+Only nodes on faces are stored: a point marks nodes of a face if it is less than a cell from it.
 """
 
 from __future__ import annotations
@@ -24,41 +22,41 @@ from ...errors import BadSetting
 from ...world import Box
 
 MAX_NODES = 20_000_000
-"""More nodes than this are refused."""
-ON_NODE = 1e-9
-"""A point this near to a node counts as on it [cell]."""
+"""The greatest number of nodes."""
+NODE_TOLERANCE = 1e-9
+"""The tolerance within which a point is on a node [cell]."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Face:
-    """A side of the grid, and which of its nodes are marked."""
+    """A side of the grid, with its marked nodes."""
 
     axis: int
-    """The axis normal to it."""
-    at: int
-    """Its place along that axis, in cells."""
-    others: tuple[int, int]
-    """The axes that it lies along."""
+    """The axis normal to the side."""
+    cell: int
+    """The position along that axis [cell]."""
+    axes: tuple[int, int]
+    """The axes in the side."""
     nodes: npt.NDArray[np.bool_]
-    """Along those."""
-    own: tuple[slice, slice]
-    """Those that belong to no face before it."""
+    """The marks of the nodes, along these axes."""
+    new_nodes: tuple[slice, slice]
+    """The nodes that belong to no previous side."""
 
 
 class Coverage:
-    """The nodes on the five faces of a box, and which were marked."""
+    """The nodes on the five faces of a box, with those that points have marked."""
 
     def __init__(self, box: Box, level_of_detail: float, *, is_original: bool = False) -> None:
-        """Lay the grid.
+        """Create the grid.
 
         Args:
-            box: from where to where, z up.
-            level_of_detail: size of a cell, or somewhat less [m].
+            box: the extent of the box, z up.
+            level_of_detail: the size of a cell, or somewhat less [m].
             is_original: count cells and nodes as the original does (compatibility
                 ``reconstruction-coverage``).
 
         Raises:
-            BadSetting: there would be too many nodes.
+            BadSetting: there are too many nodes.
         """
         self._lower = np.array(box.lower)
         extents = (np.array(box.upper) - self._lower).tolist()
@@ -66,7 +64,7 @@ class Coverage:
         sizes, counts = zip(*(cells(extent, level_of_detail) for extent in extents), strict=True)
         self._size = np.array(sizes)
         self.counts: tuple[int, int, int] = counts
-        """Nodes along each axis."""
+        """The number of nodes along each axis."""
         nx, ny, nz = counts
         if nx * ny + 2 * (nx * nz + ny * nz) > MAX_NODES:
             raise BadSetting(
@@ -74,39 +72,39 @@ class Coverage:
                 f"box of {extents[0]:.3g} x {extents[1]:.3g} x {extents[2]:.3g} m; "
                 "choose a larger one."
             )
-        self._faces = [*_sides(0, counts), *_sides(1, counts), _sides(2, counts)[-1]]
-        self._n_nodes = sum(face.nodes[face.own].size for face in self._faces)
-        self._on_node = 0.0 if is_original else ON_NODE
+        self._faces = [*_end_faces(0, counts), *_end_faces(1, counts), _end_faces(2, counts)[-1]]
+        self._n_nodes = sum(face.nodes[face.new_nodes].size for face in self._faces)
+        self._tolerance = 0.0 if is_original else NODE_TOLERANCE
         if is_original:
             self._n_nodes = 2 * nx * ny + nx * nz + 2 * ny * nz - 2 * nx - 4 * ny - 2 * nz + 4
 
     def mark(self, points: Array) -> None:
         """Mark the nodes round points (3, n) [m]."""
-        grid = (points - self._lower[:, None]) / self._size[:, None]
+        grid, tolerance = (points - self._lower[:, None]) / self._size[:, None], self._tolerance
         for face in self._faces:
-            near = np.abs(grid[face.axis] - face.at) < 1.0 - self._on_node
-            if not near.any():
+            is_near = np.abs(grid[face.axis] - face.cell) < 1.0 - tolerance
+            if not is_near.any():
                 continue
-            u, v = (grid[other][near] for other in face.others)
-            for rows in (np.floor(u + self._on_node), np.ceil(u - self._on_node)):
-                for columns in (np.floor(v + self._on_node), np.ceil(v - self._on_node)):
+            u, v = (grid[axis][is_near] for axis in face.axes)
+            for rows in (np.floor(u + tolerance), np.ceil(u - tolerance)):
+                for columns in (np.floor(v + tolerance), np.ceil(v - tolerance)):
                     n_rows, n_columns = face.nodes.shape
-                    inside = (rows >= 0) & (rows < n_rows) & (columns >= 0) & (columns < n_columns)
-                    face.nodes[rows[inside].astype(np.intp), columns[inside].astype(np.intp)] = True
+                    mask = (rows >= 0) & (rows < n_rows) & (columns >= 0) & (columns < n_columns)
+                    face.nodes[rows[mask].astype(np.intp), columns[mask].astype(np.intp)] = True
 
     @property
     def n_marked(self) -> int:
-        """How many nodes were marked."""
-        return sum(int(face.nodes[face.own].sum()) for face in self._faces)
+        """The number of marked nodes."""
+        return sum(int(face.nodes[face.new_nodes].sum()) for face in self._faces)
 
     @property
     def n_nodes(self) -> int:
-        """How many there are."""
+        """The number of nodes."""
         return self._n_nodes
 
     @property
     def share(self) -> float | None:
-        """Marked nodes among all [1]; None where the original's count of them is no number."""
+        """The share of marked nodes [1]; None if the original's number of nodes is not positive."""
         return self.n_marked / self._n_nodes if self._n_nodes > 0 else None
 
 
@@ -119,7 +117,7 @@ def whole_cells(extent: float, level_of_detail: float) -> tuple[float, int]:
 
 
 def original_cells(extent: float, level_of_detail: float) -> tuple[float, int]:
-    """Do as the original does: a cell may get lost in rounding; a thin box has one node."""
+    """Return the original's size and number: rounding may lose a cell; a thin box has one node."""
     if extent <= 0.0:
         return level_of_detail, 1
     n_cells = math.floor(extent / level_of_detail)
@@ -129,17 +127,17 @@ def original_cells(extent: float, level_of_detail: float) -> tuple[float, int]:
     return size, int(extent / size) + 1
 
 
-def _sides(axis: int, counts: tuple[int, int, int]) -> list[_Face]:
-    """Return the first and last face across an axis; they are one where it has a single node."""
-    others = tuple(i for i in range(3) if i != axis)
-    own = tuple(slice(1, -1) if other < axis else slice(None) for other in others)
+def _end_faces(axis: int, counts: tuple[int, int, int]) -> list[_Face]:
+    """Return the first and last face across an axis, which are one if it has a single node."""
+    axes = tuple(i for i in range(3) if i != axis)
+    new_nodes = tuple(slice(1, -1) if other_axis < axis else slice(None) for other_axis in axes)
     return [
         _Face(
             axis=axis,
-            at=at,
-            others=(others[0], others[1]),
-            nodes=np.zeros((counts[others[0]], counts[others[1]]), dtype=np.bool_),
-            own=(own[0], own[1]),
+            cell=cell,
+            axes=(axes[0], axes[1]),
+            nodes=np.zeros((counts[axes[0]], counts[axes[1]]), dtype=np.bool_),
+            new_nodes=(new_nodes[0], new_nodes[1]),
         )
-        for at in sorted({0, counts[axis] - 1})
+        for cell in sorted({0, counts[axis] - 1})
     ]

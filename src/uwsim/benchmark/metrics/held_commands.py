@@ -1,15 +1,15 @@
 r"""Commands: values held from one message to the next, and their effort and variation.
 
-A command :math:`u_k` arrives at the time :math:`t_k` and is in force until the next. Over the time
-measured it has
+A command :math:`u_k` arrives at the time :math:`t_k` and is in force until the next. Over the
+measured time it has
 
 .. math::
     \text{variation} = \sum_k |u_k - u_{k-1}| \qquad
     \text{effort} = \int u^2\,dt = \sum_k u_k^2\,(t_{k+1} - t_k)
 
-The first is the total variation, how much the actuators are worked back and forth (Skogestad,
-*J. Process Control* 13, 2003, 291-309); the second the control term of a quadratic cost (Anderson
-and Moore, *Optimal Control: Linear Quadratic Methods*, 1990).
+The first is the total variation, a measure of the use of the actuators (Skogestad, *J. Process
+Control* 13, 2003, 291-309); the second is the control term of a quadratic cost (Anderson and Moore,
+*Optimal Control: Linear Quadratic Methods*, 1990).
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ from ...messages import (
     WrenchStamped,
 )
 
-Figure = tuple[float | None, str]
+Quantity = tuple[float | None, str]
 """A number, if there is one, and its unit."""
 TWIST = {**dict.fromkeys(("vx", "vy", "vz"), "m/s"), **dict.fromkeys(("wx", "wy", "wz"), "rad/s")}
-"""Axes of a twist -> unit."""
+"""The axes of a twist and their units."""
 WRENCH = {**dict.fromkeys(("fx", "fy", "fz"), "N"), **dict.fromkeys(("tx", "ty", "tz"), "N m")}
-"""Axes of a wrench -> unit."""
+"""The axes of a wrench and their units."""
 JOINTS = {"position": "rad or m", "velocity": "rad/s or m/s", "effort": "N m or N"}
-"""Command modes of joints and their units; the first that a message has is used."""
+"""The command modes of joints and their units; the first that a message has is used."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -42,12 +42,12 @@ class AxisValues:
     """The command in one message."""
 
     values: Mapping[str, float]
-    """Axis -> number; axes that are not in it keep theirs."""
+    """The number of each axis; axes that are absent keep theirs."""
     units: Mapping[str, str]
-    """Axis -> unit."""
+    """The unit of each axis."""
 
 
-def twist(message: Twist) -> AxisValues:
+def read_twist(message: Twist) -> AxisValues:
     """Return a twist's six numbers."""
     v, w = message.linear, message.angular
     return AxisValues(
@@ -55,7 +55,7 @@ def twist(message: Twist) -> AxisValues:
     )
 
 
-def wrench(message: Wrench) -> AxisValues:
+def read_wrench(message: Wrench) -> AxisValues:
     """Return a wrench's six numbers."""
     f, t = message.force, message.torque
     return AxisValues(
@@ -63,42 +63,42 @@ def wrench(message: Wrench) -> AxisValues:
     )
 
 
-def thrusters(message: Float64MultiArray) -> AxisValues:
+def read_thrusters(message: Float64MultiArray) -> AxisValues:
     """Return the numbers of an array, ``u0``, ``u1``, ...: shares of full command."""
     values = {f"u{i}": float(value) for i, value in enumerate(message.data)}
     return AxisValues(values=values, units=dict.fromkeys(values, "1"))
 
 
-def joints(message: JointState) -> AxisValues:
+def read_joints(message: JointState) -> AxisValues:
     """Return the commands of the joints: positions, else velocities, else efforts.
 
-    Axes have the joints' names, or ``q0``, ``q1``, ... where the message has none.
+    Axes have the joints' names, or ``q0``, ``q1``, ... if the message has none.
     """
     for kind, unit in JOINTS.items():
-        given = getattr(message, kind)
-        if len(given):
-            names = message.name or [f"q{i}" for i in range(len(given))]
-            values = {name: float(value) for name, value in zip(names, given, strict=False)}
+        commands = getattr(message, kind)
+        if len(commands):
+            names = message.name or [f"q{i}" for i in range(len(commands))]
+            values = {name: float(value) for name, value in zip(names, commands, strict=False)}
             return AxisValues(values=values, units=dict.fromkeys(values, unit))
     return AxisValues(values={}, units={})
 
 
 READERS: dict[type, Callable[[Any], AxisValues]] = {
-    Float64MultiArray: thrusters,
-    JointState: joints,
-    Twist: twist,
-    TwistStamped: lambda message: twist(message.twist),
-    Wrench: wrench,
-    WrenchStamped: lambda message: wrench(message.wrench),
+    Float64MultiArray: read_thrusters,
+    JointState: read_joints,
+    Twist: read_twist,
+    TwistStamped: lambda message: read_twist(message.twist),
+    Wrench: read_wrench,
+    WrenchStamped: lambda message: read_wrench(message.wrench),
 }
-"""Types of message that command something."""
-FIXED: dict[type, Mapping[str, str]] = {
+"""The functions that read the command of each message type."""
+KNOWN_AXES: dict[type, Mapping[str, str]] = {
     Twist: TWIST,
     TwistStamped: TWIST,
     Wrench: WRENCH,
     WrenchStamped: WRENCH,
 }
-"""Types whose axes are known before a message has come -> axis -> unit."""
+"""The axes and units of the message types that determine them."""
 
 
 @dataclass
@@ -106,29 +106,29 @@ class HeldCommand:
     """One axis of a command with its sums."""
 
     unit: str
-    """Of its numbers."""
+    """The unit of the numbers."""
     value: float | None = None
     """The number in force; None before the first."""
     variation: float = 0.0
-    """Total variation."""
+    """The total variation."""
     effort: float = 0.0
-    """Integral of the square [unit^2 s]."""
-    largest: float = 0.0
+    """The integral of the square [unit^2 s]."""
+    max: float = 0.0
     """The largest absolute value in force."""
 
     def change(self, value: float) -> None:
-        """Take the next number; the first changes nothing."""
+        """Apply the next number; the first adds no variation."""
         if self.value is not None:
             self.variation += abs(value - self.value)
         self.value = value
-        self.notice()
+        self.update_max()
 
-    def notice(self) -> None:
-        """Count the size of the number in force."""
+    def update_max(self) -> None:
+        """Update the largest value with the number in force."""
         if self.value is not None:
-            self.largest = max(self.largest, abs(self.value))
+            self.max = max(self.max, abs(self.value))
 
-    def last(self, seconds: float) -> None:
+    def integrate(self, seconds: float) -> None:
         """Integrate the number in force over a time [s]."""
         if self.value is not None:
             self.effort += self.value * self.value * seconds
@@ -138,15 +138,15 @@ class HeldCommand:
 class HeldCommands:
     """All axes of a command, or a selection."""
 
-    chosen: tuple[str, ...] = ()
-    """Axes that count; all when empty."""
+    selection: tuple[str, ...] = ()
+    """The axes that count; all when empty."""
     axes: dict[str, HeldCommand] = field(default_factory=dict)
-    """By name, in the order of their first message."""
+    """The axes by name, in the order of their first message."""
 
     def expect(self, units: Mapping[str, str]) -> None:
         """Declare the axes of the messages to come."""
         for name, unit in units.items():
-            if name not in self.axes and (not self.chosen or name in self.chosen):
+            if name not in self.axes and (not self.selection or name in self.selection):
                 self.axes[name] = HeldCommand(unit)
 
     def hold(self, command: AxisValues) -> None:
@@ -156,68 +156,69 @@ class HeldCommands:
             if name in self.axes:
                 self.axes[name].value = value
 
-    def notice(self) -> None:
-        """Count the size of what is in force."""
+    def update_max(self) -> None:
+        """Update the largest values with the command in force."""
         for axis in self.axes.values():
-            axis.notice()
+            axis.update_max()
 
     def change(self, command: AxisValues) -> None:
-        """Take the next command."""
+        """Apply the next command."""
         self.expect(command.units)
         for name, value in command.values.items():
             if name in self.axes:
                 self.axes[name].change(value)
 
-    def last(self, seconds: float) -> None:
+    def integrate(self, seconds: float) -> None:
         """Integrate the command in force over a time [s]."""
         for axis in self.axes.values():
-            axis.last(seconds)
+            axis.integrate(seconds)
 
     @property
     def is_known(self) -> bool:
-        """Whether there is any command yet."""
+        """A flag: there is a command."""
         return any(axis.value is not None for axis in self.axes.values())
 
     @property
     def variation(self) -> float | None:
-        """Total variation of all axes."""
+        """The total variation of all axes."""
         return sum(axis.variation for axis in self.axes.values()) if self.is_known else None
 
     @property
     def effort(self) -> float | None:
-        """Effort of all axes."""
+        """The effort of all axes."""
         return sum(axis.effort for axis in self.axes.values()) if self.is_known else None
 
     @property
     def max(self) -> float | None:
         """The largest absolute value of any axis."""
-        return max(axis.largest for axis in self.axes.values()) if self.is_known else None
+        return max(axis.max for axis in self.axes.values()) if self.is_known else None
 
-    def total(self, name: str) -> Figure:
-        """``variation``, ``effort`` or ``max`` of all axes, with its unit or units."""
+    def total(self, name: str) -> Quantity:
+        """Return ``variation``, ``effort`` or ``max`` of all axes, with its unit or units."""
         units = [axis.unit for axis in self.axes.values()]
         if name == "effort":
-            return self.effort, joined(map(squared_seconds, units))
-        return (self.variation if name == "variation" else self.max), joined(units)
+            return self.effort, join_units(map(effort_unit, units))
+        return (self.variation if name == "variation" else self.max), join_units(units)
 
-    def figures(self) -> dict[str, Figure]:
-        """Of all axes together, then of each: column suffix -> number and unit."""
-        found = {name: self.total(name) for name in ("variation", "effort", "max")}
+    def quantities(self) -> dict[str, Quantity]:
+        """Return number and unit by column suffix: of all axes together, then of each."""
+        quantities = {name: self.total(name) for name in ("variation", "effort", "max")}
         for name, axis in self.axes.items():
-            has = axis.value is not None
-            found[f"{name}.variation"] = (axis.variation if has else None, axis.unit)
-            found[f"{name}.effort"] = (axis.effort if has else None, squared_seconds(axis.unit))
-            found[f"{name}.max"] = (axis.largest if has else None, axis.unit)
-        return found
+            has_value = axis.value is not None
+            quantities[f"{name}.variation"] = (axis.variation if has_value else None, axis.unit)
+            effort = axis.effort if has_value else None
+            quantities[f"{name}.effort"] = (effort, effort_unit(axis.unit))
+            quantities[f"{name}.max"] = (axis.max if has_value else None, axis.unit)
+        return quantities
 
 
-def joined(units: Iterable[str]) -> str:
-    """One unit where all are the same, else each of them; ``1`` where there is none."""
+def join_units(units: Iterable[str]) -> str:
+    """Return one unit if all are the same, else each of them; ``1`` if there is none."""
     return ", ".join(dict.fromkeys(units)) or "1"
 
 
-def squared_seconds(unit: str) -> str:
-    """Unit of the integral of a square over time: ``(m/s)^2 s``."""
+def effort_unit(unit: str) -> str:
+    """Return the unit of the integral of a square over time: ``(m/s)^2 s``."""
     if unit == "1":
         return "s"
     return f"{unit}^2 s" if unit.isalpha() else f"({unit})^2 s"

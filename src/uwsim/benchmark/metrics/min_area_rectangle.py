@@ -8,68 +8,67 @@ import numpy as np
 
 from ...base.geometry import Array
 
-SAME_AREA = 1e-9
-"""Areas nearer to each other than this, relative to the smallest, are a tie."""
+AREA_TOLERANCE = 1e-9
+"""The relative difference below which two areas are equal."""
 
 
 def convex_hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return the convex hull, once around, without points on its edges (Andrew's chain)."""
-    ordered = sorted(set(points))
-    if len(ordered) < 3:
-        return ordered
-    halves = [_half(ordered), _half(ordered[::-1])]
+    """Return the convex hull in cyclic order, without points on its edges (Andrew's chain)."""
+    points_by_x = sorted(set(points))
+    if len(points_by_x) < 3:
+        return points_by_x
+    halves = [_half_hull(points_by_x), _half_hull(points_by_x[::-1])]
     return halves[0][:-1] + halves[1][:-1]
 
 
-def _half(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+def _half_hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     chain: list[tuple[float, float]] = []
     for x, y in points:
         while len(chain) >= 2:
-            (ax, ay), (bx, by) = chain[-2], chain[-1]
-            if (bx - ax) * (y - ay) - (by - ay) * (x - ax) > 0.0:
+            (x1, y1), (x2, y2) = chain[-2], chain[-1]
+            if (x2 - x1) * (y - y1) - (y2 - y1) * (x - x1) > 0.0:
                 break
             chain.pop()
         chain.append((x, y))
     return chain
 
 
-def rectangle(pixels: Array) -> Array:
+def min_area_rectangle(pixels: Array) -> Array:
     r"""Return NW, NE, SE, SW of the smallest-area rectangle round points (n, 2) [px], (4, 2) [px].
 
-    One side of that rectangle lies along an edge of the convex hull (rotating calipers), so each
-    edge is tried. In coordinates with y up, turned back by the edge's angle :math:`\alpha`,
+    One side of that rectangle is along an edge of the convex hull (rotating calipers), so each
+    edge is tried. In coordinates with y up, rotated back by the edge's angle :math:`\alpha`,
     NW is :math:`(x_{min}, y_{max})`, NE :math:`(x_{max}, y_{max})`, and so on. :math:`\alpha` is
-    taken modulo a right angle into (-45, 45] degrees, so NW is the corner nearest to the top left.
-    Where areas tie the smallest :math:`|\alpha|` wins, then the positive one.
+    reduced modulo a right angle to (-45, 45] degrees, so NW is the corner nearest to the top left.
+    Of equal areas that with the smallest :math:`|\alpha|` is used, then the positive one.
     """
     hull = convex_hull([(x, -y) for x, y in pixels.tolist()])  # y up
-    tried: list[tuple[float, float, float, float, float, float]] = []
-    for (ax, ay), (bx, by) in zip(hull, hull[1:] + hull[:1], strict=True):
-        angle = math.atan2(by - ay, bx - ax)
+    boxes: list[tuple[float, float, float, float, float, float]] = []
+    for (x1, y1), (x2, y2) in zip(hull, hull[1:] + hull[:1], strict=True):
+        angle = math.atan2(y2 - y1, x2 - x1)
         angle -= math.pi / 2 * math.ceil(angle / (math.pi / 2) - 0.5)  # (-45, 45] degrees
         cos, sin = math.cos(angle), math.sin(angle)
-        across = [cos * x + sin * y for x, y in hull]
-        along = [cos * y - sin * x for x, y in hull]
-        left, right, low, high = min(across), max(across), min(along), max(along)
-        tried.append(((right - left) * (high - low), angle, left, right, low, high))
-    smallest = min(area for area, *_ in tried)
-    tied = [box for box in tried if box[0] <= smallest * (1.0 + SAME_AREA) + 1e-12]
+        xs = [cos * x + sin * y for x, y in hull]
+        ys = [cos * y - sin * x for x, y in hull]
+        left, right, low, high = min(xs), max(xs), min(ys), max(ys)
+        boxes.append(((right - left) * (high - low), angle, left, right, low, high))
+    min_area = min(area for area, *_ in boxes)
+    equal_boxes = [box for box in boxes if box[0] <= min_area * (1.0 + AREA_TOLERANCE) + 1e-12]
     _, angle, left, right, low, high = min(
-        tied, key=lambda box: (round(abs(box[1]), 9), -round(box[1], 9), box)
+        equal_boxes, key=lambda box: (round(abs(box[1]), 9), -round(box[1], 9), box)
     )
     cos, sin = math.cos(angle), math.sin(angle)
-    named = [(left, high), (right, high), (right, low), (left, low)]
-    return np.array([[cos * x - sin * y, -(sin * x + cos * y)] for x, y in named])
+    corners = [(left, high), (right, high), (right, low), (left, low)]
+    return np.array([[cos * x - sin * y, -(sin * x + cos * y)] for x, y in corners])
 
 
-def like_rectangle(pixels: Array, named: Array) -> tuple[list[int], Array]:
-    """Order four corners (4, 2) [px], given once around, to lie nearest to named ones (4, 2) [px].
+def match_corners(pixels: Array, targets: Array) -> tuple[list[int], Array]:
+    """Order four corners (4, 2) [px], given in cyclic order, to be nearest to targets (4, 2) [px].
 
-    Returns the order as indices into ``pixels``, and the corners in that order. Of the eight
-    orders once around, that with the smallest sum of squared distances is taken, the centres
-    laid on each other first.
+    Return the order as indices into ``pixels``, and the corners in that order. Of the eight cyclic
+    orders that with the smallest sum of squared distances between the centred corners is used.
     """
-    moved = pixels - pixels.mean(axis=0) + named.mean(axis=0)
-    orders = [[(start + way * i) % 4 for i in range(4)] for way in (1, -1) for start in range(4)]
-    order = min(orders, key=lambda order: round(float(((moved[order] - named) ** 2).sum()), 9))
+    quad = pixels - pixels.mean(axis=0) + targets.mean(axis=0)
+    orders = [[(start + sign * i) % 4 for i in range(4)] for sign in (1, -1) for start in range(4)]
+    order = min(orders, key=lambda order: round(float(((quad[order] - targets) ** 2).sum()), 9))
     return order, pixels[order]

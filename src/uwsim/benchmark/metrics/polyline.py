@@ -1,4 +1,4 @@
-"""Polyline: a path of straight segments, and where along it a point is."""
+"""Polyline: a path of straight segments, and the nearest point on it."""
 
 from __future__ import annotations
 
@@ -8,41 +8,41 @@ from ...base.geometry import Array
 
 
 class Polyline:
-    """Points joined by straight segments, counted from 0; a single point is one of length 0."""
+    """A path of points joined by straight segments; a single point is a segment of length 0."""
 
     def __init__(self, points: Array) -> None:
         """Join ``points`` (n, 3) [m], n >= 1."""
-        ends = points.tolist()
-        self._points: list[list[float]] = ends if len(ends) > 1 else ends * 2
-        self._before = [0.0]  # length of the path before each point [m]
-        for first, second in zip(self._points, self._points[1:], strict=False):
-            self._before.append(self._before[-1] + math.dist(first, second))
+        positions = points.tolist()
+        self._points: list[list[float]] = positions if len(positions) > 1 else positions * 2
+        self._lengths = [0.0]  # length of the path before each point [m]
+        for start, end in zip(self._points, self._points[1:], strict=False):
+            self._lengths.append(self._lengths[-1] + math.dist(start, end))
 
     @property
     def n_segments(self) -> int:
-        """How many segments there are, at least 1."""
+        """The number of segments, at least 1."""
         return len(self._points) - 1
 
     @property
     def length(self) -> float:
-        """Length of the whole path [m]."""
-        return self._before[-1]
+        """The length of the whole path [m]."""
+        return self._lengths[-1]
 
-    def nearest(self, segment: int, point: Array) -> tuple[float, float]:
-        """Look from ``point`` (3,) [m] to the nearest place on a segment, its ends included.
+    def find_nearest(self, segment: int, point: Array) -> tuple[float, float]:
+        """Find the nearest point of a segment, its ends included, to ``point`` (3,) [m].
 
         Returns:
-            How far that is, and the length of the path up to there [m].
+            The distance of that point, and the path length up to it [m].
         """
-        ax, ay, az = self._points[segment]
-        bx, by, bz = self._points[segment + 1]
+        x1, y1, z1 = self._points[segment]
+        x2, y2, z2 = self._points[segment + 1]
         px, py, pz = point.tolist()
-        dx, dy, dz = bx - ax, by - ay, bz - az
+        dx, dy, dz = x2 - x1, y2 - y1, z2 - z1
         square = dx * dx + dy * dy + dz * dz
-        share = 0.0
+        fraction = 0.0
         if square > 0.0:
-            share = ((px - ax) * dx + (py - ay) * dy + (pz - az) * dz) / square
-            share = min(1.0, max(0.0, share))
-        foot = (ax + share * dx, ay + share * dy, az + share * dz)
-        along = self._before[segment]
-        return math.dist((px, py, pz), foot), along + share * (self._before[segment + 1] - along)
+            fraction = ((px - x1) * dx + (py - y1) * dy + (pz - z1) * dz) / square
+            fraction = min(1.0, max(0.0, fraction))
+        foot = (x1 + fraction * dx, y1 + fraction * dy, z1 + fraction * dz)
+        begin, end = self._lengths[segment : segment + 2]
+        return math.dist((px, py, pz), foot), begin + fraction * (end - begin)

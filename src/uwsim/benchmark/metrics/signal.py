@@ -18,49 +18,49 @@ from collections.abc import Sequence
 
 STATISTICS = ("mean", "rms", "max", "std", "n")
 VALUES = ("last", "mean", "rms", "max")
-"""What ``u:value`` may be for a measure of a signal."""
+"""The values of ``u:value`` for a measure of a signal."""
 
 
 class Signal:
-    """A total and its components, sampled; keeps running sums, not samples (Welford)."""
+    """A sampled total and its components; it stores running sums, not samples (Welford)."""
 
     def __init__(self, components: Sequence[str]) -> None:
         self.components = tuple(components)
         size = 1 + len(self.components)
         self.n = 0
-        """How many samples there were."""
-        # Plain floats: a few numbers at every step are dearer as arrays.
-        self._last = [0.0] * size
+        """The number of samples."""
+        # Plain floats: a few numbers at every step cost more as arrays.
+        self._last_sample = [0.0] * size
         self._mean = [0.0] * size
         self._squares = [0.0] * size  # sum of squared deviations from the mean
         self._power = [0.0] * size  # sum of squares
         self._max = [0.0] * size
 
     def add(self, total: float, components: Sequence[float]) -> None:
-        """Take one sample: the total and its components, k plain floats."""
+        """Add a sample: the total and its components, k plain floats."""
         sample = [total, *components]
         self.n = n = self.n + 1
-        means, squares, power, most = self._mean, self._squares, self._power, self._max
+        means, squares, power, maxima = self._mean, self._squares, self._power, self._max
         for i, value in enumerate(sample):
-            off = value - means[i]
-            mean = means[i] = means[i] + off / n
-            squares[i] += off * (value - mean)
+            deviation = value - means[i]
+            mean = means[i] = means[i] + deviation / n
+            squares[i] += deviation * (value - mean)
             power[i] += value * value
             size = abs(value)
-            if size > most[i]:
-                most[i] = size
-        self._last = sample
+            if size > maxima[i]:
+                maxima[i] = size
+        self._last_sample = sample
 
-    def value(self, which: str) -> float | None:
+    def value(self, statistic: str) -> float | None:
         """Return the last, mean, rms, max or std of the total; None without samples."""
-        return self._statistic(which, 0)
+        return self._statistic(statistic, 0)
 
     @property
-    def last(self) -> tuple[float | None, ...]:
+    def last_sample(self) -> tuple[float | None, ...]:
         """The newest total and components."""
         if not self.n:
             return (None,) * (1 + len(self.components))
-        return tuple(self._last)
+        return tuple(self._last_sample)
 
     @property
     def details(self) -> dict[str, float | None]:
@@ -78,7 +78,7 @@ class Signal:
         if not self.n:
             return None
         if name == "last":
-            return self._last[index]
+            return self._last_sample[index]
         if name == "mean":
             return self._mean[index]
         if name == "rms":

@@ -8,8 +8,8 @@ sample, :math:`e_0`, which is the step. Performance indices (Ogata, *Modern Cont
     \text{ISE} = \int |e|^2 dt \qquad \text{IAE} = \int |e|\, dt \qquad
     \text{ITAE} = \int t\,|e|\, dt
 
-Between samples a body's error runs straight, one that comes in messages holds. With the direction
-of the step, :math:`n = e_0 / |e_0|`, the part of it done is :math:`y = 1 - e \cdot n / |e_0|`,
+Between samples the error of a body is linear in time, and one from messages is constant. With the
+direction of the step, :math:`n = e_0 / |e_0|`, the response is :math:`y = 1 - e \cdot n / |e_0|`,
 from 0 to 1 (Ogata, 5th ed. 2010, section 5-3; Franklin, Powell and Emami-Naeini, *Feedback Control
 of Dynamic Systems*, 7th ed. 2015, section 3.4):
 
@@ -19,8 +19,8 @@ of Dynamic Systems*, 7th ed. 2015, section 3.4):
   band b, 2 % unless another is given;
 - *steady-state error*: the size of the mean of e over the last tenth of the time.
 
-Overshoot, percentages and band refer to the set point, where the books take the final value: the
-same where there is no steady-state error, and honest about it where there is one.
+Overshoot, percentages and band refer to the set point; the books use the final value. Both are
+equal without a steady-state error; with one, only the set point shows it.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.numerics.linear import dot, length, product
 
-RISE = (0.1, 0.9)
-"""Parts of the step between which the rise time runs [1]."""
-TAIL = 0.1
-"""Share of the time, at its end, that counts as steady [1]."""
+RISE_RANGE = (0.1, 0.9)
+"""The parts of the step between which the rise time is measured [1]."""
+STEADY_SHARE = 0.1
+"""The share of the time, at its end, that counts as steady [1]."""
 INTEGRALS = ("ise", "iae", "itae")
-"""Numbers that are there from the first sample on, without a step."""
+"""The numbers that exist from the first sample on, without a step."""
 Shape = tuple[dict[str, float | None], dict[str, str]]
-"""Numbers, and why those are None that are."""
+"""Numbers, and the reasons why those are None that are."""
 UNITS = {
     "ise": ("m^2 s", "s"),
     "iae": ("m s", "s"),
@@ -51,97 +51,105 @@ UNITS = {
     "settling_time": ("s", "s"),
     "steady_state_error": ("m", "1"),
 }
-"""Number -> unit where the error is in metres, and where it has none."""
+"""The unit of each number for an error in metres, and for one without unit."""
 
 
 class StepResponse:
     """A sampled error signal; integrals are updated at once, the shape is computed on demand."""
 
-    def __init__(self, timestep: float, *, band: float, least_step: float, holds: bool) -> None:
-        """Begin without a sample.
+    def __init__(
+        self, timestep: float, *, band: float, least_step: float, is_constant: bool
+    ) -> None:
+        """Create a response without a sample.
 
         Args:
-            timestep: length of a step of the simulation [s].
-            band: half-width of the settling band, relative to the step [1].
-            least_step: a first error up to this is no step.
-            holds: whether the error holds between samples; else it runs straight.
+            timestep: the length of a step of the simulation [s].
+            band: the half-width of the settling band, relative to the step [1].
+            least_step: the greatest first error that is no step.
+            is_constant: the error is constant between samples; otherwise it is linear in time.
         """
         self._timestep = timestep
-        self._band, self._least_step, self._holds = band, least_step, holds
-        self._steps = array("q")  # since the first sample, of each
-        self._errors = array("d")  # one sample behind the other
-        self._last: Array = np.zeros(0)
+        self._band, self._least_step, self._is_constant = band, least_step, is_constant
+        self._steps = array("q")  # of each sample, since the first
+        self._errors = array("d")  # the samples in sequence
+        self._last_error: Array = np.zeros(0)
         self._size = 0.0  # of the last error
         self.ise, self.iae, self.itae = 0.0, 0.0, 0.0
-        """Integrals so far."""
-        self._found: tuple[int, Shape] | None = None  # number of samples, and what they gave
+        """The integrals so far."""
+        self._cached_shape: tuple[int, Shape] | None = (
+            None  # the number of samples, and their shape
+        )
 
     @property
     def n(self) -> int:
-        """How many samples there were."""
+        """The number of samples."""
         return len(self._steps)
 
     @property
     def size(self) -> float | None:
-        """Of the newest error."""
+        """The magnitude of the newest error."""
         return self._size if self._steps else None
 
     def add(self, error: Array, steps: int) -> None:
-        """Take a sample (k,), so many measured steps after the last; 0 for the first."""
-        before, last = self._size, self._last
+        """Add a sample (k,) a number of measured steps after the last; 0 for the first."""
+        last_size, last_error = self._size, self._last_error
         size = length(error)
-        since = self._steps[-1] if self._steps else 0
-        self._steps.append(since + steps)
+        last_step = self._steps[-1] if self._steps else 0
+        self._steps.append(last_step + steps)
         self._errors.extend(error.tolist())
-        self._last, self._size = error, size
+        self._last_error, self._size = error, size
         if steps == 0:
             return
-        start, end = since * self._timestep, (since + steps) * self._timestep
+        start, end = last_step * self._timestep, (last_step + steps) * self._timestep
         seconds = steps * self._timestep
-        if self._holds:
-            self.ise += before * before * seconds
-            self.iae += before * seconds
-            self.itae += before * 0.5 * (start + end) * seconds
+        if self._is_constant:
+            self.ise += last_size * last_size * seconds
+            self.iae += last_size * seconds
+            self.itae += last_size * 0.5 * (start + end) * seconds
         else:
-            self.ise += (before * before + dot(last, error) + size * size) * seconds / 3.0
-            self.iae += 0.5 * (before + size) * seconds
-            self.itae += 0.5 * (start * before + end * size) * seconds
+            self.ise += (
+                (last_size * last_size + dot(last_error, error) + size * size) * seconds / 3.0
+            )
+            self.iae += 0.5 * (last_size + size) * seconds
+            self.itae += 0.5 * (start * last_size + end * size) * seconds
 
     def shape(self) -> Shape:
-        """Return the numbers of the response, and why those are None that are."""
-        if self._found is None or self._found[0] != self.n:
-            self._found = (self.n, self._look())
-        return self._found[1]
+        """Return the numbers of the response, and the reasons why some are None."""
+        if self._cached_shape is None or self._cached_shape[0] != self.n:
+            self._cached_shape = (self.n, self._compute_shape())
+        return self._cached_shape[1]
 
-    def _look(self) -> Shape:
-        found: dict[str, float | None] = dict.fromkeys(
+    def _compute_shape(self) -> Shape:
+        values: dict[str, float | None] = dict.fromkeys(
             ("step", "overshoot", "overshoot_percent", "rise_time", "settling_time",
              "steady_state_error")
         )  # fmt: skip
         if not self._steps:
-            return found, {}
+            return values, {}
         times = np.array(self._steps) * self._timestep  # (n,) [s]
         errors = np.array(self._errors).reshape(len(times), -1)  # (n, k)
         step = length(errors[0])
-        tail = errors[times >= (1.0 - TAIL) * times[-1]].mean(axis=0)
-        found["step"] = step
-        found["steady_state_error"] = length(tail)
+        tail = errors[times >= (1.0 - STEADY_SHARE) * times[-1]].mean(axis=0)
+        values["step"] = step
+        values["steady_state_error"] = length(tail)
         if step <= self._least_step:
-            why = f"no step: the error was {step:.3g} at the start"
-            return found, dict.fromkeys((name for name in found if found[name] is None), why)
+            reason = f"no step: the error was {step:.3g} at the start"
+            return values, dict.fromkeys((name for name in values if values[name] is None), reason)
         reasons: dict[str, str] = {}
-        done = 1.0 - product(errors, errors[0] / step) / step
-        found["overshoot"] = max(0.0, float(done.max()) - 1.0) * step
-        found["overshoot_percent"] = max(0.0, float(done.max()) - 1.0) * 100.0
-        least, most = RISE
-        if done.max() >= most:
-            found["rise_time"] = float(times[done >= most][0] - times[done >= least][0])
+        response = 1.0 - product(errors, errors[0] / step) / step
+        values["overshoot"] = max(0.0, float(response.max()) - 1.0) * step
+        values["overshoot_percent"] = max(0.0, float(response.max()) - 1.0) * 100.0
+        rise_start, rise_end = RISE_RANGE
+        if response.max() >= rise_end:
+            values["rise_time"] = float(
+                times[response >= rise_end][0] - times[response >= rise_start][0]
+            )
         else:
-            reasons["rise_time"] = f"never rose to {most:.0%} of the step"
-        outside = np.flatnonzero(np.linalg.norm(errors, axis=1) > self._band * step)
-        first = int(outside[-1]) + 1 if len(outside) else 0
-        if first < len(times):
-            found["settling_time"] = float(times[first])
+            reasons["rise_time"] = f"never rose to {rise_end:.0%} of the step"
+        indices_outside = np.flatnonzero(np.linalg.norm(errors, axis=1) > self._band * step)
+        settling_index = int(indices_outside[-1]) + 1 if len(indices_outside) else 0
+        if settling_index < len(times):
+            values["settling_time"] = float(times[settling_index])
         else:
             reasons["settling_time"] = f"not within {self._band:.3g} of the step at the end"
-        return found, reasons
+        return values, reasons

@@ -72,7 +72,7 @@ class PhaseImages:
                 return
 
     def _render(self, measure: Measure) -> None:
-        bodies = measure.watched
+        bodies = measure.viewed_bodies
         if self._phase is None or bodies is None or self._n_images >= MAX_IMAGES:
             return
         self._n_images += 1

@@ -315,7 +315,7 @@ class _Execution:
     def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
         """Close measures, and record which have initialised an algorithm."""
         self._measures = tuple(
-            measure.spec.once_initialised if measure.measure.has_initialised else measure.spec
+            measure.spec.spec_once_initialised if measure.measure.has_initialised else measure.spec
             for measure in measures
         )
         for measure in measures:
