@@ -177,7 +177,7 @@ def opened(folder: Path, *, is_read: bool, watches: bool = False, **of_scene: ob
     simulation = uwsim.load(scene(folder, **of_scene))  # type: ignore[arg-type]
     if is_read:
         for topic in list(simulation.topics):
-            if simulation.bus.without_publisher(topic) is None:
+            if simulation.bus.describe_missing_publisher(topic) is None:
                 simulation.bus.subscribe(topic, object, lambda _: None)
     if watches:
         simulation.watch(lambda: None)

@@ -129,7 +129,7 @@ def images(n: int = N_IMAGES) -> dict[str, object]:
         [PYTHON, "-c", LISTENER, str(n)], env=environment, stdout=subprocess.PIPE, text=True
     )
     pixels = np.zeros((480, 640, 3), np.uint8)
-    while not bus.has_readers("camera"):
+    while not bus.has_subscribers("camera"):
         bridge.step()
         time.sleep(0.01)
     began = time.monotonic()

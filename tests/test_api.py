@@ -584,7 +584,7 @@ def test_a_message_on_an_unknown_topic_is_an_error_with_the_nearest_name() -> No
 
 def test_a_message_that_nobody_reads_gives_one_warning(capsys: pytest.CaptureFixture[str]) -> None:
     with uwsim.load("currents-scene") as simulation:
-        topic = next(name for name in simulation.topics if not simulation.bus.has_readers(name))
+        topic = next(name for name in simulation.topics if not simulation.bus.has_subscribers(name))
         kind = simulation.bus.message_type(topic)
         assert kind is not None
         for _ in range(2):

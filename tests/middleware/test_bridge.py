@@ -8,7 +8,7 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from uwsim.bus import Bus, TopicEnds
+from uwsim.bus import Bus, TopicEndpoints
 from uwsim.errors import UnknownName, UwsimError
 from uwsim.messages import EmptyResponse, Float64, String, Twist
 from uwsim.messages.services import EMPTY_SERVICE, Empty, Service
@@ -23,11 +23,11 @@ class Seen(Bridge):
     def __init__(self, bus: Bus) -> None:
         self.printed: list[str] = []
         super().__init__(bus, lambda: bus.step * 0.002, Log("test", self.printed.append))
-        self.topics: dict[str, TopicEnds] = {}
+        self.topics: dict[str, TopicEndpoints] = {}
         self.services: dict[str, Service] = {}
         self.sent: list[tuple[str, object]] = []
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         self.topics = dict(topics)
 
     def on_services(self, services: Mapping[str, Service]) -> None:
@@ -50,11 +50,11 @@ def bridge(bus: Bus) -> Seen:
 def test_topics_are_followed_as_they_come(bus: Bus, bridge: Seen) -> None:
     bus.subscribe("cmd", Twist, print)
     bridge.step()
-    assert bridge.topics == {"cmd": TopicEnds(Twist, is_published=False, is_read=True)}
+    assert bridge.topics == {"cmd": TopicEndpoints(Twist, is_published=False, is_read=True)}
     bus.publisher("depth", Float64)
     bus.publisher("cmd", Twist)
     bridge.step()
-    assert bridge.topics["depth"] == TopicEnds(Float64, is_published=True, is_read=False)
+    assert bridge.topics["depth"] == TopicEndpoints(Float64, is_published=True, is_read=False)
     assert bridge.topics["cmd"].is_published
 
 
@@ -63,9 +63,9 @@ def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> 
     publish(Float64(data=1.0))
     bridge.step()
     bridge.external_subscribers.add("/depth")
-    assert not bus.has_readers("depth")
+    assert not bus.has_subscribers("depth")
     bridge.step()
-    assert bus.has_readers("depth")
+    assert bus.has_subscribers("depth")
     publish(Float64(data=2.0))
     bus.deliver()
     bridge.external_subscribers.add("depth")
@@ -75,7 +75,7 @@ def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> 
     bus.deliver()
     bridge.external_subscribers.remove("depth")
     bridge.step()
-    assert not bus.has_readers("depth")
+    assert not bus.has_subscribers("depth")
     assert bridge.sent == [("depth", Float64(data=2.0)), ("depth", Float64(data=3.0))]
 
 
@@ -85,7 +85,7 @@ def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: Seen) -> None:
     bridge.external_subscribers.add("cmd")
     bridge.step()
     bridge.step()
-    assert bridge.topics == {"cmd": TopicEnds(Twist, is_published=False, is_read=True)}
+    assert bridge.topics == {"cmd": TopicEndpoints(Twist, is_published=False, is_read=True)}
 
 
 def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, bridge: Seen) -> None:
@@ -178,7 +178,7 @@ def test_calls_fail_when_the_simulation_ends(bridge: Seen) -> None:
 
 def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
     publish = bus.publisher("truth", String)
-    bus.withhold("truth")
+    bus.hide_topic("truth")
     bridge.external_subscribers.add("truth")
     bridge.step()
     publish(String(data="secret"))
@@ -188,13 +188,13 @@ def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
 
 
 def test_a_service_elsewhere_is_called_when_it_is_not_here(bus: Bus) -> None:
-    stop = bus.services.serve_elsewhere(
+    stop = bus.services.add_external_services(
         lambda name: name == "vision/init", lambda name, request: name
     )
-    assert bus.services.serves("/vision/init")
+    assert bus.services.is_offered("/vision/init")
     assert bus.services.call("/vision/init", Empty()) == "vision/init"
     stop()
-    assert not bus.services.serves("/vision/init")
+    assert not bus.services.is_offered("/vision/init")
     with pytest.raises(UnknownName):
         bus.services.call("vision/init", Empty())
 

@@ -173,7 +173,7 @@ def test_without_images_nothing_subscribes_to_them(tmp_path: Path) -> None:
     bus.publisher("camera", Image)
     with Recorder(bus, tmp_path / "run.mcap", images="none") as recorder:
         recorder.start(lambda: 0.0)
-        assert not bus.has_readers("camera")
+        assert not bus.has_subscribers("camera")
 
 
 def test_a_type_without_a_definition_is_left_out_and_named(tmp_path: Path) -> None:

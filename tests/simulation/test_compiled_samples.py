@@ -74,9 +74,9 @@ def test_many_steps_at_once_take_the_samples_of_single_steps(current: object) ->
         second.advance()
     assert max(taken) > round(0.1 / first.timestep), "no sample ended the steps"
     for topic in UNREAD:
-        message = first.bus.unread(topic)
+        message = first.bus.unread_message(topic)
         assert message is not None
-        assert repr(message) == repr(second.bus.unread(topic)), topic
+        assert repr(message) == repr(second.bus.unread_message(topic)), topic
     first.close()
     second.close()
 

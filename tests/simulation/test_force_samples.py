@@ -113,11 +113,11 @@ def test_many_steps_at_once_take_the_samples_of_single_steps(
         patched.setattr(engine, "step", count)
         simulation.advance(0.51)
     assert max(n_steps) > 100, "no sample ended the steps"
-    at_once = [simulation.bus.unread(name) for name in NAMES]
+    at_once = [simulation.bus.unread_message(name) for name in NAMES]
     simulation.restore(begun)
     for _ in range(round(0.51 / simulation.timestep)):
         simulation.advance()
-    assert repr(at_once) == repr([simulation.bus.unread(name) for name in NAMES])
+    assert repr(at_once) == repr([simulation.bus.unread_message(name) for name in NAMES])
     simulation.restore(begun)
     received: list[WrenchStamped] = []
     stop = simulation.bus.subscribe("/wrist", WrenchStamped, received.append)
@@ -132,19 +132,19 @@ def test_without_a_reader_nothing_is_sampled_in_a_trial(grasp: Grasp) -> None:
     """Neither by compiled steps, nor by single ones; a reader gets all samples from then on."""
     simulation = grasp.simulation
     begun = simulation.save()
-    before = [repr(simulation.bus.unread(name)) for name in NAMES]
-    simulation.bus.keeps_unread = False
+    before = [repr(simulation.bus.unread_message(name)) for name in NAMES]
+    simulation.bus.keeps_unread_messages = False
     simulation.advance(0.2)
     simulation.advance()
-    assert [repr(simulation.bus.unread(name)) for name in NAMES] == before
+    assert [repr(simulation.bus.unread_message(name)) for name in NAMES] == before
     received: list[WrenchStamped] = []
     stop = simulation.bus.subscribe("/wrist", WrenchStamped, received.append)
     simulation.advance(0.2)
     stop()
-    simulation.bus.keeps_unread = True
+    simulation.bus.keeps_unread_messages = True
     assert len(received) == 8
     assert numbers(received[0])[:3].any()
-    assert [repr(simulation.bus.unread(name)) for name in NAMES[:2]] == before[:2]
+    assert [repr(simulation.bus.unread_message(name)) for name in NAMES[:2]] == before[:2]
     simulation.restore(begun)
 
 
@@ -157,14 +157,14 @@ def test_a_vehicle_that_is_placed_has_no_contacts_before_the_next_step() -> None
         assert not sample_of(simulation, "force").any()
         begun = simulation.save()
         simulation.advance(0.1)
-        at_once = simulation.bus.unread("/force")
+        at_once = simulation.bus.unread_message("/force")
         assert isinstance(at_once, WrenchStamped)
         assert numbers(at_once).any()
         simulation.restore(begun)
         assert not sample_of(simulation, "force").any()
         for _ in range(50):
             simulation.advance()
-        assert repr(simulation.bus.unread("/force")) == repr(at_once)
+        assert repr(simulation.bus.unread_message("/force")) == repr(at_once)
 
 
 def test_uwsims_own_physics_is_sampled_too(tmp_path: Path) -> None:

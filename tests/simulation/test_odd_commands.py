@@ -156,7 +156,7 @@ def test_a_node_of_ros_1_that_sends_it_is_named() -> None:
         )
         publish = other.bus.publisher("twist", TwistStamped)
         graph.ready()
-        until(lambda: other.bus.has_readers("twist"), graph.step)
+        until(lambda: other.bus.has_subscribers("twist"), graph.step)
         publish(twist(1.0))
         until(lambda: "it is odd" in "".join(graph.printed), graph.step)
         [line] = [line for line in graph.printed if "it is odd" in line]

@@ -31,14 +31,14 @@ def test_the_newest_message_is_there_for_who_asks_later(simulation: Simulation, 
 
 def test_in_a_trial_nothing_is_measured_for_nobody(simulation: Simulation) -> None:
     """What compiled steps sample, such as joints, is there all the same."""
-    simulation.bus.keeps_unread = False
+    simulation.bus.keeps_unread_messages = False
     simulation.advance(0.1)
-    assert simulation.bus.unread("girona500/finger1") is None
+    assert simulation.bus.unread_message("girona500/finger1") is None
 
 
 @pytest.mark.parametrize("topic", READABLE)
 def test_in_a_trial_each_sample_comes_to_who_reads(simulation: Simulation, topic: str) -> None:
-    simulation.bus.keeps_unread = False
+    simulation.bus.keeps_unread_messages = False
     simulation.advance(0.1)
     read: list[object] = []
     simulation.bus.subscribe(topic, READABLE[topic], read.append)
@@ -47,6 +47,6 @@ def test_in_a_trial_each_sample_comes_to_who_reads(simulation: Simulation, topic
 
 
 def test_a_sensor_with_noise_draws_it_for_nobody_too(simulation: Simulation) -> None:
-    simulation.bus.keeps_unread = False
+    simulation.bus.keeps_unread_messages = False
     simulation.advance(0.1)
-    assert simulation.bus.unread("girona500/imu") is not None
+    assert simulation.bus.unread_message("girona500/imu") is not None

@@ -101,7 +101,7 @@ def test_a_depth_camera_measures_only_for_readers(tmp_path: Path) -> None:
         sensor = topic._sensor
         sample = sensor.sample
         sensor.sample = lambda time: taken.append(time) or sample(time)
-        simulation.bus.keeps_unread = False
+        simulation.bus.keeps_unread_messages = False
         simulation.advance(0.1)
         assert taken == []
         simulation.bus.subscribe("/t/depth", type(sample(0.0)), lambda message: None)

@@ -367,7 +367,7 @@ class TopicTruthSpec(GroundTruthSpec):
 
     def bind(self, world: World, truth: str = "original") -> TopicTruth:
         """Subscribe to the topic, and hide it from the algorithm."""
-        world.bus.withhold(self.topic)
+        world.bus.hide_topic(self.topic)
         inbox = world.bus.inbox(self.topic, Float32MultiArray, latched=True)
         return TopicTruth(self.topic, tuple(self.components.split()), inbox)
 

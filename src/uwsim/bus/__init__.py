@@ -5,6 +5,6 @@ from __future__ import annotations
 from .bus import Bus
 from .node import Algorithm, Node
 from .services import Services
-from .topic import OBSERVER, Remark, TopicEnds
+from .topic import OBSERVER, Remark, TopicEndpoints
 
-__all__ = ["OBSERVER", "Algorithm", "Bus", "Node", "Remark", "Services", "TopicEnds"]
+__all__ = ["OBSERVER", "Algorithm", "Bus", "Node", "Remark", "Services", "TopicEndpoints"]

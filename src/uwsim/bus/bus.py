@@ -1,9 +1,9 @@
 """Topics inside the process, with their services.
 
-A published message is given away: its arrays become read-only and it is delivered, in the order
-of publishing, when the simulation reaches the end of its step (`Bus.deliver`). What a callback
-publishes in turn is delivered in the same step: computing takes no simulation time. A parameter
-``latency_s`` of an algorithm delays all that it publishes. Services answer at once.
+A publisher must not change a message afterwards: its arrays become read-only. It is delivered, in
+the order of publishing, at the end of the step of the simulation (`Bus.deliver`). Messages that a
+callback publishes are delivered in the same step: computing takes no simulation time. The
+parameter ``latency_s`` of an algorithm delays its messages. Services respond at once.
 """
 
 from __future__ import annotations
@@ -19,53 +19,53 @@ from ..base.message_fields import check_and_freeze, find_invalid_field, freeze
 from ..base.record import Record
 from ..base.terminal import warn
 from ..errors import BadMessage, BadSetting, UwsimError, did_you_mean
-from .names import is_exactly, type_name, without_slash
+from .names import has_exact_type, strip_slash, type_name
 from .services import Services
-from .topic import Remark, Topic, TopicEnds
+from .topic import Remark, Topic, TopicEndpoints
 
 M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
 
 
-def say_on_standard_error(topic: str, text: str) -> None:
-    """Print what a subscriber has to say about a message."""
+def print_remark(topic: str, text: str) -> None:
+    """Print the remark of a subscriber on a message."""
     warn(f"/{topic}: {text}")
 
 
 @dataclass(slots=True)
 class BusState(Record):
-    """What is on its way, and when."""
+    """The messages that are not delivered yet, with their steps."""
 
     step: int = 0
     """The current step; set by the owner of the clock."""
     due_now: deque[tuple[str, object]] = field(default_factory=deque)
-    """The topic and message of all that is delivered next."""
+    """The topic and message of each message that is delivered next."""
     due_later: list[tuple[int, int, str, object]] = field(default_factory=list)
-    """The step, number, topic and message of all that is delivered at a later step."""
-    n_posted: int = 0
-    """The messages for a later step so far."""
-    kept: dict[str, object] = field(default_factory=dict)
-    """The newest message of each topic that a latched inbox has asked for."""
+    """The step, number, topic and message of each message of a later step."""
+    n_delayed: int = 0
+    """The number of messages for a later step so far."""
+    latched_messages: dict[str, object] = field(default_factory=dict)
+    """The newest message of each topic with a latched inbox."""
 
 
 class Bus:
-    """Named topics and services; delivery only when `deliver` is called.
+    """The topics and services by name; messages are delivered only by `deliver`.
 
-    Topic and service names are compared without a leading slash, so ``/uwsim/camera1`` and
-    ``uwsim/camera1`` are one, as they are for a ROS node in the root namespace.
+    Names are compared without a leading slash, so ``/uwsim/camera1`` and ``uwsim/camera1`` are the
+    same, as for a ROS node in the root namespace.
     """
 
     def __init__(self) -> None:
         self._topics: dict[str, Topic] = {}
-        self._withheld: set[str] = set()
+        self._hidden_topics: set[str] = set()
         self._observers: list[Callable[[str, type], None]] = []
         self._revision = 0
         self.state = BusState()
-        """What is on its way, and when."""
+        """The messages that are not delivered yet, with their steps."""
         self.services = Services()
-        """Those offered; they answer at once."""
-        self.keeps_unread = True
-        """Whether somebody may ask for `unread`; else nobody needs what has no subscriber."""
+        """The services, which respond at once."""
+        self.keeps_unread_messages = True
+        """The publishers publish on topics without a subscriber, for `unread_message`."""
 
     @property
     def step(self) -> int:
@@ -85,28 +85,29 @@ class Bus:
         check: Callable[[M], None] | None = None,
         remark: Callable[[M], Remark | None] | None = None,
         owner: object = None,
-        counts: bool = True,
+        is_counted: bool = True,
     ) -> Callable[[], None]:
-        """Call ``callback`` with every message on ``topic``; returns the way to stop it.
+        """Call ``callback`` with every message on ``topic``; return a function that ends this.
 
-        ``check`` is called while a message is published, and raises BadMessage to its sender if
-        the reader could do nothing with it. ``remark`` is called then, too, and returns what is odd
-        about a message that is taken all the same, or passed over: what was found, and what was
-        expected. The publisher is told, once for each of what was expected.
-
-        ``object`` as the type stands for any: such a reader hears whatever the topic carries, and
-        leaves it to others to say what that is. ``owner`` is who reads, for `ends`.
-
-        One that does not count (``counts``) changes nothing for anyone: for it alone nothing is
-        drawn. It hears what others read when it is delivered, and what nobody reads while it is
-        published; it must not keep the message, which stays its sender's.
+        Args:
+            topic: the name.
+            type: the class of the messages; ``object`` accepts the type of the other endpoints.
+            callback: the function that is called.
+            check: a function that is called when a message is published. It raises BadMessage to
+                the publisher if the subscriber cannot use the message.
+            remark: a function that is called when a message is published. It returns a `Remark` on
+                a message that is ignored or changed, which the publisher gets once.
+            owner: the subscriber, for `endpoints`.
+            is_counted: False for a subscription that changes nothing: no image is rendered for it.
+                It receives delivered messages; on a topic without a subscriber it receives them
+                when they are published, and must not keep them.
         """
-        entry = self._typed(topic, type)
-        if not counts:
-            entry.hearers.append(callback)
-            return lambda: entry.hearers.remove(callback)
-        entry.readers.append(callback)
-        entry.owners.append(owner)
+        entry = self._open_topic(topic, type)
+        if not is_counted:
+            entry.uncounted_callbacks.append(callback)
+            return lambda: entry.uncounted_callbacks.remove(callback)
+        entry.callbacks.append(callback)
+        entry.subscribers.append(owner)
         self._revision += 1
         if check is not None:
             entry.checks.append(check)
@@ -114,9 +115,9 @@ class Bus:
             entry.remarks.append(remark)
 
         def stop() -> None:
-            if callback in entry.readers:
-                del entry.owners[entry.readers.index(callback)]
-                entry.readers.remove(callback)
+            if callback in entry.callbacks:
+                del entry.subscribers[entry.callbacks.index(callback)]
+                entry.callbacks.remove(callback)
                 self._revision += 1
                 if check is not None:
                     entry.checks.remove(check)
@@ -125,19 +126,19 @@ class Bus:
 
         return stop
 
-    def observe(self, appeared: Callable[[str, type], None]) -> Callable[[], None]:
-        """Call ``appeared(topic, type)`` for every topic, now and when a new one comes.
+    def observe(self, on_topic: Callable[[str, type], None]) -> Callable[[], None]:
+        """Call ``on_topic(topic, type)`` for every topic, present and new, without leading slash.
 
-        Returns the way to stop it. The topic has no leading slash.
+        Returns a function that ends this.
         """
-        self._observers.append(appeared)
+        self._observers.append(on_topic)
         for name in sorted(self._topics):
-            if (known := self._topics[name].type) is not None:
-                appeared(name, known)
+            if (message_type := self._topics[name].type) is not None:
+                on_topic(name, message_type)
 
         def stop() -> None:
-            if appeared in self._observers:
-                self._observers.remove(appeared)
+            if on_topic in self._observers:
+                self._observers.remove(on_topic)
 
         return stop
 
@@ -146,28 +147,30 @@ class Bus:
     ) -> Inbox[M]:
         """Return an inbox that collects the messages of ``topic`` from now on.
 
-        A ``latched`` one begins with the newest message there was, as a subscriber of ROS does on
-        a latched topic. The bus keeps that message from the first time it is asked so. What is not
-        taken out is kept, ``max_messages`` messages at most.
+        A ``latched`` inbox begins with the newest message, as a subscriber of a latched topic of
+        ROS. The bus stores this message from the first latched inbox on. An inbox holds at most
+        ``max_messages`` messages that were not taken.
         """
         inbox: Inbox[M] = Inbox(max_messages)
         if latched:
-            entry = self._typed(topic, type)
-            name = without_slash(topic)
-            if not entry.is_kept:
-                entry.is_kept = True
-                entry.readers.append(lambda message: self.state.kept.update({name: message}))
-                entry.owners.append(None)
-            if (newest := self.state.kept.get(name)) is not None:
-                inbox.receive(cast("M", newest), self.step)
+            entry = self._open_topic(topic, type)
+            name = strip_slash(topic)
+            if not entry.is_latched:
+                entry.is_latched = True
+                entry.callbacks.append(
+                    lambda message: self.state.latched_messages.update({name: message})
+                )
+                entry.subscribers.append(None)
+            if (latched_message := self.state.latched_messages.get(name)) is not None:
+                inbox.receive(cast("M", latched_message), self.step)
         stop = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
         inbox.set_stop(stop)
         return inbox
 
-    def ends(self, topic: str, *, besides: object = None) -> TopicEnds | None:
-        """Who is at the ends of a topic, one owner and observers left out; None without a type."""
-        entry = self._topics.get(without_slash(topic))
-        return None if entry is None else entry.ends(besides)
+    def endpoints(self, topic: str, *, ignored_owner: object = None) -> TopicEndpoints | None:
+        """Return the endpoints of a topic without one owner and observers; None without a type."""
+        entry = self._topics.get(strip_slash(topic))
+        return None if entry is None else entry.endpoints(ignored_owner)
 
     def publisher(
         self,
@@ -176,111 +179,119 @@ class Bus:
         *,
         delay_steps: int = 0,
         owner: object = None,
-        say: Callable[[str, str], None] = say_on_standard_error,
+        report: Callable[[str, str], None] = print_remark,
     ) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``.
 
-        ``owner`` is who publishes, for `ends`. ``say(topic, text)`` tells what subscribers have to
-        remark on a message.
+        ``owner`` is the publisher, for `endpoints`. ``report(topic, text)`` receives the remarks
+        of subscribers on a message.
         """
         if type is object:
             raise BadSetting(f"Topic {topic!r} is published without a message type.")
-        name = without_slash(topic)
-        entry = self._typed(topic, type)
-        if not any(each is owner for each in entry.writers):
-            entry.writers.append(owner)
+        name = strip_slash(topic)
+        entry = self._open_topic(topic, type)
+        if not any(publisher is owner for publisher in entry.publishers):
+            entry.publishers.append(owner)
             self._revision += 1
 
         state = self.state
 
         def publish(message: M) -> None:
-            if not is_exactly(message, type):
-                wrong_class = _but_not(type, message.__class__)
-                raise BadMessage(f"Topic {topic!r} carries {type_name(type)}, {wrong_class}.")
-            if not entry.readers:
-                entry.unread = message
-                if entry.hearers and not find_invalid_field(message):
-                    for hear in entry.hearers:
-                        hear(message)
+            if not has_exact_type(message, type):
+                type_error = _other_type_text(type, message.__class__)
+                raise BadMessage(f"Topic {topic!r} carries {type_name(type)}, {type_error}.")
+            if not entry.callbacks:
+                entry.unread_message = message
+                if entry.uncounted_callbacks and not find_invalid_field(message):
+                    for callback in entry.uncounted_callbacks:
+                        callback(message)
                 return
-            if wrong := check_and_freeze(message):
-                raise BadMessage(f"Topic {topic!r} carries {type_name(type)}: {wrong}.")
+            if error := check_and_freeze(message):
+                raise BadMessage(f"Topic {topic!r} carries {type_name(type)}: {error}.")
             for check in entry.checks:
                 check(message)
             for remark in entry.remarks:
-                if (text := entry.said_once(remark(message))) is not None:
-                    say(name, text)
+                if (text := entry.format_new_remark(remark(message))) is not None:
+                    report(name, text)
             if delay_steps:
-                state.n_posted += 1
-                state.due_later.append((state.step + delay_steps, state.n_posted, name, message))
+                state.n_delayed += 1
+                state.due_later.append((state.step + delay_steps, state.n_delayed, name, message))
             else:
                 state.due_now.append((name, message))
 
         return publish
 
-    def withhold(self, topic: str) -> None:
+    def hide_topic(self, topic: str) -> None:
         """Hide a topic from algorithms under test; observers of the run may read it."""
-        self._withheld.add(without_slash(topic))
+        self._hidden_topics.add(strip_slash(topic))
 
-    def is_withheld(self, topic: str) -> bool:
-        """Whether a topic is hidden from algorithms under test."""
-        return without_slash(topic) in self._withheld
+    def is_hidden(self, topic: str) -> bool:
+        """Return whether a topic is hidden from algorithms under test."""
+        return strip_slash(topic) in self._hidden_topics
 
-    def unread(self, topic: str) -> object | None:
-        """Return the newest message that was published while the topic had no subscriber."""
-        entry = self._topics.get(without_slash(topic))
+    def unread_message(self, topic: str) -> object | None:
+        """Return the newest message that was published without a subscriber; None before."""
+        entry = self._topics.get(strip_slash(topic))
         if entry is None:
             return None
-        newest = entry.unread if entry.make_unread is None else entry.make_unread()
-        return None if newest is None else freeze(newest)
+        message = (
+            entry.unread_message
+            if entry.make_unread_message is None
+            else entry.make_unread_message()
+        )
+        return None if message is None else freeze(message)
 
-    def defer_unread(self, topic: str, make: Callable[[], object | None]) -> None:
-        """Have the newest message of a topic made when `unread` asks for it.
+    def defer_unread_message(self, topic: str, make: Callable[[], object | None]) -> None:
+        """Create the newest message of a topic only when `unread_message` requests it.
 
-        Who publishes on the topic then does so only while somebody reads or hears it.
+        The publisher of the topic then publishes only if the topic has a callback.
         """
-        self._topics[without_slash(topic)].make_unread = make
+        self._topics[strip_slash(topic)].make_unread_message = make
 
-    def reader_check(self, topic: str) -> Callable[[], bool]:
-        """Return what says whether somebody reads or hears a topic that is published."""
-        entry = self._topics[without_slash(topic)]
-        return lambda: bool(entry.readers or entry.hearers)
+    def make_subscriber_check(self, topic: str) -> Callable[[], bool]:
+        """Return a function that returns whether a published topic has a callback."""
+        entry = self._topics[strip_slash(topic)]
+        return lambda: bool(entry.callbacks or entry.uncounted_callbacks)
 
     def message_type(self, topic: str) -> type | None:
-        """The message type of ``topic``; None before the first reader or writer."""
-        entry = self._topics.get(without_slash(topic))
+        """Return the message type of ``topic``; None before its first endpoint with a type."""
+        entry = self._topics.get(strip_slash(topic))
         return entry.type if entry else None
 
-    def has_readers(self, topic: str) -> bool:
-        """Whether ``topic`` has a subscriber."""
-        entry = self._topics.get(without_slash(topic))
-        return bool(entry and entry.readers)
+    def has_subscribers(self, topic: str) -> bool:
+        """Return whether ``topic`` has a subscriber."""
+        entry = self._topics.get(strip_slash(topic))
+        return bool(entry and entry.callbacks)
 
     def may_refuse(self, topic: str) -> bool:
-        """Whether a subscriber of ``topic`` refuses some messages of its type while published."""
-        entry = self._topics.get(without_slash(topic))
+        """Return whether a subscriber of ``topic`` checks messages when they are published."""
+        entry = self._topics.get(strip_slash(topic))
         return bool(entry and entry.checks)
 
-    def without_subscriber(self, topic: str) -> str | None:
-        """Report that a topic has no subscriber, with the nearest that has; None if it has one."""
-        read = [name for name, entry in self._topics.items() if entry.readers]
+    def describe_missing_subscriber(self, topic: str) -> str | None:
+        """State that a topic has no subscriber, with the nearest that has; None if it has one."""
+        names_read = [name for name, entry in self._topics.items() if entry.callbacks]
         return (
             None
-            if without_slash(topic) in read
-            else f"it has no subscriber.{did_you_mean(topic, read)}"
+            if strip_slash(topic) in names_read
+            else f"it has no subscriber.{did_you_mean(topic, names_read)}"
         )
 
-    def without_publisher(self, topic: str) -> str | None:
-        """Report that a topic has no publisher, with the nearest that has; None if it has one."""
-        published = [name for name, entry in self._topics.items() if entry.writers]
-        if without_slash(topic) in published:
+    def describe_missing_publisher(self, topic: str) -> str | None:
+        """State that a topic has no publisher, with the nearest that has; None if it has one."""
+        names_published = [name for name, entry in self._topics.items() if entry.publishers]
+        if strip_slash(topic) in names_published:
             return None
-        near = did_you_mean(topic, published)
-        read = self._topics.get(without_slash(topic))
-        alike = [name for name in published if read and self._topics[name].type is read.type]
-        if not near and alike:
-            near = f" Of its type there is {' and '.join(map(repr, alike[:3]))}."
-        return f"it has no publisher.{near}"
+        suggestion = did_you_mean(topic, names_published)
+        subscribed_topic = self._topics.get(strip_slash(topic))
+        names_of_type = [
+            name
+            for name in names_published
+            if subscribed_topic and self._topics[name].type is subscribed_topic.type
+        ]
+        if not suggestion and names_of_type:
+            suggestion = f" Topics of its type: {', '.join(map(repr, names_of_type[:3]))}."
+        return f"it has no publisher.{suggestion}"
 
     def deliver(self) -> None:
         """Deliver every message that is due at the current step, in the order of publishing."""
@@ -295,49 +306,49 @@ class Bus:
                 return
             topic, message = self.state.due_now.popleft()
             entry = self._topics[topic]
-            for reader in (*entry.readers, *entry.hearers):
-                reader(message)
+            for callback in (*entry.callbacks, *entry.uncounted_callbacks):
+                callback(message)
         raise UwsimError(
             f"More than {MAX_MESSAGES_PER_STEP} messages in one step: two callbacks answer each "
-            f"other without end, the last on topic {topic!r}."
+            f"other in a loop, the last on topic {topic!r}."
         )
 
     @property
     def revision(self) -> int:
-        """Grows when a topic, a publisher, a subscriber or a service comes or goes."""
+        """The number of changes of topics, publishers, subscribers and services."""
         return self._revision + self.services.revision
 
     @property
     def next_delivery(self) -> float:
-        """The step at which `deliver` has something to hand out; inf where nothing waits."""
+        """The step at which `deliver` has a message to deliver; inf if there is none."""
         if self.state.due_now:
             return self.step
-        later = self.state.due_later
-        return min([post[0] for post in later]) if later else math.inf
+        due_later = self.state.due_later
+        return min([post[0] for post in due_later]) if due_later else math.inf
 
     @property
     def topics(self) -> dict[str, str]:
-        """Topic name -> message type, sorted by name."""
+        """The message types by topic name, sorted by name."""
         return {name: type_name(self._topics[name].type) for name in sorted(self._topics)}
 
-    def _typed(self, topic: str, type: type[M]) -> Topic:
-        entry = self._topics.setdefault(without_slash(topic), Topic())
+    def _open_topic(self, topic: str, type: type[M]) -> Topic:
+        entry = self._topics.setdefault(strip_slash(topic), Topic())
         if type is object:
             return entry
         if entry.type is None:
             entry.type = type
-            for appeared in list(self._observers):
-                appeared(without_slash(topic), type)
+            for on_topic in list(self._observers):
+                on_topic(strip_slash(topic), type)
         elif entry.type is not type:
+            other_type = _other_type_text(entry.type, type)
             raise BadSetting(
-                f"Topic {topic!r} carries {type_name(entry.type)}, {_but_not(entry.type, type)}.",
-                name=topic,
+                f"Topic {topic!r} carries {type_name(entry.type)}, {other_type}.", name=topic
             )
         return entry
 
 
-def _but_not(expected: type, found: type) -> str:
-    """``not std_msgs/msg/Bool``, or that it is another class of the same name."""
-    if type_name(expected) == type_name(found):
-        return f"the class of {expected.__module__}, not that of {found.__module__}"
-    return f"not {type_name(found)}"
+def _other_type_text(expected: type, other: type) -> str:
+    """Return ``not std_msgs/msg/Bool``, or that it is another class of the same name."""
+    if type_name(expected) == type_name(other):
+        return f"the class of {expected.__module__}, not that of {other.__module__}"
+    return f"not {type_name(other)}"

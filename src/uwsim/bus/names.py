@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 
-def is_exactly(message: object, expected: type) -> bool:
-    """Whether the class of a message is exactly this one, not a derived one."""
+def has_exact_type(message: object, expected: type) -> bool:
+    """Return whether a message is of exactly this class, not of a derived one."""
     return type(message) is expected
 
 
-def without_slash(name: str) -> str:
-    """Return a name as it is compared: without a leading slash."""
+def strip_slash(name: str) -> str:
+    """Return a name without spaces and leading slash, as names are compared."""
     return name.strip().lstrip("/")
 
 

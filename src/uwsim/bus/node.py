@@ -16,7 +16,7 @@ class Node(Protocol):
 
     @property
     def now(self) -> float:
-        """Simulation time [s]."""
+        """The simulation time [s]."""
 
     @property
     def parameters(self) -> Mapping[str, float | str]:
@@ -24,7 +24,7 @@ class Node(Protocol):
 
     @property
     def rng(self) -> np.random.Generator:
-        """The algorithm's own random stream, repeatable under the run's seed."""
+        """The random generator of the algorithm, which the seed of the run determines."""
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Call ``callback`` with every message on ``topic``."""
@@ -36,14 +36,14 @@ class Node(Protocol):
         """Offer a service; ``type`` is the class of its request."""
 
     def call(self, name: str, request: object) -> object:
-        """Call a service and return its response; UnknownName if it is not offered."""
+        """Call a service and return its response; raise UnknownName if it is not offered."""
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         """Call ``callback`` every ``period_s`` of simulation time, from now on."""
 
 
 class Algorithm(Protocol):
-    """A program under test: it is started once; from then on its callbacks are called."""
+    """A program under test: it is started once; then only its callbacks are called."""
 
     def start(self, node: Node) -> None:
-        """Subscribe, serve, call ``startBench``; from then on only callbacks."""
+        """Subscribe, serve, create timers, call ``startBench``; then only callbacks are called."""

@@ -1,4 +1,4 @@
-"""A topic: what it carries, who reads it and who publishes on it."""
+"""A topic: its message type, subscribers and publishers."""
 
 from __future__ import annotations
 
@@ -7,67 +7,69 @@ from dataclasses import dataclass, field
 from typing import Any
 
 OBSERVER = object()
-"""Owner of those who only listen to what others publish, as a recorder: at no end of a topic."""
+"""The owner of subscribers that only observe, such as a recorder; they are no endpoints."""
 
 Remark = tuple[str, str]
-"""What was found in a message, and what was expected, with what becomes of it."""
+"""The value found in a message, and the value expected with the consequence."""
 
 
 @dataclass
 class Topic:
-    """A topic as the bus keeps it."""
+    """A topic of the bus."""
 
     type: type | None = None
-    """Class of its messages; None before the first reader or writer."""
-    readers: list[Callable[[Any], None]] = field(default_factory=list)
-    """Who is called with each message."""
-    owners: list[object] = field(default_factory=list)
-    """Who reads, of each reader; None for anyone."""
-    hearers: list[Callable[[Any], None]] = field(default_factory=list)
-    """Who hears what there is, and counts as no reader."""
+    """The class of the messages; None before the first endpoint with a type."""
+    callbacks: list[Callable[[Any], None]] = field(default_factory=list)
+    """The functions that are called with each message."""
+    subscribers: list[object] = field(default_factory=list)
+    """The owner of each callback; None if it has none."""
+    uncounted_callbacks: list[Callable[[Any], None]] = field(default_factory=list)
+    """The callbacks of subscriptions that are not counted as subscribers."""
     checks: list[Callable[[Any], None]] = field(default_factory=list)
-    """What is called while a message is published."""
+    """The functions that check a message when it is published."""
     remarks: list[Callable[[Any], Remark | None]] = field(default_factory=list)
-    """What is asked while a message is published: whether it is odd."""
-    said: set[str] = field(default_factory=set)
-    """What was expected in the remarks so far."""
-    writers: list[object] = field(default_factory=list)
-    """Who publishes, each once; None for anyone."""
-    is_kept: bool = False
-    """Whether its newest message is kept, for inboxes that come later."""
-    unread: Any = None
-    """The newest message that was published while the topic had no subscriber."""
-    make_unread: Callable[[], Any] | None = None
-    """Makes that message when it is asked for, in place of ``unread``."""
+    """The functions that may return a remark on a message when it is published."""
+    expectations_reported: set[str] = field(default_factory=set)
+    """The expected values in the remarks so far."""
+    publishers: list[object] = field(default_factory=list)
+    """The owners of publishers, each once; None if one has none."""
+    is_latched: bool = False
+    """The newest message is stored for later inboxes."""
+    unread_message: Any = None
+    """The newest message that was published without a subscriber."""
+    make_unread_message: Callable[[], Any] | None = None
+    """A function that creates this message on request, in place of ``unread_message``."""
 
-    def said_once(self, remark: Remark | None) -> str | None:
-        """Return a remark as a text, the first of what is expected; else None."""
-        if remark is None or remark[1] in self.said:
+    def format_new_remark(self, remark: Remark | None) -> str | None:
+        """Return a remark as text if its expected value was not reported before; else None."""
+        if remark is None or remark[1] in self.expectations_reported:
             return None
-        self.said.add(remark[1])
+        self.expectations_reported.add(remark[1])
         return "; expected ".join(remark)
 
-    def ends(self, besides: object) -> TopicEnds | None:
-        """Who is at its ends, one owner and observers left out; None without a type."""
+    def endpoints(self, ignored_owner: object) -> TopicEndpoints | None:
+        """Return the endpoints without one owner and observers; None without a type."""
         if self.type is None:
             return None
-        return TopicEnds(
+        return TopicEndpoints(
             self.type,
-            is_published=any(each is None or each is not besides for each in self.writers),
+            is_published=any(
+                owner is None or owner is not ignored_owner for owner in self.publishers
+            ),
             is_read=any(
-                each is None or (each is not besides and each is not OBSERVER)
-                for each in self.owners
+                owner is None or (owner is not ignored_owner and owner is not OBSERVER)
+                for owner in self.subscribers
             ),
         )
 
 
 @dataclass(frozen=True)
-class TopicEnds:
-    """What a topic carries, and who is at its ends."""
+class TopicEndpoints:
+    """The message type of a topic, and the presence of publishers and subscribers."""
 
     type: type
-    """Class of its messages."""
+    """The class of the messages."""
     is_published: bool
-    """Whether anyone publishes on it."""
+    """The topic has a publisher."""
     is_read: bool
-    """Whether anyone subscribes to it."""
+    """The topic has a subscriber."""

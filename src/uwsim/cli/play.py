@@ -112,5 +112,5 @@ def player_of(reader: BagReader, simulation: Simulation, obeys: bool) -> Player:
 
 
 def _is_published(simulation: Simulation, topic: str) -> bool:
-    ends = simulation.bus.ends(topic)
+    ends = simulation.bus.endpoints(topic)
     return ends is not None and ends.is_published

@@ -4,8 +4,8 @@ The contract. A transport derives from `Bridge` and implements three methods, wh
 the thread of the simulation:
 
 - ``on_topics(topics)``: topics, their types, publishers or subscribers on the bus have changed.
-  Advertise the published topics (`TopicEnds.is_published`) and subscribe to those that are read
-  (`TopicEnds.is_read`). Late publishers are reported in this way, too.
+  Advertise the published topics (`TopicEndpoints.is_published`) and subscribe to those that are
+  read (`TopicEndpoints.is_read`). Late publishers are reported in this way, too.
 - ``on_services(services)``: services offered on the bus have changed.
 - ``send(topic, message)``: a message of a topic with an external subscriber. It must not wait:
   put it into a `LatestQueue` and encode it in a thread of the transport. Messages are frozen.
@@ -50,7 +50,7 @@ from functools import partial
 from typing import ClassVar
 
 from ..base.message_fields import size_of
-from ..bus import Bus, TopicEnds
+from ..bus import Bus, TopicEndpoints
 from ..errors import UwsimError
 from ..messages.services import Service
 from .admission import Admission
@@ -128,11 +128,11 @@ class Bridge(ABC):
         self.admission: Admission | None = None
         """The rule that decides who may publish and call; None: everybody."""
         self._revision = -1
-        self._topics: dict[str, TopicEnds] = {}
+        self._topics: dict[str, TopicEndpoints] = {}
         self._services: dict[str, Service] = {}
 
     @abstractmethod
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         """Advertise and subscribe according to the publishers and subscribers on the bus."""
 
     @abstractmethod
@@ -253,7 +253,7 @@ class Bridge(ABC):
 
     def _follow_latched(self, topic: str) -> None:
         """Send the last message of a latched topic, and subscribe to the topic."""
-        message = self.bus.unread(topic)
+        message = self.bus.unread_message(topic)
         if message is not None:
             self.send(topic, message)
         self.external_subscribers.add(topic)

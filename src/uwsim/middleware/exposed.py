@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from ..bus import Bus, Services, TopicEnds
+from ..bus import Bus, Services, TopicEndpoints
 from ..messages.services import Service
 from .log import Log
 from .types import service_of, wire_type
 
 
-def exposed_topics(bus: Bus, *, ignored_owner: object, log: Log) -> dict[str, TopicEnds]:
+def exposed_topics(bus: Bus, *, ignored_owner: object, log: Log) -> dict[str, TopicEndpoints]:
     """Return the ends of each topic that is not withheld, without those of one owner."""
-    topics: dict[str, TopicEnds] = {}
+    topics: dict[str, TopicEndpoints] = {}
     for name in bus.topics:
-        ends = bus.ends(name, besides=ignored_owner)
-        if ends is None or bus.is_withheld(name):
+        ends = bus.endpoints(name, ignored_owner=ignored_owner)
+        if ends is None or bus.is_hidden(name):
             continue
         if wire_type(ends.type) is None:
             log.report(f"/{name} is not sent: {ends.type.__name__} has no definition")

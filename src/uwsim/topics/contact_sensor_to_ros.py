@@ -31,7 +31,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
         if not world.contacts.is_possible(self.name):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
-        is_read = partial(world.bus.has_readers, self.topic)
+        is_read = partial(world.bus.has_subscribers, self.topic)
         world.create_timer(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 

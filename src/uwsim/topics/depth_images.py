@@ -76,9 +76,9 @@ class DepthImagePublisher(Interface):
     def publish(self) -> None:
         """Take the sample that is due and publish it."""
         time, bus, camera = self._world.time, self._world.bus, self._camera
-        if bus.has_readers(self._info_topic):
+        if bus.has_subscribers(self._info_topic):
             self._publish_info(camera.info(time))
-        if bus.has_readers(self._image_topic):
+        if bus.has_subscribers(self._image_topic):
             depth = camera.depth(time)
             self._publish_image(depth_image(depth, time=time, frame_id=camera.frame_id))
 
@@ -101,7 +101,7 @@ class RangeCameraToPCLSpec(InterfaceSpec):
         """Start to publish; raises UnknownName if there is no such camera."""
         camera = _find_camera(world, self.camera_name)
         publisher = PointCloudPublisher(camera, self.camera_name, self.topic, world)
-        is_read = partial(world.bus.has_readers, self.topic)
+        is_read = partial(world.bus.has_subscribers, self.topic)
         world.create_timer(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 

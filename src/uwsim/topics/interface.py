@@ -195,7 +195,7 @@ class VehiclePublisherSpec(VehicleTopicSpec):
 
 def is_sample_needed(bus: Bus, topic: str) -> bool:
     """Return whether a topic has a subscriber, or its present message may be requested later."""
-    return bus.keeps_unread or bus.has_readers(topic)
+    return bus.keeps_unread_messages or bus.has_subscribers(topic)
 
 
 class SampledTopic(Interface):
@@ -236,9 +236,9 @@ class SampledTopic(Interface):
         sampling = Sampling(
             self._sampler, self.state, partial(is_sample_needed, bus, topic) if is_pure else None
         )
-        is_read = None if is_faulty else bus.reader_check(topic)
+        is_read = None if is_faulty else bus.make_subscriber_check(topic)
         if not is_faulty:
-            bus.defer_unread(topic, self.newest_message)
+            bus.defer_unread_message(topic, self.newest_message)
         world.create_timer(
             sample_rate(rate, world), self.publish, is_needed=is_read, sampling=sampling
         )

@@ -84,9 +84,9 @@ class SegmentationPublisher(Interface):
     def publish(self) -> None:
         """Publish the legend and the image that is due."""
         world, camera = self._world, self._camera
-        if world.bus.has_readers(self._legend_topic):
+        if world.bus.has_subscribers(self._legend_topic):
             names = {0: ""} | dict(sorted(world.segmenter.part_names.items()))
             self._publish_legend(String(data=json.dumps(names)))
-        if world.bus.has_readers(self._image_topic):
+        if world.bus.has_subscribers(self._image_topic):
             numbers = world.segmenter.segmentation(camera.world_from_camera, camera.intrinsics)
             self._publish_image(label_image(numbers, time=world.time, frame_id=camera.frame_id))

@@ -54,5 +54,5 @@ class SonarPublisher(Interface):
         """Ping, with or without a subscriber: speckle, scan and waterfall advance."""
         time = self._world.time
         self._publish(self._sonar.sample(time))
-        if self._world.bus.has_readers(self._image_topic):
+        if self._world.bus.has_subscribers(self._image_topic):
             self._publish_image(self._sonar.image(time))

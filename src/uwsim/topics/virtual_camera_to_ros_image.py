@@ -105,9 +105,9 @@ class ImagePublisher(Interface):
         """Take the sample that is due and publish it."""
         self.camera.state.n_images = (self.camera.n_images or 0) + 1
         time, bus = self._world.time, self._world.bus
-        if bus.has_readers(self._info_topic):
+        if bus.has_subscribers(self._info_topic):
             self._publish_info(self.camera.info(time))
-        if not bus.has_readers(self.image_topic):
+        if not bus.has_subscribers(self.image_topic):
             self.camera.skip()
             return
         if self._black_image is not None:

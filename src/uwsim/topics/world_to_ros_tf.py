@@ -46,7 +46,7 @@ class WorldToROSTFSpec(InterfaceSpec):
         """Start to publish."""
         frames = world.frames(with_objects=self.enable_objects)
         publisher = FramePublisher(self, frames, world)
-        is_read = partial(world.bus.has_readers, TF)
+        is_read = partial(world.bus.has_subscribers, TF)
         world.create_timer(sample_rate(self.rate, world), publisher.publish, is_needed=is_read)
         return publisher
 

@@ -75,7 +75,7 @@ class SceneTopics:
         if is_on_bus:
             for topic, message in self._latched_messages:
                 simulation.bus.publisher(topic, type(message))(message)
-            if self._moving_frames and not simulation.bus.has_readers(TF):
+            if self._moving_frames and not simulation.bus.has_subscribers(TF):
                 self._publish_tf = simulation.bus.publisher(TF, TFMessage)
         self._is_on_bus = is_on_bus
         if self._moving_frames:
@@ -90,7 +90,7 @@ class SceneTopics:
     def _tick(self) -> None:
         """Publish the present poses of the moving frames, if ``/tf`` has a subscriber."""
         if self._is_on_bus:
-            if self._publish_tf is not None and self._simulation.bus.has_readers(TF):
+            if self._publish_tf is not None and self._simulation.bus.has_subscribers(TF):
                 self._publish_tf(self._transforms(self._moving_frames))
         elif self._recorder is not None:
             self._recorder.keep(TF, self._transforms(self._moving_frames))

@@ -370,9 +370,9 @@ def test_only_what_an_algorithm_says_is_fed_by_it() -> None:
 def test_it_listens_no_more_when_it_is_closed() -> None:
     world = FakeWorld(timestep=DT)
     control = bound(world, error_topic="e")
-    assert world.bus.has_readers("e")
+    assert world.bus.has_subscribers("e")
     control.close()
-    assert not world.bus.has_readers("e")
+    assert not world.bus.has_subscribers("e")
 
 
 def test_a_misspelt_target_is_an_error_that_names_the_right_one() -> None:

@@ -340,7 +340,7 @@ def test_a_closed_measure_hears_nothing_more() -> None:
     world = FakeWorld()
     norm = norm_of(world, 0.0)
     norm.close()
-    assert not world.bus.has_readers("estimate")
+    assert not world.bus.has_subscribers("estimate")
 
 
 @pytest.mark.parametrize(

@@ -321,4 +321,4 @@ def test_it_listens_no_more_when_closed() -> None:
     world = sea()
     measure = bound(world)
     measure.close()
-    assert not world.bus.has_readers("cloud")
+    assert not world.bus.has_subscribers("cloud")

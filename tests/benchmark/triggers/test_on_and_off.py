@@ -46,9 +46,9 @@ def test_a_service_trigger_goes_on_with_the_call_and_stays_on() -> None:
 def test_a_closed_service_trigger_withdraws_its_service() -> None:
     world = FakeWorld()
     trigger = ServiceSpec(target="startBench").bind(world)
-    assert world.bus.services.serves("startBench")
+    assert world.bus.services.is_offered("startBench")
     trigger.close()
-    assert not world.bus.services.serves("startBench")
+    assert not world.bus.services.is_offered("startBench")
     trigger.close()
 
 
@@ -102,14 +102,14 @@ def test_a_topic_trigger_lets_the_publisher_choose_the_type() -> None:
     trigger = TopicSpec(target="goal").bind(world)
     assert world.bus.topics == {"goal": "std_msgs/msg/String"}
     trigger.close()
-    assert not world.bus.has_readers("goal")
+    assert not world.bus.has_subscribers("goal")
 
 
 def test_a_closed_topic_trigger_hears_nothing_more() -> None:
     world = FakeWorld()
     trigger = TopicSpec(target="ready").bind(world)
     trigger.close()
-    assert not world.bus.has_readers("ready")
+    assert not world.bus.has_subscribers("ready")
     trigger.close()
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uwsim.bus import Bus, TopicEnds
+from uwsim.bus import Bus, TopicEndpoints
 from uwsim.errors import NeverStarted, UwsimError
 from uwsim.messages import Empty, EmptyResponse, Float64, String
 from uwsim.messages.services import Service
@@ -37,7 +37,7 @@ class Outside(Bridge):
         self.told: list[tuple[str, str]] = []
         self.alone: list[tuple[str, dict[str, Any]]] = []
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         pass
 
     def on_services(self, services: Mapping[str, Service]) -> None:

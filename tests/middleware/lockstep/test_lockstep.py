@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from uwsim.bus import Bus, TopicEnds
+from uwsim.bus import Bus, TopicEndpoints
 from uwsim.errors import BadSetting, ClientLost, NeverStarted
 from uwsim.messages import Float64, GTpublish, GTpublishResponse, String
 from uwsim.messages.services import Service
@@ -40,7 +40,7 @@ class Outside(Bridge):
         self.errors: list[str] = []
         self.told: list[tuple[str, str]] = []
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         pass
 
     def on_services(self, services: Mapping[str, Service]) -> None:
@@ -531,7 +531,7 @@ def test_a_client_that_does_not_join_is_one_line() -> None:
 
 def test_a_topic_for_observers_is_not_for_clients() -> None:
     bus = Bus()
-    bus.withhold("depth")
+    bus.hide_topic("depth")
     outside = Outside(bus, is_silent)
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
     outside.says(JOIN, client="a", topics=["/depth"])

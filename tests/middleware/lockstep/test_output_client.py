@@ -10,7 +10,7 @@ from time import sleep
 import numpy as np
 import pytest
 
-from uwsim.bus import Bus, TopicEnds
+from uwsim.bus import Bus, TopicEndpoints
 from uwsim.errors import BadSetting, ClientLost, NeverStarted
 from uwsim.messages import Float64
 from uwsim.messages.services import Service
@@ -41,7 +41,7 @@ class Outside(Bridge):
         self.on_message: Callable[[object], None] = lambda message: None
         self.fed = True
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         pass
 
     def on_services(self, services: Mapping[str, Service]) -> None:

@@ -8,7 +8,7 @@ from concurrent.futures import Future
 import numpy as np
 import pytest
 
-from uwsim.bus import Bus, TopicEnds
+from uwsim.bus import Bus, TopicEndpoints
 from uwsim.errors import ClientLost, NeverStarted
 from uwsim.messages import Float64
 from uwsim.messages.services import Service
@@ -31,7 +31,7 @@ class Outside(Bridge):
         super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
         self.services: Mapping[str, Service] = {}
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         pass
 
     def on_services(self, services: Mapping[str, Service]) -> None:

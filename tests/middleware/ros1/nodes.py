@@ -60,7 +60,7 @@ class Graph:
     def connected(self, topic: str) -> None:
         """Wait until a topic has a subscriber outside, and the bus knows."""
         until(
-            lambda: self.nodes[0].n_connected(topic) and self.nodes[0].bus.has_readers(topic),
+            lambda: self.nodes[0].n_connected(topic) and self.nodes[0].bus.has_subscribers(topic),
             self.step,
         )
 

@@ -70,12 +70,12 @@ def test_a_topic_without_subscribers_outside_is_not_read(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     sim.bus.publisher("camera", Image)
     graph.ready()
-    assert not sim.bus.has_readers("camera")
+    assert not sim.bus.has_subscribers("camera")
     stop = other.bus.subscribe("camera", Image, print)
     graph.ready()
     graph.connected("/camera")
     stop()
-    until(lambda: not sim.bus.has_readers("camera"), graph.step)
+    until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
 def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph: Graph) -> None:
@@ -83,7 +83,7 @@ def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph:
     found = heard_by(sim, "twist", TwistStamped)
     publish = other.bus.publisher("twist", TwistStamped)
     graph.ready()
-    until(lambda: other.bus.has_readers("twist"), graph.step)
+    until(lambda: other.bus.has_subscribers("twist"), graph.step)
     for i in range(20):
         publish(TwistStamped(header=header(0.5 + i)))
     until(lambda: len(found) == 20, graph.step)
@@ -131,7 +131,7 @@ def test_a_service_is_called_from_outside(graph: Graph) -> None:
 
     sim.bus.services.serve("vision/init", GTpublish, answer)
     graph.ready()
-    assert other.bus.services.serves("/vision/init")
+    assert other.bus.services.is_offered("/vision/init")
     import threading
 
     results: list[object] = []
@@ -179,7 +179,7 @@ def test_a_service_of_another_type_is_refused(graph: Graph) -> None:
 def test_a_service_that_nobody_has_is_not_served(graph: Graph) -> None:
     sim = graph.node()
     graph.ready()
-    assert not sim.bus.services.serves("nothing")
+    assert not sim.bus.services.is_offered("nothing")
 
 
 def test_a_topic_of_another_type_is_refused_on_both_sides(graph: Graph) -> None:

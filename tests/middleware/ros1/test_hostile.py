@@ -143,7 +143,7 @@ def test_a_subscriber_that_stalls_is_left(graph: Graph) -> None:
 
     with subscribe(sim, "/camera"):
         until(lambda: any("does not read" in line for line in graph.printed), step)
-        until(lambda: not sim.bus.has_readers("camera"), graph.step)
+        until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
 def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
@@ -157,7 +157,7 @@ def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
     assert peer.recv(1000)
     peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     peer.close()  # with a reset
-    until(lambda: not sim.bus.has_readers("camera"), graph.step)
+    until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
 @pytest.mark.slow

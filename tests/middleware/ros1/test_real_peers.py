@@ -102,13 +102,13 @@ def test_a_program_closes_a_loop_over_odometry_and_pose(sea: Sea) -> None:
 
 
 def test_a_program_sees_the_images_of_a_camera_and_no_others_are_rendered(sea: Sea) -> None:
-    assert not sea.simulation.bus.has_readers("/uwsim/camera1")
+    assert not sea.simulation.bus.has_subscribers("/uwsim/camera1")
     echo = sea.peers.start("image_echo.py", "/uwsim/camera1", "2")
     lines = sea.output(echo).splitlines()
     assert len(lines) == 2
     assert all("320x240 rgb8" in line for line in lines)
-    assert not sea.simulation.bus.has_readers("/uwsim/camera2")
-    until(lambda: not sea.simulation.bus.has_readers("/uwsim/camera1"), sea.advance)
+    assert not sea.simulation.bus.has_subscribers("/uwsim/camera2")
+    until(lambda: not sea.simulation.bus.has_subscribers("/uwsim/camera1"), sea.advance)
 
 
 def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
@@ -177,5 +177,5 @@ def test_a_service_of_a_rospy_node_is_called_from_the_bus(sea: Sea, tmp_path: Pa
         "rospy.Service('/vision/reset', Empty, lambda r: EmptyResponse())\nrospy.spin()\n"
     )
     sea.peers.start("/usr/bin/python3", str(tmp_path / "server.py"))
-    until(lambda: sea.simulation.bus.services.serves("vision/reset"), sea.advance)
+    until(lambda: sea.simulation.bus.services.is_offered("vision/reset"), sea.advance)
     assert sea.simulation.call("vision/reset", Empty()) == EmptyResponse()

@@ -39,7 +39,7 @@ def test_a_publisher_that_comes_while_a_topic_is_registered_is_kept(graph: Graph
     found: list[Any] = []
     sim.bus.subscribe("topic", Float64, found.append)
     graph.ready()
-    until(lambda: other.bus.has_readers("topic"), graph.step)
+    until(lambda: other.bus.has_subscribers("topic"), graph.step)
     publish(Float64(2.5))
     until(lambda: found, graph.step)
     assert found == [Float64(2.5)]

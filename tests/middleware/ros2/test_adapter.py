@@ -118,11 +118,11 @@ node.create_subscription(Image, "/camera", print, qos_profile_sensor_data)
 spin_until(lambda: False)
 """
     simulator.step()
-    assert not simulator.bus.has_readers("camera")
+    assert not simulator.bus.has_subscribers("camera")
     with peer(source, simulator.domain) as node:
-        until(lambda: simulator.bus.has_readers("camera"), simulator.step)
+        until(lambda: simulator.bus.has_subscribers("camera"), simulator.step)
         node.process.terminate()  # rclpy leaves the graph
-        until(lambda: not simulator.bus.has_readers("camera"), simulator.step)
+        until(lambda: not simulator.bus.has_subscribers("camera"), simulator.step)
 
 
 @pytest.mark.skipif(

@@ -83,7 +83,7 @@ def test_images_of_307_kb_reach_a_reader_of_best_effort(
             text=True,
         )
         try:
-            until(lambda: simulator.bus.has_readers("camera"), simulator.step)
+            until(lambda: simulator.bus.has_subscribers("camera"), simulator.step)
             began = time.monotonic()
             for n in range(N_IMAGES):
                 until(lambda due=began + n / RATE: time.monotonic() >= due, simulator.step)

@@ -216,7 +216,7 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
             said = f"{simulator.time - 0.002:.3f}"
             until(partial(heard.__contains__, said), lambda: None)
         assert memory() - before < 200.0
-        until(lambda: not simulator.bus.has_readers("camera"), step)
+        until(lambda: not simulator.bus.has_subscribers("camera"), step)
     told = f"/camera: a reader has left, or was not heard of {simulator.bridge._node.lease}"
     assert any(told in line for line in simulator.lines)
 

@@ -88,9 +88,9 @@ node.create_service(Empty, "/home", answer)
 spin_until(lambda: False)
 """
     services = simulator.bus.services
-    assert not services.serves("home")
+    assert not services.is_offered("home")
     with peer(source, simulator.domain) as node:
-        until(lambda: services.serves("home"), simulator.step)
+        until(lambda: services.is_offered("home"), simulator.step)
         assert [services.call("home", Empty()) for _ in range(3)] == [EmptyResponse()] * 3
         answers: list[dict[str, bool]] = []
         until(lambda: len(answers) == 3, lambda: answers.extend(node.answers()))

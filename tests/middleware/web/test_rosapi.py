@@ -84,7 +84,7 @@ def test_publishers_and_subscribers_are_the_simulation_and_the_clients(setting: 
     client = setting.client()
     send(client, op="advertise", topic="/mine", type="std_msgs/String")
     send(client, op="subscribe", topic="/twist")
-    setting.step_until(lambda: setting.bus.has_readers("twist"))
+    setting.step_until(lambda: setting.bus.has_subscribers("twist"))
     ask = {"service": "/rosapi/publishers", "args": {"topic": "/twist"}}
     assert setting.ask(client, **ask)["values"]["publishers"] == ["/uwsim"]
     ask = {"service": "/rosapi/publishers", "args": {"topic": "/mine"}}
@@ -110,7 +110,7 @@ def test_a_message_is_sent_as_cdr(setting: Setting) -> None:
     say = setting.bus.publisher("twist", TwistStamped)
     client = setting.client()
     send(client, op="subscribe", topic="/twist", compression="cbor-raw")
-    setting.step_until(lambda: setting.bus.has_readers("twist"))
+    setting.step_until(lambda: setting.bus.has_subscribers("twist"))
     message = TwistStamped(header=header(0.25))
     message.twist.angular.z = 1.0 / 3.0
     say(message)
@@ -134,10 +134,10 @@ def test_every_topic_of_images_has_one_of_compressed_images(
     found = setting.ask(client, service="/rosapi/topics")["values"]
     number = found["topics"].index(f"/{name}/compressed")
     assert found["types"][number] == CompressedImage.__msgtype__
-    assert not setting.bus.has_readers(name)
+    assert not setting.bus.has_subscribers(name)
     kind = "sensor_msgs/CompressedImage"
     send(client, op="subscribe", topic=f"/{name}/compressed", type=kind, compression="cbor")
-    setting.step_until(lambda: setting.bus.has_readers(name))
+    setting.step_until(lambda: setting.bus.has_subscribers(name))
     n = 3 if encoding == "rgb8" else 1
     rows = np.arange(48, dtype=np.uint8)[:, None, None] * np.array([5, 2, 1], np.uint8)[:n]
     pixels = np.broadcast_to(rows, (48, 64, n))
@@ -153,7 +153,7 @@ def test_every_topic_of_images_has_one_of_compressed_images(
     read = read[..., ::-1] if n == 3 else read[..., None]
     assert np.abs(read.astype(int) - pixels.astype(int)).mean() < 3.0
     send(client, op="unsubscribe", topic=f"/{name}/compressed")
-    setting.step_until(lambda: not setting.bus.has_readers(name))
+    setting.step_until(lambda: not setting.bus.has_subscribers(name))
 
 
 def stamped(parent: str, child: str, pose: Pose) -> TransformStamped:
@@ -171,7 +171,7 @@ def test_transforms_are_republished_between_the_requested_frames(setting: Settin
     topic = answer["values"]["topic_name"]
     send(client, op="subscribe", topic=topic, type="tf2_web_republisher/TFArray")
     setting.step_until(lambda: topic.strip("/") in setting.bridge._readers)
-    setting.step_until(lambda: setting.bus.has_readers("tf"))
+    setting.step_until(lambda: setting.bus.has_subscribers("tf"))
     z = np.array([0.0, 0.0, 1.0])
     world_from_robot = Pose(np.array([1.0, 2.0, 0.0]), rotation_about(z, math.pi / 2))
     arm_from_camera = Pose(np.array([0.0, 0.0, 0.3]), np.eye(3))
@@ -194,7 +194,7 @@ def test_transforms_are_republished_between_the_requested_frames(setting: Settin
     with pytest.raises(TimeoutError):
         client.recv(timeout=0.1)  # nothing moves
     client.close()
-    setting.step_until(lambda: not setting.bus.has_readers("tf"))
+    setting.step_until(lambda: not setting.bus.has_subscribers("tf"))
 
 
 @pytest.mark.parametrize(
@@ -222,7 +222,7 @@ def test_transforms_are_the_feedback_of_a_goal_until_it_is_cancelled(setting: Se
     goal = {"source_frames": ["robot"], "target_frame": "world", "rate": 10.0}
     msg = {"goal_id": {"stamp": {"secs": 0, "nsecs": 0}, "id": "goal_7"}, "goal": goal}
     send(client, op="publish", topic=f"{action}/goal", msg=msg)
-    setting.step_until(lambda: setting.bus.has_readers("tf"))
+    setting.step_until(lambda: setting.bus.has_subscribers("tf"))
     pose = Pose(np.array([1.0, 2.0, 3.0]), np.eye(3))
     say(TFMessage(transforms=[stamped("world", "robot", pose)]))
     setting.bus.deliver()

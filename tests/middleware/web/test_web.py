@@ -103,10 +103,10 @@ def heard(client: ClientConnection) -> Any:
 
 def test_a_client_reads_a_topic_and_nothing_is_published_before(setting: Setting) -> None:
     say = setting.bus.publisher("twist", TwistStamped)
-    assert not setting.bus.has_readers("twist")
+    assert not setting.bus.has_subscribers("twist")
     client = setting.client()
     send(client, op="subscribe", topic="/twist", type="geometry_msgs/TwistStamped")
-    setting.step_until(lambda: setting.bus.has_readers("twist"))
+    setting.step_until(lambda: setting.bus.has_subscribers("twist"))
     message = TwistStamped(header=header(0.5))
     message.twist.linear.x = 1.0 / 3.0
     say(message)
@@ -116,11 +116,11 @@ def test_a_client_reads_a_topic_and_nothing_is_published_before(setting: Setting
     assert frame["msg"]["twist"]["linear"]["x"] == 1.0 / 3.0
     assert frame["msg"]["header"]["stamp"] == {"sec": 1, "nanosec": 500_000_000}
     send(client, op="unsubscribe", topic="/twist")
-    setting.step_until(lambda: not setting.bus.has_readers("twist"))
+    setting.step_until(lambda: not setting.bus.has_subscribers("twist"))
     send(client, op="subscribe", topic="/twist")
-    setting.step_until(lambda: setting.bus.has_readers("twist"))
+    setting.step_until(lambda: setting.bus.has_subscribers("twist"))
     client.close()
-    setting.step_until(lambda: not setting.bus.has_readers("twist"))
+    setting.step_until(lambda: not setting.bus.has_subscribers("twist"))
 
 
 def test_a_client_publishes(setting: Setting) -> None:
@@ -176,7 +176,7 @@ def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
     client = setting.client()
     kind = "underwater_sensor_msgs/GTpublish"
     send(client, op="advertise_service", service="/autoInit", type=kind)
-    setting.step_until(lambda: setting.bus.services.serves("autoInit"))
+    setting.step_until(lambda: setting.bus.services.is_offered("autoInit"))
     asked: list[Any] = []
 
     def answer() -> None:
@@ -198,11 +198,11 @@ def test_a_service_whose_client_leaves_fails_and_is_withdrawn(setting: Setting) 
     client = setting.client()
     kind = "underwater_sensor_msgs/srv/GTpublish"
     send(client, op="advertise_service", service="/autoInit", type=kind)
-    setting.step_until(lambda: setting.bus.services.serves("autoInit"))
+    setting.step_until(lambda: setting.bus.services.is_offered("autoInit"))
     client.close()
     with pytest.raises((RunFailed, UwsimError), match="left"):
         setting.bus.services.call("autoInit", GTpublish(groundTruth=np.zeros(8, np.float32)))
-    setting.step_until(lambda: not setting.bus.services.serves("autoInit"))
+    setting.step_until(lambda: not setting.bus.services.is_offered("autoInit"))
 
 
 def test_images_come_as_json_as_png_and_as_cbor(setting: Setting) -> None:
@@ -213,7 +213,7 @@ def test_images_come_as_json_as_png_and_as_cbor(setting: Setting) -> None:
         clients[compression] = setting.client()
         send(clients[compression], op="subscribe", topic="/image", compression=compression)
     setting.step_until(lambda: len(setting.bridge._readers.of("image")) == 3)
-    setting.step_until(lambda: setting.bus.has_readers("image"))
+    setting.step_until(lambda: setting.bus.has_subscribers("image"))
     say(Image(height=2, width=2, encoding="rgb8", step=6, data=pixels))
     setting.bus.deliver()
     plain = heard(clients["none"])
@@ -231,7 +231,7 @@ def test_throttled_and_queued_messages_are_few(setting: Setting) -> None:
     say = setting.bus.publisher("text", String)
     client = setting.client()
     send(client, op="subscribe", topic="/text", throttle_rate=3_600_000)
-    setting.step_until(lambda: setting.bus.has_readers("text"))
+    setting.step_until(lambda: setting.bus.has_subscribers("text"))
     for n in range(5):
         say(String(data=str(n)))
     setting.bus.deliver()
@@ -244,7 +244,7 @@ def test_a_reader_that_stalls_costs_a_known_amount_of_memory(setting: Setting) -
     say = setting.bus.publisher("image", Image)
     client = setting.client(max_queue=1)
     send(client, op="subscribe", topic="/image")
-    setting.step_until(lambda: setting.bus.has_readers("image"))
+    setting.step_until(lambda: setting.bus.has_subscribers("image"))
     for _ in range(300):
         say(Image(height=480, width=640, step=1920, data=np.zeros(921_600, np.uint8)))
         setting.bus.deliver()
@@ -385,12 +385,12 @@ def test_a_reader_that_breaks_off_while_images_come_is_forgotten(setting: Settin
     say = setting.bus.publisher("image", Image)
     client = setting.client(max_queue=1)
     send(client, op="subscribe", topic="/image")
-    setting.step_until(lambda: setting.bus.has_readers("image"))
+    setting.step_until(lambda: setting.bus.has_subscribers("image"))
     for _ in range(20):
         say(Image(height=480, width=640, step=1920, data=np.zeros(921_600, np.uint8)))
         setting.bus.deliver()
     client.socket.shutdown(socket.SHUT_RDWR)
-    setting.step_until(lambda: not setting.bus.has_readers("image"))
+    setting.step_until(lambda: not setting.bus.has_subscribers("image"))
     assert setting.ask(setting.client(), service="/rosapi/nodes")["result"] is True
 
 

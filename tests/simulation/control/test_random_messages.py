@@ -24,7 +24,7 @@ def send(simulation: Simulation, name: str, message: object, *, is_request: bool
         if is_request:
             simulation.call(name, message)
         else:
-            publish = simulation.bus.publisher(name, type(message), say=lambda *_: None)
+            publish = simulation.bus.publisher(name, type(message), report=lambda *_: None)
             publish(message)
     except UwsimError:
         return
@@ -41,7 +41,7 @@ def exchange(simulation: Simulation, seed: int, n: int) -> None:
     objects = [each.name for each in world.model.scene.objects]
     words = ["", "base_link", "world", "rgb8", "mono8", "spawned", "entity_0", "x", "y", "z", "rgb"]
     messages = RandomMessages(seed, [*words, *world.vehicles.names, *objects, *joints])
-    topics = [topic for topic in bus.topics if bus.has_readers(topic)]
+    topics = [topic for topic in bus.topics if bus.has_subscribers(topic)]
     for topic in list(bus.topics):
         bus.inbox(topic, object)  # everything that the scene publishes is made
     assert len(bus.services.names) >= 11

@@ -83,7 +83,7 @@ def test_services_of_a_closed_node_are_gone() -> None:
     bus = Bus()
     node = make_node(bus)
     node.serve("autoInit", Empty, lambda request: EmptyResponse())
-    assert bus.services.serves("/autoInit")
+    assert bus.services.is_offered("/autoInit")
     node.close()
     with pytest.raises(UnknownName):
         bus.services.call("autoInit", Empty())
@@ -119,5 +119,5 @@ def test_a_topic_unlike_all_others_is_reported_with_those_of_its_type() -> None:
     bus.publisher("/other", Float32MultiArray)
     node.subscribe("camera1", String, lambda _: None)
     assert node.unfed() == [
-        "me: it subscribes to 'camera1', but it has no publisher. Of its type there is 'front'."
+        "me: it subscribes to 'camera1', but it has no publisher. Topics of its type: 'front'."
     ]

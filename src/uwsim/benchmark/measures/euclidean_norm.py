@@ -369,7 +369,7 @@ class EuclideanNorm(Measure):
 
     def _publish(self, service: str) -> None:
         truth = self._truth.read()
-        if not self._world.bus.services.serves(service):
+        if not self._world.bus.services.is_offered(service):
             self._notes.append(f"{service!r} was not called: it is not offered")
         elif truth is None:
             self._notes.append(f"{service!r} was not called: {self._truth.absence_reason}")

@@ -312,7 +312,7 @@ class Grasp(Measure):
 
     def _find_read_topics(self) -> None:
         for topic in self._spec.truth.split():
-            ends = self._world.bus.ends(topic)
+            ends = self._world.bus.endpoints(topic)
             if ends is not None and ends.is_read:
                 self._read_topics[topic] = None
 

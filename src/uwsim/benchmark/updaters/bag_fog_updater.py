@@ -153,7 +153,7 @@ class BagFogUpdater(SceneUpdater):
     ) -> None:
         self._stage, self._spec, self._path, self._truth = stage, spec, path, truth
         if truth is not None:
-            stage.bus.withhold(truth.topic)
+            stage.bus.hide_topic(truth.topic)
         self._is_original = "bag-fog" in stage.world.compatibility
         self._image_topic, self._info_topic = spec.topics
         self._density = spec.density(spec.initial)  # [1/m]
@@ -235,8 +235,8 @@ class BagFogUpdater(SceneUpdater):
             self._stage.bus.publisher(self._truth.topic, Float32MultiArray)(
                 Float32MultiArray(data=numbers.astype(np.float32))
             )
-        is_seen = self._stage.bus.has_readers(self._image_topic)
-        if not is_seen and not self._stage.bus.has_readers(self._info_topic):
+        is_seen = self._stage.bus.has_subscribers(self._image_topic)
+        if not is_seen and not self._stage.bus.has_subscribers(self._info_topic):
             return
         decoded, time = frame.decode(), self._stage.time
         stamp = time_from_seconds(time)

@@ -152,7 +152,7 @@ class CurrentForceUpdater(SceneUpdater):
         """Put the vehicle back and let a current of ``value`` [m/s] flow in 2 s."""
         self._stage.put_back(self._spec.target)
         self._flow(value, delay=STILL_WATER)
-        if self._stage.bus.services.serves(RESET):
+        if self._stage.bus.services.is_offered(RESET):
             self._stage.bus.services.call(RESET, Empty())
 
     def begin(self, value: float) -> None:

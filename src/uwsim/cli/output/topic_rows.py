@@ -59,7 +59,7 @@ def _further_topics(simulation: Simulation, listed: Collection[str]) -> list[Fie
         }
         for topic, type_ in simulation.bus.topics.items()
         if f"/{topic}" not in listed
-        for ends in [simulation.bus.ends(topic)]
+        for ends in [simulation.bus.endpoints(topic)]
     ]
 
 

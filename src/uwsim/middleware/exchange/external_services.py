@@ -69,7 +69,7 @@ class ExternalServices:
                 if name in self._names:
                     self._names.discard(name)
                     self._services.withdraw(name)
-            elif self._services.serves(name):
+            elif self._services.is_offered(name):
                 self._log.report(f"service /{name} is offered already; the external one is ignored")
             else:
                 self._names.add(name)

@@ -84,7 +84,7 @@ class ExternalSubscribers:
         self._unsubscribe.clear()
 
     def _subscribe(self, topic: str) -> None:
-        if self._bus.is_withheld(topic):
+        if self._bus.is_hidden(topic):
             self._log.report(f"/{topic} is not sent: it is for observers of the run only")
             return
 

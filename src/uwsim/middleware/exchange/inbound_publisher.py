@@ -34,11 +34,11 @@ class InboundPublisher:
         """
         self._sender = sender
         try:
-            if self._bus.is_withheld(topic):
+            if self._bus.is_hidden(topic):
                 raise BadMessage(f"Topic {topic!r} is not open to external programs.")
             if topic not in self._publishers:
                 self._publishers[topic] = self._bus.publisher(
-                    topic, type(message), owner=self._owner, say=self._report_remark
+                    topic, type(message), owner=self._owner, report=self._report_remark
                 )
             self._published_ids.add(id(message))
             self._publishers[topic](message)

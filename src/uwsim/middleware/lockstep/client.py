@@ -170,7 +170,7 @@ class LockStepClient:
 
     def _is_sent(self, topic: str) -> bool:
         """Return whether the simulation publishes a topic."""
-        ends = self._bridge.bus.ends(topic, besides=self._bridge)
+        ends = self._bridge.bus.endpoints(topic, ignored_owner=self._bridge)
         return ends is not None and ends.is_published
 
     @property
@@ -274,7 +274,7 @@ class LockStepClient:
     def _call_services(self, answer: dict[str, Any]) -> None:
         """Call the services of std_srvs/Empty in an answer."""
         for name in names_in(answer, "calls"):
-            if self._bridge.bus.services.serves(name):
+            if self._bridge.bus.services.is_offered(name):
                 self._node.call(name, Empty())
             else:
                 self._bridge.log.report(f"client {self._name!r} calls {name}: nobody offers it")

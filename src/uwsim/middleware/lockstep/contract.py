@@ -78,7 +78,7 @@ def _service_error(services: Mapping[str, str], bus: Bus) -> str | None:
             service(kind)
         except UwsimError as error:
             return f"services, {_excerpt(name)}: {error}"
-        if bus.services.serves(name):
+        if bus.services.is_offered(name):
             return f"services, {_excerpt(name)} is offered already; expected another"
     return None
 

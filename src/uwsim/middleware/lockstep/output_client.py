@@ -99,7 +99,7 @@ class OutputClient(ExternalProgram):
     def _subscribe(self, output: OutputSpec) -> None:
         """Subscribe to an output, so that transports read it all the time."""
         bus = self._bridge.bus
-        ends = bus.ends(output.topic)
+        ends = bus.endpoints(output.topic)
         assert ends is not None
         bus.subscribe(output.topic, ends.type, _ignore_message)
 
@@ -230,7 +230,7 @@ def check_outputs(outputs: Sequence[OutputSpec], bus: Bus) -> None:
     """Raise BadSetting if neither scene nor benchmark has a topic of an output."""
     for output in outputs:
         for topic in filter(None, (output.topic, output.input_topic)):
-            if bus.ends(topic) is None:
+            if bus.endpoints(topic) is None:
                 topics = [f"/{name}" for name in bus.topics]
                 raise BadSetting(
                     f"--output: neither scene nor benchmark has the topic /{topic}."

@@ -98,7 +98,7 @@ class Recorder:
                 self._write(f"/{topic}", kind, round(clock() * NANOSECONDS), message)
 
             counts = not is_unnoticed or (is_before and type not in RENDERED_TYPES)
-            stop = self._bus.subscribe(topic, type, receive, owner=OBSERVER, counts=counts)
+            stop = self._bus.subscribe(topic, type, receive, owner=OBSERVER, is_counted=counts)
             self._stops.append(stop)
 
         self._stops.append(self._bus.observe(on_topic))

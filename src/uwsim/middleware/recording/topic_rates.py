@@ -65,7 +65,7 @@ class TopicRates:
         return [self._rate_of(topic, type_name) for topic, type_name in self._bus.topics.items()]
 
     def _rate_of(self, topic: str, type_name: str) -> TopicRate:
-        is_published = self._bus.without_publisher(topic) is None
+        is_published = self._bus.describe_missing_publisher(topic) is None
         topic_rate = TopicRate(topic=f"/{topic}", message_type=type_name, is_published=is_published)
         return self._gaps[topic].add_statistics(topic_rate) if topic in self._gaps else topic_rate
 

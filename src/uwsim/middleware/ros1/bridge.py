@@ -17,7 +17,7 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any, cast
 
-from ...bus import Bus, TopicEnds
+from ...bus import Bus, TopicEndpoints
 from ...errors import BadSetting, UwsimError
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge, TransportTraits
@@ -114,7 +114,7 @@ class Ros1Bridge(Bridge):
             parameters=parameters,
             poll=timeouts.poll,
         )
-        self._stop_elsewhere = bus.services.serve_elsewhere(
+        self._stop_elsewhere = bus.services.add_external_services(
             self._is_offered_outside, self.external_services.call_and_wait
         )
         self._register()
@@ -131,7 +131,7 @@ class Ros1Bridge(Bridge):
             subscription.n_publishers if subscription else 0
         )
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         """Advertise the topics that are published on the bus, subscribe to those that are read."""
         publications, subscriptions = dict(self._publications), dict(self._subscriptions)
         to_read = _topics_to_read(topics)
@@ -354,7 +354,7 @@ class Ros1Bridge(Bridge):
         return [1, "", 0]
 
 
-def _topics_to_read(topics: Mapping[str, TopicEnds]) -> set[str]:
+def _topics_to_read(topics: Mapping[str, TopicEndpoints]) -> set[str]:
     """Return the topics, with a leading slash, that the bus reads from outside.
 
     In lock-step also those that it may read, so that a measure of a later level misses no message.

@@ -13,7 +13,7 @@ from concurrent.futures import Future
 from functools import partial
 
 from ...base.message_fields import size_of
-from ...bus import Bus, TopicEnds
+from ...bus import Bus, TopicEndpoints
 from ...errors import BadMessage, UwsimError
 from ...messages.services import Service
 from ..bridge import LATCHED, Bridge, TransportTraits
@@ -56,13 +56,13 @@ class Ros2(Bridge):
         self._n_clocks = 0
         self._add_writer(CLOCK, self._clock_class, self._on_clocks)
         node.announce_endpoints()
-        self._stop_elsewhere = bus.services.serve_elsewhere(
+        self._stop_elsewhere = bus.services.add_external_services(
             node.offers, self.external_services.call_and_wait
         )
         self._thread = threading.Thread(target=self._write, name="uwsim-ros2-out", daemon=True)
         self._thread.start()
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         """Make writers for the published topics of the bus, readers for those that are read."""
         legal_topics = {name: ends for name, ends in topics.items() if self._is_legal(name)}
         published_topics = {name: ends for name, ends in legal_topics.items() if ends.is_published}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Collection, Mapping
 
-from ...bus import TopicEnds
+from ...bus import TopicEndpoints
 from ...errors import UnknownName
 from ...messages import CompressedImage, Image
 from ...messages.services import Service
@@ -26,7 +26,7 @@ class WebGraph:
 
     def __init__(self, clock: Callable[[], float], clients: Collection[Client]) -> None:
         self.clock, self._clients = clock, clients
-        self.topics: Mapping[str, TopicEnds] = {}
+        self.topics: Mapping[str, TopicEndpoints] = {}
         """Topics of the bus, and who is at their ends; replaced as a whole."""
         self.services: Mapping[str, Service] = {}
         """Services of the bus; replaced as a whole."""

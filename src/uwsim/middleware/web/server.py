@@ -20,7 +20,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.http11 import Request, Response
 
 from ...base.message_fields import size_of
-from ...bus import Bus, TopicEnds
+from ...bus import Bus, TopicEndpoints
 from ...errors import BadSetting
 from ...messages.services import Service
 from ..bridge import Bridge, TransportTraits
@@ -112,7 +112,7 @@ class WebBridge(Bridge):
             ) from None
         self.log.report(f"listening at ws://{options.host}:{self.port}", kind="listening")
 
-    def on_topics(self, topics: Mapping[str, TopicEnds]) -> None:
+    def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         """Note what is there; clients ask."""
         self.graph.topics = dict(topics)
 

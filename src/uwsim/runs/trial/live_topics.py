@@ -42,7 +42,7 @@ class LiveTopics:
         self._expression, self._simulation = expression, simulation
         self._publish_info = simulation.bus.publisher(INFO, String)
         self._publish_results = simulation.bus.publisher(RESULTS, Float32MultiArray)
-        simulation.bus.withhold(RESULTS)
+        simulation.bus.hide_topic(RESULTS)
         self._publishes_results = function.publish_result
         self._period = max(1, math.ceil(function.publish_rate / simulation.timestep - 1e-9))
         self._due = 0  # step from which on the next entry may be taken
@@ -60,7 +60,7 @@ class LiveTopics:
         step = self._simulation.step
         if not self._publishes_results or step < self._due:
             return
-        if not self._simulation.bus.has_readers(RESULTS):
+        if not self._simulation.bus.has_subscribers(RESULTS):
             return
         values = {measure.spec.name: finite_value(measure.value)[0] for measure in measures}
         total = self._expression.evaluate(values)
@@ -73,9 +73,9 @@ class LiveTopics:
         self._entries.append(total)
 
     def _publish(self) -> None:
-        if self._simulation.bus.has_readers(INFO):
+        if self._simulation.bus.has_subscribers(INFO):
             self._publish_info(String(data=self._scene_change))
         self._scene_change = ""
-        if self._publishes_results and self._simulation.bus.has_readers(RESULTS):
+        if self._publishes_results and self._simulation.bus.has_subscribers(RESULTS):
             self._publish_results(floats(self._entries))
         self._entries = []

@@ -129,7 +129,7 @@ class _Execution:
         self._updaters = bind_updaters(self._updater, simulation.world.stage_view)
         if "no-markers" in plan.compatibility:
             simulation.bus.services.withdraw(SPAWN_MARKER)
-        simulation.bus.keeps_unread = False  # all who read subscribe
+        simulation.bus.keeps_unread_messages = False  # all who read subscribe
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # with the specs for the next level
         ramp_level(self._updaters, self._base_level())

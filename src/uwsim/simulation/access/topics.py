@@ -87,9 +87,9 @@ class TopicAccess:
         """
         name = topic.strip().lstrip("/")
         if name not in self._published:
-            absent = self._bus.without_subscriber(name)
+            absent = self._bus.describe_missing_subscriber(name)
             if absent is not None and name not in self._bus.topics:
-                read = [each for each in self._bus.topics if self._bus.has_readers(each)]
+                read = [each for each in self._bus.topics if self._bus.has_subscribers(each)]
                 raise UnknownName("topic", topic, read)
             publish = self._bus.publisher(name, type(message))
             if absent is not None:
@@ -107,7 +107,7 @@ class TopicAccess:
         if name not in self._inboxes:
             if name not in self._bus.topics:
                 raise UnknownName("topic", topic, self._bus.topics)
-            before = self._bus.unread(name)
+            before = self._bus.unread_message(name)
             self._inboxes[name] = self._opened(name)
             if before is not None:
                 self._inboxes[name].receive(before, self._bus.step)

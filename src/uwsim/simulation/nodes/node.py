@@ -218,21 +218,21 @@ class InProcessNode:
             self._guard(callback, message)
 
         self._close.append(self._bus.subscribe(topic, type, receive))
-        self._heard[f"it subscribes to {topic!r}, but "] = lambda: self._bus.without_publisher(
-            topic
+        self._heard[f"it subscribes to {topic!r}, but "] = lambda: (
+            self._bus.describe_missing_publisher(topic)
         )
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
         self._check(topic)
-        self._published[f"it publishes on {topic!r}, but "] = lambda: self._bus.without_subscriber(
-            topic
+        self._published[f"it publishes on {topic!r}, but "] = lambda: (
+            self._bus.describe_missing_subscriber(topic)
         )
-        give = self._bus.publisher(topic, type, delay_steps=self._delay_steps, say=self._say)
+        give = self._bus.publisher(topic, type, delay_steps=self._delay_steps, report=self._say)
 
         def publish(message: M) -> None:
             self._check(topic)
-            if not self._bus.has_readers(topic) or message.__class__ is not type:
+            if not self._bus.has_subscribers(topic) or message.__class__ is not type:
                 give(message)
                 return
             try:
@@ -335,7 +335,7 @@ class InProcessNode:
             self._break_rule("it uses its node from a thread of its own")
         if not self._is_started:
             self._break_rule("it uses its node after the end")
-        if topic is not None and self._bus.is_withheld(topic):
+        if topic is not None and self._bus.is_hidden(topic):
             self._break_rule(f"topic {topic!r} is for observers of the run")
 
     def _break_rule(self, message: str) -> NoReturn:

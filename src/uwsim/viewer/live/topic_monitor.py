@@ -63,7 +63,7 @@ class TopicMonitor:
         for name in names - self._stops.keys():
             if name in self._bus.topics:
                 handler = partial(self._on_message, name)
-                self._stops[name] = self._bus.subscribe(name, object, handler, counts=False)
+                self._stops[name] = self._bus.subscribe(name, object, handler, is_counted=False)
                 self._due[name] = 0.0
         news, self._new_messages = self._new_messages, {}
         return {f"{CHANNEL}{name}": text for name, text in news.items() if name in names}
