@@ -52,7 +52,7 @@ def page_of(browser: Any, server: LiveServer, height: int = 768) -> Any:
     page.set_default_timeout(LIMIT)
     page.goto(server.url)
     page.wait_for_function("window.uwsim !== undefined && uwsim.page.link.pilot.isOn")
-    page.wait_for_function("uwsim.page.player.trails.length > 0 && uwsim.page.drawn !== ''")
+    page.wait_for_function("uwsim.page.player.trails.length > 0 && uwsim.page.drawnKey !== ''")
     page.evaluate("uwsim.page.draw()")
     return page
 
@@ -119,7 +119,9 @@ def test_a_dimmed_lamp_looks_in_the_page_as_in_a_camera(
 
 def test_the_help_names_all_axes_of_a_key(browser: Any, server: LiveServer) -> None:
     page = opened(browser, server, MAPPING, 768)
-    rows = page.evaluate("uwsim.page.link.help().Pilot.map(({ keys, does }) => keys + ': ' + does)")
+    rows = page.evaluate(
+        "uwsim.page.link.helpGroups().Pilot.map(({ keys, action }) => keys + ': ' + action)"
+    )
     assert rows[:-1] == ["w  s: thruster1 thruster2 +, −", "e  –: thruster3 +, −"]
     page.context.close()
 
@@ -130,7 +132,7 @@ def test_a_simulation_as_fast_as_it_can_and_one_of_any_speed_say_so(
     page = opened(browser, server, MAPPING, 768)
     shown = "document.getElementById('speed').selectedOptions[0].text"
     for speed, text in ((0, "fastest"), (1.5, "1.5×"), (1, "1×")):
-        page.evaluate(f"uwsim.page.isTold(false, {speed})")
+        page.evaluate(f"uwsim.page.setState(false, {speed})")
         assert page.evaluate(shown) == text
     for key, text in ((">", "2×"), ("<", "1×")):
         page.keyboard.press(key)
@@ -172,7 +174,7 @@ def test_keys_that_move_nothing_are_not_in_the_help_and_no_letter_has_two_meanin
         session.open(simulation, "scene", pilot_topics(simulation))
         session.close()
     page = page_of(browser, server)
-    rows = page.evaluate("uwsim.page.link.help().Pilot.map(({ does }) => does)")
+    rows = page.evaluate("uwsim.page.link.helpGroups().Pilot.map(({ action }) => action)")
     assert rows[:-1] == [f"{axis} +, −" for axis in ("surge", "sway", "yaw", "heave")]
     keys = page.evaluate("[...document.querySelectorAll('#help dt')].map((dt) => dt.textContent)")
     letters = [key for text in keys for key in text.split() if len(key) == 1 and key.isalpha()]
@@ -218,8 +220,8 @@ def test_the_orbit_goes_along_with_the_piloted_vehicle_and_keeps_its_distance(
             session.view.publish_due()
             session.close()
             page = page_of(browser, server)
-            page.wait_for_function("uwsim.page.drawn !== ''")
-            eye = "uwsim.page.views.sight(800, 600).worldFromCamera"
+            page.wait_for_function("uwsim.page.drawnKey !== ''")
+            eye = "uwsim.page.views.viewCamera(800, 600).worldFromCamera"
             first = page.evaluate("uwsim.page.pack.head.view.pose")
             now = page.evaluate(f"Array.from({eye})")
             ways[index] = np.array([now[3], now[7], now[11]]) - first[:3]

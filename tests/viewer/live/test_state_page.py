@@ -60,7 +60,7 @@ def shown(
     session.close()
     page = page_of(browser, server)
     page.wait_for_function(
-        "uwsim.page.drawn !== '' && document.querySelectorAll('#hud button').length"
+        "uwsim.page.drawnKey !== '' && document.querySelectorAll('#hud button').length"
     )
     return page
 
@@ -262,7 +262,7 @@ def test_a_line_of_keys_has_the_names_of_the_joints_until_somebody_pilots(
     line = " ".join(page.locator(".keyline").inner_text().split())
     for words in ("WS forward / back", "EQ turn right / left", "? all keys", f"TG {joints[0]}"):
         assert words in line
-    rows = page.evaluate("uwsim.page.link.help().Pilot.map(({ does }) => does)")
+    rows = page.evaluate("uwsim.page.link.helpGroups().Pilot.map(({ action }) => action)")
     assert [f"{joint} +, −" for joint in joints] == [
         row for row in rows if row.split()[0] in joints
     ]
@@ -323,7 +323,7 @@ LENGTHS = """() => {
     const boxes = (LABELS)()
     CanvasRenderingContext2D.prototype.lineTo = to
     const [[left], [right]] = lines.slice(-3)
-    const { lens, worldFromCamera } = uwsim.page.views.sight(
+    const { lens, worldFromCamera } = uwsim.page.views.viewCamera(
         uwsim.page.picture.canvas.clientWidth, uwsim.page.picture.canvas.clientHeight)
     return [boxes.map(([text]) => text), (right - left) / lens.fx, worldFromCamera[11]]
 }""".replace("LABELS", LABELS)
@@ -357,7 +357,7 @@ def test_the_chase_view_is_nearer_where_something_hides_the_vehicle(
             page = shown(browser, server, simulation)
         page.evaluate("uwsim.page.views.mode = 'chase'")
         page.evaluate("uwsim.page.views.zoom(8 / uwsim.page.views.orbit.distance)")
-        eye = page.evaluate("Array.from(uwsim.page.views.sight(800, 600).worldFromCamera)")
+        eye = page.evaluate("Array.from(uwsim.page.views.viewCamera(800, 600).worldFromCamera)")
         ways[x] = np.subtract([eye[3], eye[7], eye[11]], [x, 0.0, -5.0])
         page.context.close()
     assert np.linalg.norm(ways[20.0]) == pytest.approx(8.0)
@@ -371,7 +371,7 @@ def test_the_view_of_the_file_is_one_of_its_own(browser: Any, server: LiveServer
         camera = simulation.world.model.scene.camera
         page = shown(browser, server, simulation)
     assert camera is not None
-    sight = "uwsim.page.views.sight(800, 600)"
+    sight = "uwsim.page.views.viewCamera(800, 600)"
     orbit = page.evaluate(f"Array.from({sight}.worldFromCamera)")
     page.keyboard.press("p")
     eye = page.evaluate(f"Array.from({sight}.worldFromCamera)")

@@ -1,20 +1,20 @@
-// The page as its keys, its buttons and a running simulation see it.
+// The interface of the page for its keys, its buttons and a running simulation.
 import type { Reading } from "./display/quantities";
 import type { Pack } from "./pack";
 import type { Picture, Switches } from "./picture";
 import type { Player } from "./player";
 import type { Mode, Views } from "./views";
 
-/** What may be shown or hidden. */
+/** The parts that may be shown or hidden. */
 export type Switch = "clear" | "state" | "pictures" | "frames" | "trails" | "sonars" | "labels";
 
-/** A running simulation, as far as the keys are its pilot's. */
-export interface Piloted {
-  /** Whether all may go back where it began. */
-  readonly resets: boolean;
-  readonly pilot: { has(key: string): boolean };
-  takes(event: KeyboardEvent): boolean;
-  help(): Record<string, { keys: string; does: string }[]>;
+/** The interface of a running simulation for the keys. */
+export interface LiveControls {
+  /** True if the simulation allows a reset to its initial state. */
+  readonly allowsReset: boolean;
+  readonly pilot: { isReserved(key: string): boolean };
+  takeKey(event: KeyboardEvent): boolean;
+  helpGroups(): Record<string, { keys: string; action: string }[]>;
 }
 
 export interface Controls {
@@ -25,16 +25,16 @@ export interface Controls {
   readonly player: Player;
   readonly picture: Picture;
   readonly views: Views;
-  readonly link: Piloted | null;
-  readonly quantities: { hear(readings: Reading[]): boolean };
-  readonly keyboard: { help(): void };
+  readonly link: LiveControls | null;
+  readonly quantities: { setReadings(readings: Reading[]): boolean };
+  readonly keyboard: { showHelp(): void };
   go(index: number): Promise<void>;
   seek(time: number): void;
-  play(on?: boolean): void;
+  play(isOn?: boolean): void;
   step(direction: number): void;
   reset(): void;
-  faster(direction: number): void;
-  isTold(paused: boolean, speed: number): void;
+  changeSpeed(direction: number): void;
+  setState(isPaused: boolean, speed: number): void;
   show(mode: Mode): void;
   toggle(name: Switch): void;
   clearTrails(): void;

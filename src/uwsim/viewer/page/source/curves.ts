@@ -1,14 +1,14 @@
-// Curves of all measures, with the cursor where the time is.
+// Curves of all measures, with a cursor at the displayed time.
 import uPlot from "uplot";
 import type { Samples } from "./player";
 
 const HEIGHT = 96;
-const UNFOLDED = 8; // charts that are open from the beginning
-const COLOURS = [ // readable on light and dark, and of different lightness to those who see few hues
+const N_OPEN_CHARTS = 8; // initially open
+const COLOURS = [ // readable on light and dark, and of different lightness for colour-blind users
   "#2f8fef", "#e8820c", "#1fa367", "#a45ee5", "#e5484d", "#12a5b8", "#b58900", "#d6409f", "#6e7fd9", "#7a8b3a",
 ];
 
-/** The value of the last sample at or before a time; null: nothing was measured. */
+/** Return the value of the last sample at or before a time; null: nothing was measured. */
 export function valueAt(curve: Samples, time: number): number | null {
   let [low, high] = [0, curve.times.length];
   while (low < high) {
@@ -24,7 +24,7 @@ interface Chart {
   plot: uPlot;
   cursor: HTMLElement;
   value: HTMLElement;
-  drawn: number | undefined; // time of the last sample
+  drawnTime: number | undefined; // time of the last sample
 }
 
 export class Curves {
@@ -45,29 +45,29 @@ export class Curves {
     this.charts = curves.map((curve, i) => this.chart(curve, i));
   }
 
-  /** Draw all charts again, in the colours of now. */
+  /** Draw all charts again, in the present colours. */
   redraw(): void {
     for (const { plot } of this.charts) plot.redraw(false);
   }
 
-  /** Move the cursor; new samples of a live run are drawn, too. */
+  /** Move the cursor, and draw new samples of a live run. */
   show(time: number, curves: Samples[]): void {
     this.time = time;
-    const isSame = curves.length === this.charts.length && curves.every((each, i) => each === this.charts[i].curve);
+    const isSame = curves.length === this.charts.length && curves.every((curve, i) => curve === this.charts[i].curve);
     if (!isSame) this.set(curves);
     for (const chart of this.charts) {
       const value = valueAt(chart.curve, time);
       chart.value.textContent = valueText(chart.curve, value);
-      const newest = chart.curve.times.at(-1);
-      if (chart.drawn !== newest) {
-        chart.drawn = newest;
+      const lastTime = chart.curve.times.at(-1);
+      if (chart.drawnTime !== lastTime) {
+        chart.drawnTime = lastTime;
         chart.plot.setData([chart.curve.times, chart.curve.values]);
       }
       this.point(chart);
     }
   }
 
-  /** Put the cursor of a chart where the time is. */
+  /** Move the cursor of a chart to the displayed time. */
   private point({ plot, cursor }: Chart): void {
     const x = plot.valToPos(this.time, "x");
     cursor.hidden = !(x >= 0 && x <= plot.over.clientWidth);
@@ -86,7 +86,7 @@ export class Curves {
       name.setAttribute("aria-expanded", String(!isFolded));
     };
     name.addEventListener("click", () => fold(!figure.classList.contains("folded")));
-    fold(number >= UNFOLDED);
+    fold(number >= N_OPEN_CHARTS);
     name.style.setProperty("--mark", COLOURS[number % COLOURS.length]);
     caption.append(name, value);
     figure.append(caption);
@@ -98,7 +98,7 @@ export class Curves {
     const cursor = document.createElement("i");
     cursor.className = "cursor";
     plot.over.append(cursor);
-    return { curve, plot, cursor, value, drawn: curve.times.at(-1) };
+    return { curve, plot, cursor, value, drawnTime: curve.times.at(-1) };
   }
 
   private options({ names, isShare }: Samples, colour: string): uPlot.Options {
@@ -117,7 +117,7 @@ export class Curves {
       scales: { x: { time: false }, y: { range: rangeOf(names, isShare) } },
       axes: [
         { ...axis(), size: 20, gap: 2 },
-        { ...axis(), size: 44, gap: 2, space: 12, values: (_, all, __, ___, step) => all.map((each) => tick(each, step)), ...(names?.length ? { incrs: [1, 2, 5, 10] } : {}) },
+        { ...axis(), size: 44, gap: 2, space: 12, values: (_, ticks, __, ___, step) => ticks.map((value) => tick(value, step)), ...(names?.length ? { incrs: [1, 2, 5, 10] } : {}) },
       ],
       series: [
         {},
@@ -126,7 +126,7 @@ export class Curves {
           width: 1.5,
           spanGaps: false,
           paths: names?.length ? uPlot.paths.stepped!({ align: 1 }) : undefined,
-          points: { show: true, size: 4, fill: colour, filter: alone },
+          points: { show: true, size: 4, fill: colour, filter: isolatedSamples },
         },
       ],
     };
@@ -141,28 +141,28 @@ export class Curves {
   }
 }
 
-/** The ends of the axis: 0 and 1 of a share, all numbers of what has names; else those of the values. */
+/** Return the limits of the axis: 0 and 1 of a share, all named values, or those of the samples. */
 function rangeOf(names?: string[], isShare?: boolean): uPlot.Range.MinMax | uPlot.Scale.Range {
   if (names?.length) return [0, names.length];
   if (isShare) return [0, 1];
   return (_, low, high) => {
     if (low === null || high === null) return [0, 1];
-    const flat = high - low < 1e-5 * Math.max(Math.abs(low), Math.abs(high), 1e-6); // float32 is no finer
-    if (flat && low >= 0) return [0, high > 0 ? 2 * high : 1];
-    const edge = flat ? Math.max(0.5, 0.1 * Math.abs(high)) : 0.08 * (high - low);
+    const isFlat = high - low < 1e-5 * Math.max(Math.abs(low), Math.abs(high), 1e-6); // the resolution of float32
+    if (isFlat && low >= 0) return [0, high > 0 ? 2 * high : 1];
+    const edge = isFlat ? Math.max(0.5, 0.1 * Math.abs(high)) : 0.08 * (high - low);
     return [low - edge, high + edge];
   };
 }
 
-/** A number at an axis. */
+/** Return the text of a number at an axis. */
 function tick(value: number, step: number): string {
   const digits = [0, 1, 2, 3, 4, 5].find((n) => Math.abs(step * 10 ** n - Math.round(step * 10 ** n)) < 1e-6) ?? 9;
   if (Math.abs(value) >= 1e5 || digits > 5) return value === 0 ? "0" : value.toExponential(1);
   return String(Number(value.toFixed(digits)));
 }
 
-/** Samples between two gaps, which no line leads to: they are drawn as dots. */
-function alone(plot: uPlot, series: number): number[] {
+/** Return the samples between two gaps, which are drawn as dots, as they have no line. */
+function isolatedSamples(plot: uPlot, series: number): number[] {
   const values = plot.data[series] as (number | null)[];
   const isGap = (i: number): boolean => values[i] === null || values[i] === undefined;
   return [...values.keys()].filter((i) => !isGap(i) && isGap(i - 1) && isGap(i + 1));

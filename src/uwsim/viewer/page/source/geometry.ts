@@ -33,10 +33,10 @@ export function product(a: Matrix, b: Matrix): Matrix {
   return out;
 }
 
-export function fromPose(pose: Pose, at = 0): Matrix {
-  const [x, y, z] = [pose[at], pose[at + 1], pose[at + 2]];
-  const length = Math.hypot(pose[at + 3], pose[at + 4], pose[at + 5], pose[at + 6]) || 1;
-  const [w, i, j, k] = [3, 4, 5, 6].map((n) => pose[at + n] / length);
+export function fromPose(pose: Pose, offset = 0): Matrix {
+  const [x, y, z] = [pose[offset], pose[offset + 1], pose[offset + 2]];
+  const length = Math.hypot(pose[offset + 3], pose[offset + 4], pose[offset + 5], pose[offset + 6]) || 1;
+  const [w, i, j, k] = [3, 4, 5, 6].map((n) => pose[offset + n] / length);
   return matrix([
     1 - 2 * (j * j + k * k), 2 * (i * j - w * k), 2 * (i * k + w * j), x,
     2 * (i * j + w * k), 1 - 2 * (i * i + k * k), 2 * (j * k - w * i), y,
@@ -45,23 +45,23 @@ export function fromPose(pose: Pose, at = 0): Matrix {
   ]);
 }
 
-/** x y z w x y z of a rotation and a shift. */
+/** Return x y z w x y z of a rotation and a translation. */
 export function toPose(m: Matrix): number[] {
   const signs = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]; // of w, x, y, z
   const squares = signs.map(([a, b, c]) => Math.max(0, 1 + a * m[0] + b * m[5] + c * m[10]));
   const [w, x, y, z] = squares.map((square) => Math.sqrt(square) / 2);
-  const largest = squares.indexOf(Math.max(...squares));
+  const index = squares.indexOf(Math.max(...squares));
   const pairs: number[][] = [
     [1, m[9] - m[6], m[2] - m[8], m[4] - m[1]],
     [m[9] - m[6], 1, m[1] + m[4], m[2] + m[8]],
     [m[2] - m[8], m[1] + m[4], 1, m[6] + m[9]],
     [m[4] - m[1], m[2] + m[8], m[6] + m[9], 1],
   ];
-  const q = [w, x, y, z].map((value, i) => value * (pairs[largest][i] < 0 ? -1 : 1));
+  const q = [w, x, y, z].map((value, i) => value * (pairs[index][i] < 0 ? -1 : 1));
   return [m[3], m[7], m[11], ...q];
 }
 
-/** The inverse of a rotation and a shift. */
+/** Return the inverse of a rotation and a translation. */
 export function inverse(m: Matrix): Matrix {
   const back = (i: number): number => -(m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);
   return matrix([
@@ -73,8 +73,8 @@ export function determinant(m: Matrix): number {
   return dot([m[0], m[1], m[2]], cross([m[4], m[5], m[6]], [m[8], m[9], m[10]]));
 }
 
-/** The inverse transpose of the upper left 3 x 3, in a 4 x 4. */
-export function ofNormals(m: Matrix): Matrix {
+/** Return the inverse transpose of the upper left 3 x 3, in a 4 x 4. */
+export function normalMatrix(m: Matrix): Matrix {
   const rows = [0, 4, 8].map((i) => [m[i], m[i + 1], m[i + 2]]);
   const d = 1 / determinant(m);
   const [a, b, c] = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];
@@ -89,13 +89,13 @@ export function transform(m: Matrix, p: Vector): [number, number, number] {
   ];
 }
 
-/** A direction by the rotation of a matrix. */
-export function turned(m: Matrix, v: Vector): [number, number, number] {
+/** Rotate a direction by the rotation of a matrix. */
+export function rotate(m: Matrix, v: Vector): [number, number, number] {
   return [dot([m[0], m[1], m[2]], v), dot([m[4], m[5], m[6]], v), dot([m[8], m[9], m[10]], v)];
 }
 
-/** A direction by the inverse of the rotation of a matrix. */
-export function turnedBack(m: Matrix, v: Vector): [number, number, number] {
+/** Rotate a direction by the inverse of the rotation of a matrix. */
+export function rotateBack(m: Matrix, v: Vector): [number, number, number] {
   return [dot([m[0], m[4], m[8]], v), dot([m[1], m[5], m[9]], v), dot([m[2], m[6], m[10]], v)];
 }
 
@@ -120,31 +120,31 @@ export function unit(a: Vector): [number, number, number] {
   return [a[0] / length, a[1] / length, a[2] / length];
 }
 
-/** World from a camera (OpenGL axes) that looks from a point to another. */
-export function looking(eye: Vector, at: Vector, up: Vector = [0, 0, 1]): Matrix {
-  const back = unit(plus(eye, at, -1));
+/** Return world from a camera (OpenGL axes) at `eye` whose view axis goes through `target`. */
+export function lookAt(eye: Vector, target: Vector, up: Vector = [0, 0, 1]): Matrix {
+  const back = unit(plus(eye, target, -1));
   let right = cross(up, back);
   if (Math.hypot(...right) < 1e-6) right = cross([1, 0, 0], back);
   right = unit(right);
-  const above = cross(back, right);
+  const trueUp = cross(back, right);
   return matrix([
-    right[0], above[0], back[0], eye[0], right[1], above[1], back[1], eye[1],
-    right[2], above[2], back[2], eye[2], 0, 0, 0, 1,
+    right[0], trueUp[0], back[0], eye[0], right[1], trueUp[1], back[1], eye[1],
+    right[2], trueUp[2], back[2], eye[2], 0, 0, 0, 1,
   ]);
 }
 
-/** Of a vertical field of view; in a window narrower than 4:3 as much is seen to the sides as in 4:3. */
+/** Return the lens of a vertical field of view; a window narrower than 4:3 has the width of 4:3. */
 export function lensOf(width: number, height: number, fovy: number): Lens {
   const focal = Math.min(height, 0.75 * width) / (2 * Math.tan(fovy / 2));
   const centre = { cx: (width - 1) / 2, cy: (height - 1) / 2 };
   return { width, height, fx: focal, fy: focal, ...centre, skew: 0, near: 0.05, far: 2000 };
 }
 
-/** Clip space from the camera; with `flipped` the first row of pixels is the top of the image. */
-export function clipFromCamera(lens: Lens, flipped: boolean): Matrix {
+/** Return clip space from camera; with `isFlipped`, the first row of pixels is the image's top. */
+export function clipFromCamera(lens: Lens, isFlipped: boolean): Matrix {
   const { width: w, height: h, near, far } = lens;
   const span = far - near;
-  const s = flipped ? 1 : -1;
+  const s = isFlipped ? 1 : -1;
   return matrix([
     (2 * lens.fx) / w, (2 * lens.skew) / w, 1 - (2 * lens.cx + 1) / w, 0,
     0, (-2 * s * lens.fy) / h, s * (1 - (2 * lens.cy + 1) / h), 0,
@@ -153,7 +153,7 @@ export function clipFromCamera(lens: Lens, flipped: boolean): Matrix {
   ]);
 }
 
-/** OpenGL counts columns first. */
+/** Return the numbers column by column, as in OpenGL. */
 export function columns(m: Matrix): number[] {
   return [0, 1, 2, 3].flatMap((i) => [m[i], m[4 + i], m[8 + i], m[12 + i]]);
 }

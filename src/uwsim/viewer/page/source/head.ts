@@ -1,7 +1,7 @@
-// The head, as viewer/head.py documents it.
+// The head, in the format of viewer/head.py.
 import type { Lens } from "./geometry";
 
-/** An array of a pack: its first byte, how many numbers, and their type. */
+/** An array of a pack: its first byte, the count of numbers, and their type. */
 export type Ref = [number, number, string];
 
 export interface Visual {
@@ -30,17 +30,17 @@ export interface Mesh {
   pieces: number[][];
 }
 
-export interface Mounted {
+export interface Mount {
   name: string;
   body: string;
   pose: number[];
 }
 
-export interface Camera extends Mounted, Lens {
+export interface Camera extends Mount, Lens {
   grey: boolean;
 }
 
-export interface Lamp extends Mounted {
+export interface Lamp extends Mount {
   half_angle: number;
   softness: number;
   colour: number[];
@@ -49,20 +49,20 @@ export interface Lamp extends Mounted {
   on: boolean;
 }
 
-export interface Sensor extends Mounted {
+export interface Sensor extends Mount {
   kind: "range" | "fan" | "sonar";
   reach: number;
   from: number;
   to: number;
 }
 
-export interface Projector extends Mounted {
+export interface Projector extends Mount {
   fovy: number;
   laser: boolean;
   pattern: number;
 }
 
-/** Sand over an object: a grid of columns. */
+/** A heap of sand over an object: a grid of columns. */
 export interface Heap {
   body: string;
   mesh: number;
@@ -73,8 +73,8 @@ export interface Heap {
   bite: number;
 }
 
-/** From where one looks, and at what. */
-export interface Place {
+/** A view: the pose of its camera and its centre. */
+export interface ViewSpec {
   pose: number[];
   fovy: number;
   at: number[];
@@ -119,7 +119,7 @@ export interface Trial {
   curves: Curve[];
 }
 
-/** Spawned by a program: lines in W. */
+/** A spawned marker: lines in W. */
 export interface Marker {
   name: string;
   at: number[];
@@ -127,7 +127,7 @@ export interface Marker {
   lines: number[][][];
 }
 
-/** From a frame on a marker has a shape, a colour and a pose in W, or is gone. */
+/** A change at a frame: a marker gets a shape, a colour and a pose in W, or is removed. */
 export type MarkerChange = [number, string] | [number, string, number, string, number[]];
 
 export interface MotionHead {
@@ -157,8 +157,8 @@ export interface Head {
   frames: { name: string; body: string | null; pose: number[] }[];
   vehicles: { name: string; body: string; thrusters: string[]; joints: string[] }[];
   sand: Heap[];
-  view: Place;
-  file_view: Place | null;
+  view: ViewSpec;
+  file_view: ViewSpec | null;
   water: Water;
   suns: Record<string, { direction: number[]; colour: number[] }>;
   ambient: number;

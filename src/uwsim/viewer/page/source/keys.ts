@@ -1,26 +1,26 @@
-// Keys and the pointer. UWSim's keys are kept: 1 2 3, c, f, r, t, y.
+// Keys and the pointer. UWSim's keys have their meaning: 1 2 3, c, f, r, t, y.
 import type { Controls } from "./controls";
 import { element, fillHelp, toggleHelp } from "./panels";
 
 const SUNS = ["clear", "dusk", "cloudy"];
-const TURN = 0.03; // share of the view a key turns by
+const TURN = 0.03; // the drag of a key, as a fraction of the view
 
 export class Keyboard {
-  private dragged: { x: number; y: number; shifts: boolean } | null = null;
+  private dragState: { x: number; y: number; shifts: boolean } | null = null;
 
   constructor(private readonly page: Controls) {
     const view = element("view");
-    document.addEventListener("keydown", (event) => this.press(event));
-    view.addEventListener("keydown", (event) => this.turn(event));
+    document.addEventListener("keydown", (event) => this.onKeyDown(event));
+    view.addEventListener("keydown", (event) => this.turnView(event));
     view.addEventListener("pointerdown", (event) => {
       if ((event.target as Element).closest("button, .stick")) return;
       view.setPointerCapture(event.pointerId);
       const shifts = event.button !== 0 || event.shiftKey;
-      this.dragged = { x: event.clientX, y: event.clientY, shifts };
+      this.dragState = { x: event.clientX, y: event.clientY, shifts };
     });
     view.addEventListener("pointermove", (event) => this.drag(event));
-    view.addEventListener("pointerup", () => (this.dragged = null));
-    view.addEventListener("pointercancel", () => (this.dragged = null));
+    view.addEventListener("pointerup", () => (this.dragState = null));
+    view.addEventListener("pointercancel", () => (this.dragState = null));
     view.addEventListener("contextmenu", (event) => event.preventDefault());
     view.addEventListener(
       "wheel",
@@ -30,49 +30,49 @@ export class Keyboard {
       },
       { passive: false },
     );
-    this.help();
+    this.showHelp();
   }
 
-  /** Write the list of keys; those of a pilot are known later. */
-  help(): void {
+  /** Write the list of keys, again when the pilot's keys arrive. */
+  showHelp(): void {
     fillHelp(this.groups());
   }
 
   private drag(event: PointerEvent): void {
-    if (!this.dragged) return;
+    if (!this.dragState) return;
     const size = element("view").clientHeight;
-    const [dx, dy] = [event.clientX - this.dragged.x, event.clientY - this.dragged.y];
-    this.page.views.drag(dx / size, dy / size, this.dragged.shifts);
-    Object.assign(this.dragged, { x: event.clientX, y: event.clientY });
+    const [dx, dy] = [event.clientX - this.dragState.x, event.clientY - this.dragState.y];
+    this.page.views.drag(dx / size, dy / size, this.dragState.shifts);
+    Object.assign(this.dragState, { x: event.clientX, y: event.clientY });
   }
 
-  /** Arrow keys in the view turn it; with Shift they move it. */
-  private turn(event: KeyboardEvent): void {
-    const ways: Record<string, [number, number]> = {
+  /** Rotate the view by arrow keys; with Shift, move it. */
+  private turnView(event: KeyboardEvent): void {
+    const steps: Record<string, [number, number]> = {
       ArrowLeft: [TURN, 0], ArrowRight: [-TURN, 0], ArrowUp: [0, TURN], ArrowDown: [0, -TURN],
     };
-    const way = ways[event.key];
-    if (!way || event.ctrlKey || event.altKey || event.metaKey) return;
+    const step = steps[event.key];
+    if (!step || event.ctrlKey || event.altKey || event.metaKey) return;
     event.preventDefault();
     event.stopPropagation();
-    this.page.views.drag(way[0], way[1], event.shiftKey);
+    this.page.views.drag(step[0], step[1], event.shiftKey);
   }
 
-  private press(event: KeyboardEvent): void {
+  private onKeyDown(event: KeyboardEvent): void {
     const { page } = this;
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target as HTMLElement;
     const isField = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
     if (isField && !/^[a-z?]$/.test(event.key)) return;
     if (event.key === " " && target instanceof HTMLButtonElement) return;
-    if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // they scroll it
-    if (page.link?.takes(event)) return;
-    // with Shift, too: where somebody pilots, a letter alone may be the pilot's
+    if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // these scroll the help
+    if (page.link?.takeKey(event)) return;
+    // Shift is allowed, as a letter without it may be the pilot's
     const key = event.shiftKey ? event.key.toLowerCase() : event.key;
-    const act = this.actions()[key];
-    if (!act) return;
+    const action = this.actions()[key];
+    if (!action) return;
     event.preventDefault();
-    act();
+    action();
   }
 
   private actions(): Record<string, () => void> {
@@ -97,8 +97,8 @@ export class Keyboard {
       End: () => page.seek(page.player.end),
       "[": jump(-1),
       "]": jump(1),
-      "<": () => page.faster(-1),
-      ">": () => page.faster(1),
+      "<": () => page.changeSpeed(-1),
+      ">": () => page.changeSpeed(1),
       o: () => page.show("orbit"),
       b: () => page.show("chase"),
       v: () => page.show("camera"),
@@ -126,46 +126,46 @@ export class Keyboard {
     };
   }
 
-  private groups(): Record<string, { keys: string; does: string }[]> {
+  private groups(): Record<string, { keys: string; action: string }[]> {
     const { page } = this;
-    const reset = page.link ? "vehicles and objects back where they began" : "begin of the level";
+    const reset = page.link ? "reset vehicles and objects" : "start of the level";
     const steps = [
-      { keys: ", .", does: "one row back, on" },
-      { keys: "← →", does: "one second back, on (in the view: turn it)" },
-      { keys: "[ ]", does: "level before, after" },
-      { keys: "Home End", does: "begin, end" },
+      { keys: ", .", action: "one row back, forward" },
+      { keys: "← →", action: "one second back, forward (in the view: rotate it)" },
+      { keys: "[ ]", action: "previous, next level" },
+      { keys: "Home End", action: "start, end" },
     ];
-    const own = {
+    const groups = {
       Time: [
-        { keys: "space", does: "play, pause" },
-        ...(page.link ? [{ keys: ".", does: "one step on" }] : steps),
-        { keys: "< >", does: "slower, faster" },
-        ...(page.link && !page.link.resets ? [] : [{ keys: "r", does: reset }]),
+        { keys: "space", action: "play, pause" },
+        ...(page.link ? [{ keys: ".", action: "one step" }] : steps),
+        { keys: "< >", action: "slower, faster" },
+        ...(page.link && !page.link.allowsReset ? [] : [{ keys: "r", action: reset }]),
       ],
       View: [
-        { keys: "o b v m", does: "orbit, behind the vehicle, next camera, map from above" },
-        ...(page.pack.head.file_view ? [{ keys: "p", does: "the camera of the scene file" }] : []),
-        { keys: "k", does: "orbit goes along with the vehicle, or stays" },
-        { keys: "arrows, drag", does: "turn; with Shift or the right button: move" },
-        { keys: "+ -, wheel", does: "nearer, farther" },
-        { keys: "h", does: "first view again" },
-        { keys: "x", does: "clear water, or the fog as it is" },
-        { keys: "1 2 3", does: "clear sky, dusk, cloudy" },
+        { keys: "o b v m", action: "orbit, behind the vehicle, next camera, map from above" },
+        ...(page.pack.head.file_view ? [{ keys: "p", action: "the camera of the scene file" }] : []),
+        { keys: "k", action: "orbit follows the vehicle, or stays" },
+        { keys: "arrows, drag", action: "rotate; with Shift or the right button: move" },
+        { keys: "+ -, wheel", action: "nearer, farther" },
+        { keys: "h", action: "first view" },
+        { keys: "x", action: "clear water, or the scene's fog" },
+        { keys: "1 2 3", action: "clear sky, dusk, cloudy" },
       ],
       Shown: [
-        { keys: "c", does: "images of the cameras" },
-        { keys: "z", does: "state of the vehicle; a click on a number draws its curve" },
-        { keys: "f l", does: "frames, names" },
-        { keys: "t y", does: "trails; begin them anew" },
-        { keys: "s", does: "beams and fans of sonars" },
-        { keys: "n", does: "light or dark" },
-        { keys: "?", does: "these keys" },
+        { keys: "c", action: "images of the cameras" },
+        { keys: "z", action: "state of the vehicle; a click on a number draws its curve" },
+        { keys: "f l", action: "frames, names" },
+        { keys: "t y", action: "trails; restart them" },
+        { keys: "s", action: "beams and fans of sonars" },
+        { keys: "n", action: "light or dark colours" },
+        { keys: "?", action: "these keys" },
       ],
     };
-    if (!page.link) return own;
+    if (!page.link) return groups;
     const pilot = page.link.pilot;
-    for (const row of Object.values(own).flat())
-      row.keys = row.keys.split(" ").map((key) => (pilot.has(key) ? `Shift+${key}` : key)).join(" ");
-    return { ...own, ...page.link.help() };
+    for (const row of Object.values(groups).flat())
+      row.keys = row.keys.split(" ").map((key) => (pilot.isReserved(key) ? `Shift+${key}` : key)).join(" ");
+    return { ...groups, ...page.link.helpGroups() };
   }
 }

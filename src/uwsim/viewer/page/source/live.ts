@@ -1,4 +1,4 @@
-// The live view: what a running simulation sends, and what is sent to it (viewer/head.py).
+// The live view: the messages of a running simulation and those to it (viewer/head.py).
 import type { Controls } from "./controls";
 import type { Level, Marker } from "./head";
 import { toPose } from "./geometry";
@@ -8,10 +8,10 @@ import { element } from "./panels";
 import { Pilot, type PilotState } from "./pilot";
 import type { Reading } from "./display/quantities";
 import { Topics, type TopicMessage } from "./display/topics";
-import type { Sight } from "./views";
+import type { ViewCamera } from "./views";
 
 const HEADER = 16;
-const WAIT = 100; // of an image for the next row, to be drawn with it [ms]
+const MAX_ROW_WAIT = 100; // of an image for the next row, which is drawn with it [ms]
 const MAX_WIDTH = 640; // of an image that the server draws
 
 type Message =
@@ -27,24 +27,24 @@ type Message =
   | { type: "end"; why: string };
 
 export class Link {
-  readonly pilot = new Pilot((message, isNews) => {
+  readonly pilot = new Pilot((message, isNew) => {
     this.send(message);
-    if (isNews) this.page?.picture.hurry();
+    if (isNew) this.page?.picture.skipRests();
   });
   readonly topics = new Topics((names) => this.send({ type: "topics", names }));
   private page: Controls | null = null;
   private stream: Stream | null = null;
-  private asked = "";
+  private lastRequest = "";
   private readonly numbers: number[] = []; // of the newest image of each camera
-  /** Whether all may go back where it began. */
-  resets = false;
+  /** True if the simulation allows a reset to its initial state. */
+  allowsReset = false;
 
   constructor(
     private readonly socket: WebSocket,
     readonly pack: Pack,
-    private readonly early: MessageEvent<ArrayBuffer | string>[],
-    /** Whether the server draws, because this browser cannot. */
-    private readonly isDrawnThere: boolean,
+    private readonly earlyEvents: MessageEvent<ArrayBuffer | string>[],
+    /** True if the server draws, because this browser cannot. */
+    private readonly isServerDrawn: boolean,
   ) {
     socket.onclose = () => this.end("The simulation has ended.");
   }
@@ -52,40 +52,40 @@ export class Link {
   begin(page: Controls, stream: Stream): void {
     this.page = page;
     this.stream = stream;
-    for (const event of this.early) this.receive(event);
+    for (const event of this.earlyEvents) this.receive(event);
     this.socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => this.receive(event);
     this.subscribe(page.switches.pictures);
   }
 
-  /** Ask for the images of the cameras, or for none. */
-  subscribe(on: boolean): void {
-    const cameras = on ? this.pack.head.cameras.map(({ name }) => name) : [];
-    this.send({ type: "images", cameras, rate: 10, width: this.page?.picture.widest() });
+  /** Request the images of the cameras, or none. */
+  subscribe(isOn: boolean): void {
+    const cameras = isOn ? this.pack.head.cameras.map(({ name }) => name) : [];
+    this.send({ type: "images", cameras, rate: 10, width: this.page?.picture.pictureWidth() });
   }
 
-  /** Ask for an image of what is looked at, where this browser cannot draw it. */
-  ask({ worldFromCamera, camera, lens }: Sight): void {
-    if (!this.isDrawnThere) return;
+  /** Request an image of the view, if this browser cannot draw it. */
+  requestView({ worldFromCamera, camera, lens }: ViewCamera): void {
+    if (!this.isServerDrawn) return;
     const share = Math.min(1, MAX_WIDTH / lens.width);
     const [width, height] = [lens.width, lens.height].map((size) => Math.round(share * size));
     const pose = toPose(worldFromCamera).map((value) => Math.round(1e4 * value) / 1e4);
     const fovy = 2 * Math.atan(lens.height / 2 / lens.fy);
     const message = { type: "view", camera: camera?.name ?? null, pose, width, height, fovy };
     const text = JSON.stringify(message);
-    if (text !== this.asked) this.send(message);
-    this.asked = text;
+    if (text !== this.lastRequest) this.send(message);
+    this.lastRequest = text;
   }
 
   control(action: string, speed?: number): void {
     this.send({ type: "control", action, ...(speed === undefined ? {} : { speed }) });
   }
 
-  /** Whether a key is the pilot's. */
-  takes(event: KeyboardEvent): boolean {
-    return this.pilot.takes(event);
+  /** Apply a key of the pilot; return true if it is one. */
+  takeKey(event: KeyboardEvent): boolean {
+    return this.pilot.takeKey(event);
   }
 
-  help(): Record<string, { keys: string; does: string }[]> {
+  helpGroups(): Record<string, { keys: string; action: string }[]> {
     return { Pilot: this.pilot.help() };
   }
 
@@ -96,29 +96,29 @@ export class Link {
   private receive(event: MessageEvent<ArrayBuffer | string>): void {
     const { page, stream } = this;
     if (!page || !stream) return;
-    if (typeof event.data === "string") return this.hear(JSON.parse(event.data) as Message, page, stream);
+    if (typeof event.data === "string") return this.handleMessage(JSON.parse(event.data) as Message, page, stream);
     const view = new DataView(event.data);
     const [kind, index] = [view.getUint8(0), view.getUint8(1)];
     if (kind === 0) location.reload(); // another scene has begun
     if (kind === 1) stream.push(view.getFloat64(8, true), new Float32Array(event.data, HEADER));
     if (kind === 2) void this.showImage(index, event.data.slice(HEADER), page, stream);
-    if (kind === 4) stream.dig(index, new Float32Array(event.data, HEADER));
-    if (kind === 3 && this.isDrawnThere) this.showView(event.data.slice(HEADER));
+    if (kind === 4) stream.setSand(index, new Float32Array(event.data, HEADER));
+    if (kind === 3 && this.isServerDrawn) this.showView(event.data.slice(HEADER));
   }
 
-  private hear(message: Message, page: Controls, stream: Stream): void {
+  private handleMessage(message: Message, page: Controls, stream: Stream): void {
     if (message.type === "state") {
-      page.isTold(message.paused, message.speed);
-      this.resets = message.resets;
+      page.setState(message.paused, message.speed);
+      this.allowsReset = message.resets;
       this.pilot.enable(message);
       page.views.follow(message.vehicle);
-      page.keyboard.help();
+      page.keyboard.showHelp();
     } else if (message.type === "levels") stream.setLevels(message.levels);
-    else if (message.type === "samples") for (const each of message.samples) stream.sample(...each);
-    else if (message.type === "readings") stream.version += Number(page.quantities.hear(message.readings));
+    else if (message.type === "samples") for (const sample of message.samples) stream.sample(...sample);
+    else if (message.type === "readings") stream.version += Number(page.quantities.setReadings(message.readings));
     else if (message.type === "topics") this.topics.list(message.topics);
-    else if (message.type === "topic") this.topics.hear(message);
-    else if (message.type === "markers") stream.spawn(message.markers);
+    else if (message.type === "topic") this.topics.showMessage(message);
+    else if (message.type === "markers") stream.setMarkers(message.markers);
     else if (message.type === "end") this.end(message.why);
   }
 
@@ -126,12 +126,12 @@ export class Link {
     const number = (this.numbers[index] ?? 0) + 1;
     this.numbers[index] = number;
     const image = await createImageBitmap(new Blob([data], { type: "image/jpeg" }));
-    if (this.numbers[index] !== number) return image.close(); // a newer one has come meanwhile
+    if (this.numbers[index] !== number) return image.close(); // a newer one has arrived
     page.picture.show(index, image);
     const { end } = stream;
     setTimeout(() => {
-      if (stream.end === end) stream.version += 1; // else a row has had it drawn
-    }, WAIT);
+      if (stream.end === end) stream.version += 1; // else it was drawn with a row
+    }, MAX_ROW_WAIT);
   }
 
   private showView(data: ArrayBuffer): void {
@@ -140,36 +140,36 @@ export class Link {
     show(image, data);
   }
 
-  private end(why: string): void {
-    element("message").textContent = why;
+  private end(reason: string): void {
+    element("message").textContent = reason;
     if (this.page) this.page.isPlaying = false;
   }
 }
 
 function show(image: HTMLImageElement, data: ArrayBuffer): void {
-  const before = image.src;
+  const oldUrl = image.src;
   image.src = URL.createObjectURL(new Blob([data], { type: "image/jpeg" }));
-  if (before) URL.revokeObjectURL(before);
+  if (oldUrl) URL.revokeObjectURL(oldUrl);
 }
 
-/** Open the socket of the server that the page came from; resolves when the head has arrived. */
-export function connect(isDrawnThere: boolean): Promise<Link> {
+/** Open the socket of the page's server; resolve when the head has arrived. */
+export function connect(isServerDrawn: boolean): Promise<Link> {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
   const socket = new WebSocket(`${scheme}//${location.host}/socket${location.search}`);
   socket.binaryType = "arraybuffer";
   return new Promise((resolve, reject) => {
-    const early: MessageEvent<ArrayBuffer | string>[] = [];
-    let isThere = false;
+    const earlyEvents: MessageEvent<ArrayBuffer | string>[] = [];
+    let hasHead = false;
     socket.onerror = socket.onclose = () => reject(new Error("The simulation cannot be reached."));
     socket.onmessage = (event: MessageEvent<ArrayBuffer | string>) => {
       const { data } = event;
-      if (isThere || typeof data === "string" || new DataView(data).getUint8(0) !== 0) {
-        early.push(event);
+      if (hasHead || typeof data === "string" || new DataView(data).getUint8(0) !== 0) {
+        earlyEvents.push(event);
         return;
       }
-      isThere = true;
+      hasHead = true;
       unpack(new Uint8Array(data.slice(HEADER))).then(
-        (pack) => resolve(new Link(socket, pack, early, isDrawnThere)), reject,
+        (pack) => resolve(new Link(socket, pack, earlyEvents, isServerDrawn)), reject,
       );
     };
   });

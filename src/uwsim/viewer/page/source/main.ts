@@ -1,4 +1,4 @@
-// Puts the page together: a replay that lies in it, or a live view.
+// The start of the page, with the replay in it or as a live view.
 import { connect } from "./live";
 import { fromText, unpack } from "./pack";
 import { Page } from "./page";
@@ -10,8 +10,8 @@ import { expose } from "./testing";
 import { Views } from "./views";
 
 async function begin(): Promise<void> {
-  const dark = matchMedia("(prefers-color-scheme: dark)").matches;
-  document.documentElement.dataset.theme = dark ? "dark" : "light";
+  const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.dataset.theme = isDark ? "dark" : "light";
   const message = element("message");
   message.textContent = "Loading…";
   try {
@@ -23,13 +23,13 @@ async function begin(): Promise<void> {
     const player: Player = link ? new Stream(pack.head) : new Replay(pack);
     const rays = new Rays(pack);
     const page = new Page(pack, player, picture, new Views(pack.head, picture.models, rays), link, rays);
-    page.note = gl || link ? "" : "This browser has no WebGL 2: levels and curves alone are shown.";
+    page.note = gl || link ? "" : "This browser has no WebGL 2: the page shows only levels and curves.";
     message.textContent = page.note;
     link?.begin(page, player as Stream);
-    const wanted = Number(new URLSearchParams(location.hash.slice(1)).get("level") ?? 0);
+    const levelIndex = Number(new URLSearchParams(location.hash.slice(1)).get("level") ?? 0);
     if (!link) {
-      await page.select(player.levels[wanted]?.trial ?? 0);
-      page.seek(player.levels[wanted] ? player.levels[wanted].level.start : player.start);
+      await page.select(player.levels[levelIndex]?.trial ?? 0);
+      page.seek(player.levels[levelIndex] ? player.levels[levelIndex].level.start : player.start);
     }
     expose(page);
   } catch (error) {

@@ -1,17 +1,17 @@
 // Meshes and textures on the GPU, and the instances of them in the scene, piece by piece.
 import type { Head, Visual } from "./head";
 import {
-  determinant, dot, fromPose, matrix, ofNormals, product, transform, turned, unit,
+  determinant, dot, fromPose, matrix, normalMatrix, product, transform, rotate, unit,
   type Matrix,
 } from "./geometry";
 import type { Pack } from "./pack";
-import { Sand, type Dig } from "./sand";
+import { Sand, type Removal } from "./sand";
 import { ATTRIBUTES } from "./drawing/shaders";
 
-/** A run of triangles, where it is now in W; uwsim.rendering.gpu_model has the same. */
+/** A run of triangles, at its present pose in W, as in uwsim.rendering.gpu_model. */
 export interface Piece {
   instance: Instance;
-  first: number;
+  firstIndex: number;
   count: number;
   centre: [number, number, number];
   radius: number;
@@ -34,41 +34,41 @@ export class Instance {
     readonly array: WebGLVertexArrayObject | null,
     readonly texture: WebGLTexture | null,
     readonly repeats: boolean,
-    readonly wide: boolean,
-    private readonly own: number[][],
+    readonly hasWideIndices: boolean,
+    private readonly pieceRows: number[][],
   ) {
     this.bodyFromMesh = matrix(visual.matrix);
-    this.pieces = own.map(([first, count]) => ({
-      instance: this, first, count, centre: [0, 0, 0], radius: 0, corners: [], normal: [0, 0, 0],
+    this.pieces = pieceRows.map(([firstIndex, count]) => ({
+      instance: this, firstIndex, count, centre: [0, 0, 0], radius: 0, corners: [], normal: [0, 0, 0],
       density: 0,
     }));
   }
 
-  /** Set the pose of its body; returns whether that moved it. */
+  /** Set the pose of its body; return true if that moved it. */
   place(worldFromBody: Matrix): boolean {
-    const placed = product(worldFromBody, this.bodyFromMesh);
-    if (placed.every((value, i) => value === this.worldFromMesh[i])) return false;
-    this.worldFromMesh = placed;
-    this.normals = ofNormals(placed);
-    this.isMirrored = determinant(placed) < 0;
-    const [stretch, crowding] = [rowSum(placed), rowSum(this.normals)];
-    this.own.forEach((own, i) => {
+    const worldFromMesh = product(worldFromBody, this.bodyFromMesh);
+    if (worldFromMesh.every((value, i) => value === this.worldFromMesh[i])) return false;
+    this.worldFromMesh = worldFromMesh;
+    this.normals = normalMatrix(worldFromMesh);
+    this.isMirrored = determinant(worldFromMesh) < 0;
+    const [stretch, densityScale] = [rowSum(worldFromMesh), rowSum(this.normals)];
+    this.pieceRows.forEach((row, i) => {
       const piece = this.pieces[i];
-      piece.centre = transform(placed, own.slice(2, 5));
-      piece.radius = own[5] * stretch;
-      const box = [own.slice(6, 9), own.slice(9, 12)];
+      piece.centre = transform(worldFromMesh, row.slice(2, 5));
+      piece.radius = row[5] * stretch;
+      const box = [row.slice(6, 9), row.slice(9, 12)];
       piece.corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) =>
-        transform(placed, [box[k >> 2][0], box[(k >> 1) & 1][1], box[k & 1][2]]),
+        transform(worldFromMesh, [box[k >> 2][0], box[(k >> 1) & 1][1], box[k & 1][2]]),
       );
-      const normal = own.slice(12, 15);
-      piece.normal = dot(normal, normal) > 0 ? unit(turned(this.normals, normal)) : [0, 0, 0];
-      piece.density = own[15] * crowding;
+      const normal = row.slice(12, 15);
+      piece.normal = dot(normal, normal) > 0 ? unit(rotate(this.normals, normal)) : [0, 0, 0];
+      piece.density = row[15] * densityScale;
     });
     return true;
   }
 }
 
-/** Square root of the largest row sum of A'A: a bound of the largest stretch. */
+/** Return the square root of the largest row sum of A'A: a bound of the largest stretch. */
 function rowSum(m: Matrix): number {
   const columns = [0, 1, 2].map((i) => [m[i], m[4 + i], m[8 + i]]);
   const sums = columns.map((a) => columns.reduce((sum, b) => sum + Math.abs(dot(a, b)), 0));
@@ -77,7 +77,7 @@ function rowSum(m: Matrix): number {
 
 export class Models {
   readonly instances: Instance[] = [];
-  /** Grows whenever something moved. */
+  /** The version of the poses, which grows with each motion. */
   version = 0;
   readonly patterns: WebGLTexture[] = [];
   private readonly bodies = new Map<string, Matrix>();
@@ -89,50 +89,50 @@ export class Models {
     private readonly gl: WebGL2RenderingContext | null,
   ) {}
 
-  /** Without WebGL only the places of bodies are known. */
+  /** Load meshes and textures; without WebGL, only the poses of bodies. */
   static async load(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Models> {
     const models = new Models(pack.head, gl);
     models.place(new Map());
     if (!gl) return models;
     const { meshes, textures, bodies, projector } = pack.head;
     const images = await Promise.all(
-      textures.map((each, i) => loadTexture(gl, pack, i, i !== projector?.pattern && each.repeats)),
+      textures.map((mount, i) => loadTexture(gl, pack, i, i !== projector?.pattern && mount.repeats)),
     );
     if (projector) models.patterns.push(images[projector.pattern]);
-    const uploaded = meshes.map((_, i) => upload(gl, pack, i));
-    const arrays = uploaded.map(({ array }) => array);
+    const gpuMeshes = meshes.map((_, i) => upload(gl, pack, i));
+    const arrays = gpuMeshes.map(({ array }) => array);
     for (const heap of pack.head.sand ?? []) {
       const places = pack.numbers(meshes[heap.mesh].positions) as Float32Array;
-      models.sand.push({ heap: new Sand(heap, places), ...uploaded[heap.mesh] });
+      models.sand.push({ heap: new Sand(heap, places), ...gpuMeshes[heap.mesh] });
     }
     for (const body of bodies)
       for (const visual of body.visuals) {
         const { texture, mesh } = visual;
         const image = texture === null ? null : images[texture];
         const repeats = texture !== null && textures[texture].repeats;
-        const wide = meshes[mesh].triangles[2] === "u4";
+        const hasWideIndices = meshes[mesh].triangles[2] === "u4";
         const [n, pieces] = [models.instances.length, meshes[mesh].pieces];
         models.instances.push(
-          new Instance(n, visual, body.name, arrays[mesh], image, repeats, wide, pieces),
+          new Instance(n, visual, body.name, arrays[mesh], image, repeats, hasWideIndices, pieces),
         );
       }
     models.place(new Map());
     return models;
   }
 
-  /** World from body, for all bodies; those that are not given are where they were at first. */
+  /** Set world from body for all bodies; the others get their initial poses. */
   place(poses: Map<string, Matrix>): void {
     for (const body of this.head.bodies)
       this.bodies.set(body.name, poses.get(body.name) ?? fromPose(body.pose));
-    let moved = false;
-    for (const each of this.instances) moved = each.place(this.body(each.body)) || moved;
-    if (!moved) return;
+    let hasMoved = false;
+    for (const instance of this.instances) hasMoved = instance.place(this.body(instance.body)) || hasMoved;
+    if (!hasMoved) return;
     this.version += 1;
     this.measure();
   }
 
-  /** Show a heap with the sand that is left of it. */
-  dig(number: number, sand: Dig[] | Float32Array): void {
+  /** Show a heap with its remaining sand. */
+  setSand(number: number, sand: Removal[] | Float32Array): void {
     const { gl } = this;
     const { heap, positions, normals } = this.sand[number] ?? {};
     if (!gl || !heap || !positions || !normals) return;
@@ -145,7 +145,7 @@ export class Models {
     this.version += 1;
   }
 
-  /** Heights of the columns of a heap now [m]. */
+  /** Return the present heights of the columns of a heap [m]. */
   heights(number: number): Float32Array {
     return this.sand[number]?.heap.heights ?? new Float32Array();
   }
@@ -154,13 +154,13 @@ export class Models {
     return this.bodies.get(name) ?? fromPose([0, 0, 0, 1, 0, 0, 0]);
   }
 
-  /** World from what is mounted on a body. */
-  mounted(each: { body: string | null; pose: number[] }): Matrix {
-    const own = fromPose(each.pose);
-    return each.body === null ? own : product(this.body(each.body), own);
+  /** Return world from a part that is mounted on a body. */
+  worldFromMount(mount: { body: string | null; pose: number[] }): Matrix {
+    const bodyFromMount = fromPose(mount.pose);
+    return mount.body === null ? bodyFromMount : product(this.body(mount.body), bodyFromMount);
   }
 
-  /** Half the longest side of the box around all pieces of a model of the scene [m]. */
+  /** Return half the longest side of the box around all pieces of a model [m]. */
   radius(instance: Instance): number {
     return this.radii.get(instance.visual.part) ?? 0;
   }
@@ -181,13 +181,13 @@ export class Models {
   }
 }
 
-interface Uploaded {
+interface GpuMesh {
   array: WebGLVertexArrayObject;
   positions: WebGLBuffer;
   normals: WebGLBuffer;
 }
 
-function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): Uploaded {
+function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): GpuMesh {
   const mesh = pack.head.meshes[number];
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);

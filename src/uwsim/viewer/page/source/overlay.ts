@@ -1,10 +1,10 @@
-// Lines and words over an image: frames, trails, fans, contacts, currents, quadrangles.
+// Lines and labels over an image: frames, trails, fans, contacts, currents, quadrangles.
 import type { Camera, Head, Sensor } from "./head";
 import { inverse, origin, plus, transform, type Lens, type Matrix } from "./geometry";
 import type { Models } from "./models";
 import type { Moment, Player } from "./player";
 
-export interface Shown {
+export interface OverlaySwitches {
   frames: boolean;
   labels: boolean;
   trails: boolean;
@@ -12,14 +12,14 @@ export interface Shown {
 }
 
 const AXES = ["#ff5a4f", "#45d96b", "#4aa3ff"];
-const CLOSE = 0.02; // [m] ahead of the camera
+const NEAR_PLANE = 0.02; // [m] ahead of the camera
 
-const LETTERS = 11; // height [px]
-const PLACES = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5]; // of a label, lines below and above its point
+const LETTER_HEIGHT = 11; // [px]
+const LABEL_LINES = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5]; // of a label below and above its point
 
-/** Draws in W on a part of a canvas. */
+/** A pen that draws in W on a part of a canvas. */
 class Pen {
-  private readonly taken: number[][] = []; // boxes of labels: left, top, right, bottom [px]
+  private readonly labelBoxes: number[][] = []; // left, top, right, bottom [px]
   private readonly cameraFromWorld: Matrix;
 
   constructor(
@@ -36,34 +36,34 @@ class Pen {
     context.lineWidth = width;
     context.setLineDash(dash);
     context.beginPath();
-    let last: number[] | null = null;
+    let lastPoint: number[] | null = null;
     for (const point of points) {
-      const here = transform(this.cameraFromWorld, point);
-      if (last && (last[2] < -CLOSE || here[2] < -CLOSE)) {
-        const [a, b] = [cut(last, here), cut(here, last)];
+      const cameraPoint = transform(this.cameraFromWorld, point);
+      if (lastPoint && (lastPoint[2] < -NEAR_PLANE || cameraPoint[2] < -NEAR_PLANE)) {
+        const [a, b] = [clipLine(lastPoint, cameraPoint), clipLine(cameraPoint, lastPoint)];
         context.moveTo(...this.pixel(a));
         context.lineTo(...this.pixel(b));
       }
-      last = here;
+      lastPoint = cameraPoint;
     }
     context.stroke();
   }
 
-  /** Where a point is in the image; null behind the camera. */
-  place(point: ArrayLike<number>): [number, number] | null {
-    const here = transform(this.cameraFromWorld, point);
-    return here[2] < -CLOSE ? this.pixel(here) : null;
+  /** Return the pixel of a point; null behind the camera. */
+  project(point: ArrayLike<number>): [number, number] | null {
+    const cameraPoint = transform(this.cameraFromWorld, point);
+    return cameraPoint[2] < -NEAR_PLANE ? this.pixel(cameraPoint) : null;
   }
 
-  word(point: ArrayLike<number>, text: string, colour = "#ffffff"): void {
-    const at = this.place(point);
-    if (!at) return;
+  label(point: ArrayLike<number>, text: string, colour = "#ffffff"): void {
+    const position = this.project(point);
+    if (!position) return;
     const { context } = this;
-    context.font = `${LETTERS}px system-ui, sans-serif`;
-    const free = this.free(at, context.measureText(text).width);
-    if (!free) return;
-    const [x, y] = free;
-    if (Math.abs(y - at[1]) > 2 * LETTERS) this.leader(at, [x - 2, y - LETTERS / 3], colour);
+    context.font = `${LETTER_HEIGHT}px system-ui, sans-serif`;
+    const spot = this.findSpot(position, context.measureText(text).width);
+    if (!spot) return;
+    const [x, y] = spot;
+    if (Math.abs(y - position[1]) > 2 * LETTER_HEIGHT) this.drawLeader(position, [x - 2, y - LETTER_HEIGHT / 3], colour);
     context.lineWidth = 3;
     context.setLineDash([]);
     context.strokeStyle = "rgba(0, 12, 24, 0.75)";
@@ -72,37 +72,37 @@ class Pen {
     context.fillText(text, x, y);
   }
 
-  /** Where a label of some width near a point covers no other; null where there is no room. */
-  private free([x, y]: [number, number], width: number): [number, number] | null {
-    for (const line of PLACES)
+  /** Return a position near a point for a label that covers no other; null if there is none. */
+  private findSpot([x, y]: [number, number], width: number): [number, number] | null {
+    for (const line of LABEL_LINES)
       for (const left of [x + 5, x - 5 - width]) {
-        const base = y - 5 + line * (LETTERS + 3);
-        const box = [left - 2, base - LETTERS, left + width + 2, base + 3];
-        if (this.taken.some((b) => box[0] < b[2] && box[2] > b[0] && box[1] < b[3] && box[3] > b[1])) continue;
-        this.taken.push(box);
+        const base = y - 5 + line * (LETTER_HEIGHT + 3);
+        const box = [left - 2, base - LETTER_HEIGHT, left + width + 2, base + 3];
+        if (this.labelBoxes.some((b) => box[0] < b[2] && box[2] > b[0] && box[1] < b[3] && box[3] > b[1])) continue;
+        this.labelBoxes.push(box);
         return [left, base];
       }
     return null;
   }
 
-  /** A thin line from a point to its label. */
-  private leader(from: [number, number], to: [number, number], colour: string): void {
+  /** Draw a thin line from a point to its label. */
+  private drawLeader(start: [number, number], end: [number, number], colour: string): void {
     const { context } = this;
     context.strokeStyle = colour;
     context.lineWidth = 0.75;
     context.setLineDash([]);
     context.beginPath();
-    context.moveTo(...from);
-    context.lineTo(...to);
+    context.moveTo(...start);
+    context.lineTo(...end);
     context.stroke();
   }
 
   dot(point: ArrayLike<number>, colour: string, radius: number): void {
-    const at = this.place(point);
-    if (!at) return;
+    const position = this.project(point);
+    if (!position) return;
     this.context.fillStyle = colour;
     this.context.beginPath();
-    this.context.arc(at[0], at[1], radius, 0, 2 * Math.PI);
+    this.context.arc(position[0], position[1], radius, 0, 2 * Math.PI);
     this.context.fill();
   }
 
@@ -112,56 +112,56 @@ class Pen {
   }
 }
 
-/** The part of a line from a point that is ahead of the camera. */
-function cut(from: number[], to: number[]): number[] {
-  if (from[2] < -CLOSE) return from;
-  const share = (-CLOSE - from[2]) / (to[2] - from[2]);
-  return from.map((value, i) => value + share * (to[i] - value));
+/** Return the first point of a line that is ahead of the camera. */
+function clipLine(start: number[], end: number[]): number[] {
+  if (start[2] < -NEAR_PLANE) return start;
+  const share = (-NEAR_PLANE - start[2]) / (end[2] - start[2]);
+  return start.map((value, i) => value + share * (end[i] - value));
 }
 
 export function drawOverlay(
   context: CanvasRenderingContext2D, worldFromCamera: Matrix, lens: Lens, head: Head,
-  models: Models, player: Player, moment: Moment, shown: Shown, since: number,
+  models: Models, player: Player, moment: Moment, switches: OverlaySwitches, trailStart: number,
 ): void {
   const pen = new Pen(context, worldFromCamera, lens);
-  for (const { name, at, colour, lines } of player.markers(moment.time)) {
+  for (const { name, at: position, colour, lines } of player.markers(moment.time)) {
     for (const line of lines) pen.line(line, colour);
-    if (!lines.length) pen.dot(at, colour, 3);
-    if (shown.labels || !lines.length) pen.word(at, name);
+    if (!lines.length) pen.dot(position, colour, 3);
+    if (switches.labels || !lines.length) pen.label(position, name);
   }
-  if (shown.trails) drawTrails(pen, head, player, moment, since);
-  if (shown.sonars)
-    for (const sensor of head.sensors) drawSensor(pen, sensor, models.mounted(sensor), moment);
-  if (shown.frames) drawFrames(pen, head, models, shown.labels);
-  else if (shown.labels)
-    for (const { name, body } of head.vehicles) pen.word(origin(models.body(body)), name);
+  if (switches.trails) drawTrails(pen, head, player, moment, trailStart);
+  if (switches.sonars)
+    for (const sensor of head.sensors) drawSensor(pen, sensor, models.worldFromMount(sensor), moment);
+  if (switches.frames) drawFrames(pen, head, models, switches.labels);
+  else if (switches.labels)
+    for (const { name, body } of head.vehicles) pen.label(origin(models.body(body)), name);
   for (const point of moment.points("contacts", ["x", "y", "z"])) pen.dot(point, "#ffb02e", 4);
   for (const { name, body } of head.vehicles) drawCurrent(pen, name, models.body(body), moment);
 }
 
-function drawTrails(pen: Pen, head: Head, player: Player, moment: Moment, since: number): void {
+function drawTrails(pen: Pen, head: Head, player: Player, moment: Moment, trailStart: number): void {
   const bases = head.vehicles.map(({ body }) => body);
-  const objects = head.bodies.filter((each) => each.vehicle === null).map(({ name }) => name);
+  const objects = head.bodies.filter((candidate) => candidate.vehicle === null).map(({ name }) => name);
   for (const body of [...bases, ...objects]) {
     const now = moment.poses.get(body);
     if (!now) continue;
-    const points = player.trail(body, moment.time).slice(since);
+    const points = player.trail(body, moment.time).slice(trailStart);
     pen.line([...points, origin(now)], "rgba(255, 214, 92, 0.9)", 1.5);
   }
 }
 
-function drawFrames(pen: Pen, head: Head, models: Models, labelled: boolean): void {
-  const several = head.vehicles.length > 1;
+function drawFrames(pen: Pen, head: Head, models: Models, hasLabels: boolean): void {
+  const hasSeveral = head.vehicles.length > 1;
   const owners = new Map(head.bodies.map(({ name, vehicle }) => [name, vehicle ?? ""]));
   for (const { name, body, pose } of head.frames) {
-    const place = models.mounted({ body, pose });
+    const place = models.worldFromMount({ body, pose });
     const length = body === null ? 1 : 0.25;
     AXES.forEach((colour, i) => {
       const tip = [0, 1, 2].map((k) => (k === i ? length : 0));
       pen.line([origin(place), transform(place, tip)], colour, 2);
     });
-    const owner = several && body !== null ? `${owners.get(body)} ` : "";
-    if (labelled) pen.word(origin(place), owner + name.split("/").at(-1)!);
+    const owner = hasSeveral && body !== null ? `${owners.get(body)} ` : "";
+    if (hasLabels) pen.label(origin(place), owner + name.split("/").at(-1)!);
   }
 }
 
@@ -173,16 +173,16 @@ function drawSensor(pen: Pen, sensor: Sensor, place: Matrix, moment: Moment): vo
     const hit = transform(place, [reach, 0, 0]);
     pen.line([origin(place), hit], colour, 1.5, range === undefined ? [4, 4] : []);
     if (range !== undefined) pen.dot(hit, "#78dcff", 3);
-    if (range !== undefined) pen.word(hit, `${range.toFixed(2)} m`, "#bfeeff");
+    if (range !== undefined) pen.label(hit, `${range.toFixed(2)} m`, "#bfeeff");
     return;
   }
-  const along = (angle: number): number[] =>
+  const direction = (angle: number): number[] =>
     sensor.kind === "fan"
       ? [0, Math.sin(angle), -Math.cos(angle)]
       : [Math.cos(angle), Math.sin(angle), 0];
   const arc = Array.from({ length: 33 }, (_, i) => {
     const angle = sensor.from + ((sensor.to - sensor.from) * i) / 32;
-    return transform(place, along(angle).map((value) => value * sensor.reach));
+    return transform(place, direction(angle).map((value) => value * sensor.reach));
   });
   pen.line([origin(place), ...arc, origin(place)], colour, 1);
 }
@@ -191,16 +191,16 @@ function drawCurrent(pen: Pen, vehicle: string, base: Matrix, moment: Moment): v
   const flow = ["x", "y", "z"].map((axis) => moment.signal(`water/${vehicle}/${axis}`) ?? 0);
   const speed = Math.hypot(...flow);
   if (speed < 5e-3) return;
-  const from = plus(origin(base), [0, 0, 0.55]);
-  const to = plus(from, flow, (0.5 + 2 * speed) / speed);
-  const aside = [-flow[1] / speed, flow[0] / speed, 0];
-  const back = plus(to, flow, -0.15 / speed);
-  pen.line([from, to], "#5ee6d0", 2.5);
-  pen.line([plus(back, aside, 0.08), to, plus(back, aside, -0.08)], "#5ee6d0", 2.5);
-  pen.word(to, `current ${speed.toFixed(2)} m/s`, "#b9fff1");
+  const start = plus(origin(base), [0, 0, 0.55]);
+  const end = plus(start, flow, (0.5 + 2 * speed) / speed);
+  const side = [-flow[1] / speed, flow[0] / speed, 0];
+  const back = plus(end, flow, -0.15 / speed);
+  pen.line([start, end], "#5ee6d0", 2.5);
+  pen.line([plus(back, side, 0.08), end, plus(back, side, -0.08)], "#5ee6d0", 2.5);
+  pen.label(end, `current ${speed.toFixed(2)} m/s`, "#b9fff1");
 }
 
-/** Truth and estimate in a camera's image that lies in a part of the canvas. */
+/** Draw truth and estimate over a camera's image in a part of the canvas. */
 export function drawQuads(
   context: CanvasRenderingContext2D, camera: Camera, lens: Lens, left: number, top: number,
   moment: Moment,

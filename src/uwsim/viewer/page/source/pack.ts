@@ -1,6 +1,6 @@
-// Packs and motion: what viewer/head.py and viewer/tracks.py write.
+// Packs and motion, in the formats of viewer/head.py.
 import type { Head, MotionHead, Ref } from "./head";
-import type { Dig } from "./sand";
+import type { Removal } from "./sand";
 
 export class Pack {
   constructor(
@@ -34,7 +34,7 @@ export async function gunzip(data: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer
 
 const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%/()*+-;,=.?@^_`{|}~";
 
-/** The bytes of a text of digits to the base 85, five for four bytes. */
+/** Return the bytes of a text of digits to the base 85, five for four bytes. */
 export function fromText(text: string): Uint8Array<ArrayBuffer> {
   const values = new Uint8Array(128);
   for (let i = 0; i < DIGITS.length; ++i) values[DIGITS.charCodeAt(i)] = i;
@@ -62,8 +62,8 @@ export class Motion {
     readonly head: MotionHead,
     /** Columns of each row, n_rows x n_columns. */
     readonly rows: Float64Array,
-    /** Where sand was taken, in order. */
-    readonly digs: Dig[] = [],
+    /** The removals of sand, in order. */
+    readonly removals: Removal[] = [],
   ) {}
 
   get columns(): number {
@@ -74,23 +74,23 @@ export class Motion {
     return this.head.start + Math.max(0, this.head.n - 1) / this.head.rate;
   }
 
-  /** The number of the row at or before a time [s]. */
+  /** Return the number of the row at or before a time [s]. */
   frame(time: number): number {
     const place = Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
     return Math.floor(place + 1e-6);
   }
 
-  /** The row at a time [s], poses between two rows interpolated. */
-  at(time: number): Float64Array {
+  /** Return the row at a time [s], with poses interpolated between two rows. */
+  row(time: number): Float64Array {
     const m = this.columns;
     const place = Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
-    const first = Math.floor(place + 1e-6);
-    const out = this.rows.slice(first * m, (first + 1) * m);
-    const share = place - first;
-    if (share < 1e-6 || first + 1 >= this.head.n) return out;
-    const next = (first + 1) * m;
+    const index = Math.floor(place + 1e-6);
+    const out = this.rows.slice(index * m, (index + 1) * m);
+    const share = place - index;
+    if (share < 1e-6 || index + 1 >= this.head.n) return out;
+    const nextOffset = (index + 1) * m;
     for (let i = 0; i < 7 * this.head.bodies.length; ++i)
-      out[i] += share * (this.rows[next + i] - out[i]);
+      out[i] += share * (this.rows[nextOffset + i] - out[i]);
     return out;
   }
 }
@@ -107,10 +107,10 @@ export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion>
     const isPose = column < 7 * head.bodies.length;
     return isPose ? pose : head.signals[column - 7 * head.bodies.length].step;
   });
-  return new Motion(head, rows, digsOf(head, planes.subarray(4 * n * m)));
+  return new Motion(head, rows, readRemovals(head, planes.subarray(4 * n * m)));
 }
 
-/** Numbers of n rows and m columns, row by row; NaN for nothing. */
+/** Return the numbers of n rows and m columns, row by row; NaN for no value. */
 function table(planes: Uint8Array, n: number, m: number, step: (column: number) => number): Float64Array {
   const rows = new Float64Array(n * m);
   for (let column = 0; column < m; ++column) {
@@ -125,7 +125,7 @@ function table(planes: Uint8Array, n: number, m: number, step: (column: number) 
   return rows;
 }
 
-function digsOf({ sand }: MotionHead, planes: Uint8Array): Dig[] {
+function readRemovals({ sand }: MotionHead, planes: Uint8Array): Removal[] {
   if (!sand) return [];
   const numbers = table(planes, sand.n, 5, (column) => (column < 2 ? 1 : sand.grain));
   return Array.from({ length: sand.n }, (_, row) => {

@@ -1,10 +1,10 @@
-// The page: the time shown, and what its buttons, keys and a running simulation change.
+// The page: the displayed time, and the state that buttons, keys and a running simulation change.
 import type { Controls, Switch } from "./controls";
 import { Curves } from "./curves";
 import { Keyboard } from "./keys";
 import type { Link } from "./live";
 import type { Pack } from "./pack";
-import { element, indexAt, isUnseen, LevelList, Thrusters, toggleHelp } from "./panels";
+import { element, indexAt, hasNoMotion, LevelList, Thrusters, toggleHelp } from "./panels";
 import type { Picture, Switches } from "./picture";
 import type { Player } from "./player";
 import { Hud } from "./display/hud";
@@ -20,7 +20,7 @@ export class Page implements Controls {
   speed = 1;
   readonly switches: Switches = {
     clear: true, pictures: true, state: true, frames: false, labels: false, trails: true, sonars: true, sun: "",
-    since: 0,
+    trailStart: 0,
   };
   private readonly curves = new Curves(element("curves"), (time) => this.seek(time));
   readonly quantities: Quantities;
@@ -28,9 +28,9 @@ export class Page implements Controls {
   private readonly levels: LevelList;
   private readonly thrusters: Thrusters;
   readonly keyboard: Keyboard;
-  private last = performance.now();
-  private drawn = "";
-  note = ""; // what the page cannot do
+  private lastTick = performance.now();
+  private drawnKey = "";
+  note = ""; // a limitation of this browser
 
   constructor(
     readonly pack: Pack,
@@ -51,17 +51,17 @@ export class Page implements Controls {
 
   /** Go to the beginning of a level. */
   async go(index: number): Promise<void> {
-    const chosen = this.player.levels[index];
-    if (!chosen || this.link) return;
-    await this.select(chosen.trial);
-    this.seek(chosen.level.start);
+    const entry = this.player.levels[index];
+    if (!entry || this.link) return;
+    await this.select(entry.trial);
+    this.seek(entry.level.start);
   }
 
   async select(trial: number): Promise<void> {
     if (trial === this.player.trial) return;
     await this.player.select(trial);
-    element("message").textContent = isUnseen(this.player) ? "There is no motion of this level." : this.note;
-    this.switches.since = 0;
+    element("message").textContent = hasNoMotion(this.player) ? "This level has no recorded motion." : this.note;
+    this.switches.trailStart = 0;
     this.curves.set(this.player.curves);
     const { start, end } = this.player;
     this.levels.mark(start, end);
@@ -74,11 +74,11 @@ export class Page implements Controls {
     this.draw();
   }
 
-  play(on = !this.isPlaying): void {
-    this.isPlaying = on;
-    if (on && !this.link && this.time >= this.player.end - 1e-6) this.time = this.player.start;
-    this.link?.control(on ? "play" : "pause");
-    element("play").textContent = on ? "Pause" : "Play";
+  play(isOn = !this.isPlaying): void {
+    this.isPlaying = isOn;
+    if (isOn && !this.link && this.time >= this.player.end - 1e-6) this.time = this.player.start;
+    this.link?.control(isOn ? "play" : "pause");
+    element("play").textContent = isOn ? "Pause" : "Play";
   }
 
   step(direction: number): void {
@@ -87,34 +87,34 @@ export class Page implements Controls {
     else this.seek(this.time + direction / 30);
   }
 
-  /** UWSim's reset: live all goes back where it began, a replay to the beginning of the level. */
+  /** UWSim's reset: of a live simulation to its initial state, of a replay to the start of the level. */
   reset(): void {
     if (this.link) this.link.control("reset");
     else this.seek(this.player.levels[indexAt(this.player, this.time)]?.level.start ?? this.player.start);
   }
 
-  setSpeed(speed: number, tell = true): void {
+  setSpeed(speed: number, isSent = true): void {
     this.speed = speed;
     const choice = element<HTMLSelectElement>("speed");
     if (![...choice.options].some(({ value }) => value === String(speed))) choice.append(option(speed));
     choice.value = String(speed);
-    if (tell) this.link?.control("speed", speed);
+    if (isSent) this.link?.control("speed", speed);
   }
 
-  /** What a running simulation says of itself. */
-  isTold(paused: boolean, speed: number): void {
-    this.isPlaying = !paused;
-    element("play").textContent = paused ? "Play" : "Pause";
+  /** Show the state of a running simulation. */
+  setState(isPaused: boolean, speed: number): void {
+    this.isPlaying = !isPaused;
+    element("play").textContent = isPaused ? "Play" : "Pause";
     this.setSpeed(speed, false);
   }
 
-  faster(direction: number): void {
-    const all = this.speeds();
-    const next = all[all.indexOf(this.speed) + direction];
-    if (next !== undefined) this.setSpeed(next);
+  changeSpeed(direction: number): void {
+    const speeds = this.speeds();
+    const nextSpeed = speeds[speeds.indexOf(this.speed) + direction];
+    if (nextSpeed !== undefined) this.setSpeed(nextSpeed);
   }
 
-  /** Those to choose from; 0: as fast as a simulation can. */
+  /** Return the available speeds; 0: no limit. */
   private speeds(): number[] {
     return this.link ? [...SPEEDS, 0] : SPEEDS;
   }
@@ -127,7 +127,7 @@ export class Page implements Controls {
     this.refresh();
   }
 
-  /** The views that this scene has. */
+  /** Return the views that this scene has. */
   private modes(): Mode[] {
     const { cameras, file_view } = this.pack.head;
     return MODES.filter((mode) => (mode !== "camera" || cameras.length) && (mode !== "file" || file_view));
@@ -140,10 +140,10 @@ export class Page implements Controls {
     this.refresh();
   }
 
-  /** The point from which trails are drawn on. */
+  /** Begin the trails at the present point. */
   clearTrails(): void {
     const body = this.pack.head.vehicles[0]?.body ?? "";
-    this.switches.since = this.player.trail(body, this.time).length;
+    this.switches.trailStart = this.player.trail(body, this.time).length;
   }
 
   theme(): void {
@@ -158,8 +158,8 @@ export class Page implements Controls {
     if (this.player.isLive) this.time = this.player.end;
     const moment = this.player.moment(this.time);
     this.hud.show(moment, this.views.vehicle, this.switches.state);
-    const sight = this.picture.draw(this.player, moment, this.views, this.switches);
-    if (sight) this.link?.ask(sight);
+    const viewCamera = this.picture.draw(this.player, moment, this.views, this.switches);
+    if (viewCamera) this.link?.requestView(viewCamera);
     this.levels.show(this.time);
     this.curves.show(this.time, this.player.curves);
     element("curves-box").hidden = !this.player.curves.length;
@@ -174,19 +174,19 @@ export class Page implements Controls {
   }
 
   private tick(now: number): void {
-    requestAnimationFrame((next) => this.tick(next)); // first: what fails once is not the end
-    const passed = Math.min(0.25, (now - this.last) / 1000);
-    this.last = now;
+    requestAnimationFrame((time) => this.tick(time)); // first, so that an error does not end it
+    const seconds = Math.min(0.25, (now - this.lastTick) / 1000);
+    this.lastTick = now;
     if (this.isPlaying && !this.link) {
-      this.time = Math.min(this.player.end, this.time + passed * this.speed);
+      this.time = Math.min(this.player.end, this.time + seconds * this.speed);
       if (this.time >= this.player.end) this.play(false);
     }
-    // a page that nothing happens on costs nothing
+    // draw only if something has changed
     const { clientWidth, clientHeight } = this.picture.canvas;
     const state = [this.time, this.player.end, clientWidth, clientHeight, this.views.version, this.player.version];
     const key = state.join() + JSON.stringify(this.switches);
-    if (key !== this.drawn && !document.hidden && this.picture.isReady()) {
-      this.drawn = key;
+    if (key !== this.drawnKey && !document.hidden && this.picture.isReady()) {
+      this.drawnKey = key;
       this.draw();
     }
   }

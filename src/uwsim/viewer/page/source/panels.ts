@@ -3,18 +3,18 @@ import type { Head, Level } from "./head";
 import type { Moment, Player } from "./player";
 
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
-  const found = document.getElementById(id);
-  if (!found) throw new Error(`the page has no element ${id}`);
-  return found as T;
+  const node = document.getElementById(id);
+  if (!node) throw new Error(`the page has no element ${id}`);
+  return node as T;
 }
 
 export function make<K extends keyof HTMLElementTagNameMap>(
   tag: K, text = "", className = "",
 ): HTMLElementTagNameMap[K] {
-  const made = document.createElement(tag);
-  made.textContent = text;
-  made.className = className;
-  return made;
+  const node = document.createElement(tag);
+  node.textContent = text;
+  node.className = className;
+  return node;
 }
 
 function classOf(status: string): string {
@@ -22,25 +22,25 @@ function classOf(status: string): string {
   return status === "lost" || status.includes("error") ? "bad" : "other";
 }
 
-/** Mark the level that a time lies in. */
+/** Return the index of the level at a time; -1 before the first. */
 export function indexAt(player: Player, time: number): number {
-  let found = -1;
+  let index = -1;
   player.levels.forEach(({ trial, level }, i) => {
-    if (trial === player.trial && level.start <= time + 1e-6) found = i;
+    if (trial === player.trial && level.start <= time + 1e-6) index = i;
   });
-  return found;
+  return index;
 }
 
-/** Whether the motion of the trial that was chosen is missing. */
-export function isUnseen(player: Player): boolean {
-  const own = player.levels.filter(({ trial }) => trial === player.trial);
-  return own.length > 0 && own.every(({ level }) => level.status === "no motion");
+/** Return true if the selected trial has no recorded motion. */
+export function hasNoMotion(player: Player): boolean {
+  const levels = player.levels.filter(({ trial }) => trial === player.trial);
+  return levels.length > 0 && levels.every(({ level }) => level.status === "no motion");
 }
 
 export class LevelList {
   private readonly list = element("levels");
   private current = -2;
-  private filled: Level | null | undefined = null; // the last one then
+  private lastLevel: Level | null | undefined = null; // at the last update
 
   constructor(
     private readonly player: Player,
@@ -48,7 +48,7 @@ export class LevelList {
   ) {}
 
   show(time: number): void {
-    if (this.filled !== this.player.levels.at(-1)?.level) this.fill();
+    if (this.lastLevel !== this.player.levels.at(-1)?.level) this.fill();
     const index = indexAt(this.player, time);
     if (index === this.current) return;
     this.current = index;
@@ -67,7 +67,7 @@ export class LevelList {
     element("why").title = level?.why ?? "";
   }
 
-  /** Parts of the timeline, coloured by status. */
+  /** Draw the parts of the timeline, coloured by status. */
   mark(start: number, end: number): void {
     const marks = element("marks");
     marks.replaceChildren();
@@ -83,9 +83,9 @@ export class LevelList {
   }
 
   private fill(): void {
-    this.filled = this.player.levels.at(-1)?.level;
+    this.lastLevel = this.player.levels.at(-1)?.level;
     this.current = -2;
-    element("levels-box").hidden = !this.filled;
+    element("levels-box").hidden = !this.lastLevel;
     this.list.replaceChildren(
       ...this.player.levels.map(({ level }, i) => {
         const button = make("button");
@@ -118,32 +118,32 @@ export class Thrusters {
   }
 
   show(moment: Moment): void {
-    let any = false;
+    let hasValues = false;
     for (const { signal, bar, value } of this.bars) {
       const now = moment.signal(signal);
       if (now === undefined) continue;
-      any = true;
+      hasValues = true;
       const share = 50 * Math.min(1, Math.abs(now));
       bar.style.left = `${now < 0 ? 50 - share : 50}%`;
       bar.style.width = `${share}%`;
       value.textContent = `${Math.round(100 * now) || 0} %`;
     }
-    element("thrusters-box").hidden = !any;
+    element("thrusters-box").hidden = !hasValues;
   }
 }
 
-export type Keys = { keys: string; does: string }[];
+export type Keys = { keys: string; action: string }[];
 
 export function fillHelp(groups: Record<string, Keys>): void {
   const dialog = element<HTMLDialogElement>("help");
   dialog.replaceChildren();
   const [rows, columns] = [make("div", "", "rows"), make("div", "", "columns")];
-  rows.tabIndex = 0; // arrow keys scroll it
+  rows.tabIndex = 0; // so that arrow keys scroll it
   rows.append(columns);
   dialog.append(rows);
   for (const [title, keys] of Object.entries(groups)) {
     const list = make("dl");
-    for (const each of keys) list.append(make("dt", each.keys), make("dd", each.does));
+    for (const entry of keys) list.append(make("dt", entry.keys), make("dd", entry.action));
     const group = make("section");
     group.append(make("h2", title), list);
     columns.append(group);

@@ -1,32 +1,32 @@
-// The image: the scene from where one looks, the cameras' images in it, lines over it.
+// The image: the scene in the present view, with the cameras' images and lines over it.
 import type { Camera, Head, Water } from "./head";
-import type { ShiningLamp } from "./drawing/light";
+import type { ActiveLamp } from "./drawing/light";
 import { Models } from "./models";
-import { drawOverlay, drawQuads, type Shown } from "./overlay";
+import { drawOverlay, drawQuads, type OverlaySwitches } from "./overlay";
 import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
 import type { Moment, Player } from "./player";
 import { drawCompass } from "./display/compass";
 import { isSoftware, Renderer } from "./drawing/renderer";
-import { inside, type Sight, type Views } from "./views";
+import { fitLens, type ViewCamera, type Views } from "./views";
 import type { Lens } from "./geometry";
 
 const PICTURE_HEIGHT = 150;
-const LONGEST_DRAWING = 2000; // of an image; who takes longer has ended without a word [ms]
-const HURRY = 300; // after an input [ms]
-const LONGEST_REST = 100; // between two images that software draws [ms]
+const MAX_DRAWING_TIME = 2000; // after which the drawing has failed without an error [ms]
+const HURRY_TIME = 300; // without rests after an input [ms]
+const MAX_REST = 100; // between two images that software draws [ms]
 
-export interface Switches extends Shown {
+export interface Switches extends OverlaySwitches {
   clear: boolean;
   pictures: boolean;
   /** The head-up display. */
   state: boolean;
   sun: string;
-  /** Trails begin at this point. */
-  since: number;
+  /** The index of the first point of trails. */
+  trailStart: number;
 }
 
-/** A WebGL2 context of the canvas, antialiased where a GPU does it; null without WebGL. */
+/** Return a WebGL2 context of the canvas, antialiased by a GPU only; null without WebGL. */
 export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
   const probe = document.createElement("canvas").getContext("webgl2");
   if (!probe) return null;
@@ -35,38 +35,38 @@ export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | nu
   return canvas.getContext("webgl2", { alpha: false, antialias, powerPreference: "high-performance" });
 }
 
-/** Keeps software from drawing all the time, on the cores that others need, and images from piling up. */
+/** The pace of drawing by software, with rests for other processes and no queue of images. */
 class Pace {
   private fence: WebGLSync | null = null;
-  private began = 0;
-  private rests = 0; // until then
-  private hurries = 0; // until then without a rest
+  private beginTime = 0;
+  private restEnd = 0; // wall time of its end [ms]
+  private hurryEnd = 0; // wall time of its end [ms]
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
-  /** An image has been begun. */
+  /** Note that an image has begun. */
   begin(): void {
     if (this.fence) this.gl.deleteSync(this.fence);
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
     this.gl.flush();
-    this.began = performance.now();
+    this.beginTime = performance.now();
   }
 
-  /** Somebody has acted, and waits for what comes of it. */
-  hurry(): void {
-    this.hurries = performance.now() + HURRY;
+  /** Draw without rests for a while, after an input. */
+  skipRests(): void {
+    this.hurryEnd = performance.now() + HURRY_TIME;
   }
 
-  /** Whether the last image is there, and as much time again has passed. */
+  /** Return true if the last image is complete, and as much time again has passed. */
   isReady(now: number): boolean {
     const { gl, fence } = this;
-    const isLost = gl.isContextLost() || now - this.began > LONGEST_DRAWING;
+    const isLost = gl.isContextLost() || now - this.beginTime > MAX_DRAWING_TIME;
     if (fence && (isLost || gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED)) {
       gl.deleteSync(fence);
       this.fence = null;
-      this.rests = Math.min(2 * now - this.began, now + LONGEST_REST);
+      this.restEnd = Math.min(2 * now - this.beginTime, now + MAX_REST);
     }
-    return !this.fence && (now >= this.rests || now < this.hurries);
+    return !this.fence && (now >= this.restEnd || now < this.hurryEnd);
   }
 }
 
@@ -75,7 +75,7 @@ export class Picture {
   private readonly overlay = element<HTMLCanvasElement>("overlay");
   private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
-  private readonly sent: ImageBitmap[] = []; // of cameras, by a running simulation
+  private readonly images: ImageBitmap[] = []; // of cameras, from a running simulation
   private readonly pace: Pace | null;
 
   private constructor(
@@ -94,57 +94,57 @@ export class Picture {
     }
   }
 
-  /** Without WebGL lines and names alone are drawn, over what a live view sends. */
+  /** Make the picture; without WebGL it draws only lines and names, over the images of a live view. */
   static async make(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Picture> {
     return new Picture(gl, pack.head, await Models.load(gl, pack));
   }
 
-  /** Draw it all; returns from where, null while nothing is to be seen. */
-  draw(player: Player, moment: Moment, views: Views, switches: Switches): Sight | null {
+  /** Draw the image and return its camera; null while the canvas has no size. */
+  draw(player: Player, moment: Moment, views: Views, switches: Switches): ViewCamera | null {
     const { canvas, head, models } = this;
     const ratio = this.gl && isSoftware(this.gl) ? 1 : Math.min(devicePixelRatio, 2);
     const [w, h] = [canvas.clientWidth, canvas.clientHeight];
     if (w === 0 || h === 0) return null;
-    for (const each of [canvas, this.overlay]) {
-      const [wide, high] = [Math.round(w * ratio), Math.round(h * ratio)];
-      if (each.width !== wide || each.height !== high) [each.width, each.height] = [wide, high];
+    for (const layer of [canvas, this.overlay]) {
+      const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
+      if (layer.width !== width || layer.height !== height) [layer.width, layer.height] = [width, height];
     }
     models.place(moment.poses);
-    head.sand?.forEach((_, i) => models.dig(i, player.sand(i, moment.time)));
-    const sight = views.sight(w, h);
+    head.sand?.forEach((_, i) => models.setSand(i, player.sand(i, moment.time)));
+    const viewCamera = views.viewCamera(w, h);
     const water = this.water(player, moment, switches);
-    const clear = switches.clear ? { ...water, fog: 0 } : water;
+    const clearWater = switches.clear ? { ...water, fog: 0 } : water;
     const lamps = this.lamps(moment);
-    const { worldFromCamera, observer } = sight;
-    const lens = scaled(sight.lens, ratio);
-    const grey = sight.camera?.grey;
-    this.renderer?.draw({ worldFromCamera, lens, water: clear, lamps, observer, grey }, null, [0, 0]);
+    const { worldFromCamera, observer } = viewCamera;
+    const lens = scaleLens(viewCamera.lens, ratio);
+    const grey = viewCamera.camera?.grey;
+    this.renderer?.draw({ worldFromCamera, lens, water: clearWater, lamps, observer, grey }, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
-    drawOverlay(context, worldFromCamera, sight.lens, head, models, player, moment, switches, switches.since);
-    if (sight.camera) drawQuads(context, sight.camera, sight.lens, 0, 0, moment);
+    drawOverlay(context, worldFromCamera, viewCamera.lens, head, models, player, moment, switches, switches.trailStart);
+    if (viewCamera.camera) drawQuads(context, viewCamera.camera, viewCamera.lens, 0, 0, moment);
     if (views.mode === "map") {
       const hud = element("hud");
-      drawCompass(context, sight.lens, views.height, hud.offsetTop + hud.offsetHeight);
+      drawCompass(context, viewCamera.lens, views.height, hud.offsetTop + hud.offsetHeight);
     }
-    this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === sight.camera));
+    this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === viewCamera.camera));
     this.drawPictures(context, water, lamps, moment, switches, ratio, h);
     this.pace?.begin();
-    return sight;
+    return viewCamera;
   }
 
-  /** Draw the next images without a rest. */
-  hurry(): void {
-    this.pace?.hurry();
+  /** Draw the next images without rests. */
+  skipRests(): void {
+    this.pace?.skipRests();
   }
 
-  /** Whether the next image of a motion may be begun. */
+  /** Return true if the next image of a motion may begin. */
   isReady(): boolean {
     return this.pace?.isReady(performance.now()) ?? true;
   }
 
-  /** A camera's image in its own size, row 0 at the top, RGBA. */
+  /** Return a camera's image in its own size, row 0 at the top, RGBA. */
   image(lens: Lens, worldFromCamera: Float64Array, player: Player, moment: Moment,
         switches: Switches, water: Partial<Water> = {}, observer = false, grey = false): Uint8Array {
     const { gl, models, renderer } = this;
@@ -159,12 +159,12 @@ export class Picture {
       const place = i ? gl.DEPTH_ATTACHMENT : gl.COLOR_ATTACHMENT0;
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, stores[i]);
     });
-    const look = {
+    const state = {
       worldFromCamera, lens, lamps: this.lamps(moment), observer,
       water: { ...this.water(player, moment, switches), ...water },
       grey,
     };
-    renderer.draw(look, buffer, [0, 0], true);
+    renderer.draw(state, buffer, [0, 0], true);
     const pixels = new Uint8Array(4 * lens.width * lens.height);
     gl.readPixels(0, 0, lens.width, lens.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     for (const store of stores) gl.deleteRenderbuffer(store);
@@ -172,22 +172,22 @@ export class Picture {
     return pixels;
   }
 
-  /** The width in which images of cameras are shown, the widest of them [px]. */
-  widest(): number {
+  /** Return the greatest width of the images of cameras on the page [px]. */
+  pictureWidth(): number {
     const shapes = this.head.cameras.map(({ width, height }) => width / height);
     return Math.round(PICTURE_HEIGHT * Math.max(...shapes) * Math.min(devicePixelRatio, 2));
   }
 
-  /** Show an image of a camera that a simulation has sent, from the next drawing on. */
+  /** Show an image of a camera from a simulation, from the next drawing on. */
   show(camera: number, image: ImageBitmap): void {
     if (!this.frames[camera]) return;
-    if (this.sent[camera]) this.sent[camera].close();
+    if (this.images[camera]) this.images[camera].close();
     else this.frames[camera].querySelector("figcaption")!.textContent = this.head.cameras[camera].name;
-    this.sent[camera] = image;
+    this.images[camera] = image;
   }
 
   private drawPictures(
-    context: CanvasRenderingContext2D, water: Water, lamps: ShiningLamp[], moment: Moment,
+    context: CanvasRenderingContext2D, water: Water, lamps: ActiveLamp[], moment: Moment,
     switches: Switches, ratio: number, height: number,
   ): void {
     element("pictures").hidden = !switches.pictures;
@@ -197,17 +197,17 @@ export class Picture {
       if (this.frames[i].hidden) return;
       const place = this.frames[i].getBoundingClientRect();
       const [x, y] = [place.left - origin.left + 1, place.top - origin.top + 1];
-      const lens = inside(camera, place.width - 2, place.height - 2);
-      // an element of its own would have the whole page put together again for each image
-      if (this.sent[i]) context.drawImage(this.sent[i], x, y, place.width - 2, place.height - 2);
+      const lens = fitLens(camera, place.width - 2, place.height - 2);
+      // a separate element would cause a new layout of the page for each image
+      if (this.images[i]) context.drawImage(this.images[i], x, y, place.width - 2, place.height - 2);
       else {
-        const worldFromCamera = this.models.mounted(camera);
+        const worldFromCamera = this.models.worldFromMount(camera);
         const corner: [number, number] = [
           Math.round(x * ratio), Math.round((height - y - place.height + 2) * ratio),
         ];
         const { grey } = camera;
-        const look = { worldFromCamera, lens: scaled(lens, ratio), water, lamps, observer: false, grey };
-        this.renderer?.draw(look, null, corner);
+        const state = { worldFromCamera, lens: scaleLens(lens, ratio), water, lamps, observer: false, grey };
+        this.renderer?.draw(state, null, corner);
       }
       drawQuads(context, camera, lens, x, y, moment);
     });
@@ -224,19 +224,19 @@ export class Picture {
     };
   }
 
-  private lamps(moment: Moment): ShiningLamp[] {
+  private lamps(moment: Moment): ActiveLamp[] {
     return this.head.lamps
       .map((lamp) => ({ lamp, brightness: moment.signal(`lamp/${lamp.name}`) ?? Number(lamp.on) }))
       .filter(({ brightness }) => brightness > 0)
       .map(({ lamp, brightness }) => ({
         lamp: { ...lamp, intensity: brightness * lamp.intensity },
-        place: this.models.mounted(lamp),
+        place: this.models.worldFromMount(lamp),
       }));
   }
 }
 
-/** The pinhole on as many times the pixels, whole ones. */
-function scaled(lens: Lens, ratio: number): Lens {
+/** Return the lens with the numbers of pixels scaled, and rounded. */
+function scaleLens(lens: Lens, ratio: number): Lens {
   const [width, height] = [Math.round(lens.width * ratio), Math.round(lens.height * ratio)];
   return {
     ...lens,

@@ -1,16 +1,16 @@
 // A human pilot: keys, the first gamepad, and sticks on the screen.
 import { element, make } from "./panels";
 
-const REPEAT = 100; // [ms] between messages while anything is held
-const POLL = 33; // [ms] between looks at the gamepad
+const REPEAT = 100; // between messages while an input is active [ms]
+const POLL = 33; // between two reads of the gamepad [ms]
 const SIDES = ["left", "right"];
-/** What axes do, for more and for less of them. */
-const WORDS: Record<string, [string, string]> = {
+/** The words for the positive and the negative direction of the axes. */
+const AXIS_WORDS: Record<string, [string, string]> = {
   surge: ["forward", "back"], sway: ["right", "left"], heave: ["up", "down"], yaw: ["turn right", "left"],
   roll: ["roll right", "left"], pitch: ["pitch up", "down"], lamps: ["lamps brighter", "darker"],
 };
-const ON_STICKS: Record<string, string> = { yaw: "turn", sway: "left / right" };
-const QUIET = 6000; // after the first input the line of keys is gone [ms]
+const STICK_WORDS: Record<string, string> = { yaw: "turn", sway: "left / right" };
+const KEYLINE_TIME = 6000; // the line of keys stays after the first input [ms]
 
 interface Input {
   keys: string[];
@@ -19,7 +19,7 @@ interface Input {
   sticks: number[];
 }
 
-/** What a running simulation says of its piloting. */
+/** The pilot's part of the state of a running simulation. */
 export interface PilotState {
   pilot: boolean;
   mapping: Record<string, string>;
@@ -32,97 +32,97 @@ export interface PilotState {
 export class Pilot {
   isOn = false;
   private mapping: Record<string, string> = {};
-  private why = ""; // nothing can be steered
-  private names: Record<string, string> = {}; // axis -> name of the joint or thruster it moves
-  private reserved = new Set<string>(); // letters that are the pilot's, whatever the vehicle has
-  private shown = "";
-  private readonly held = new Set<string>();
+  private reason = ""; // why no vehicle can be steered
+  private names: Record<string, string> = {}; // axis -> name of its joint or thruster
+  private reservedKeys = new Set<string>(); // the pilot's letters for any vehicle
+  private layout = "";
+  private readonly pressedKeys = new Set<string>();
   private readonly sticks = [0, 0, 0, 0];
-  private last = "";
-  private sent = 0;
+  private lastText = "";
+  private sendTime = 0;
 
-  constructor(private readonly send: (message: object, isNews: boolean) => void) {
+  constructor(private readonly send: (message: object, isNew: boolean) => void) {
     document.addEventListener("keyup", (event) => {
-      this.held.delete(event.key.toLowerCase());
-      this.look();
+      this.pressedKeys.delete(event.key.toLowerCase());
+      this.poll();
     });
     window.addEventListener("blur", () => {
-      this.held.clear();
-      this.look();
+      this.pressedKeys.clear();
+      this.poll();
     });
-    setInterval(() => this.look(), POLL);
+    setInterval(() => this.poll(), POLL);
   }
 
-  /** Take what a simulation says of its piloting. */
+  /** Apply the pilot's part of the state of a simulation. */
   enable(state: PilotState): void {
     this.isOn = state.pilot;
     this.mapping = state.pilot ? state.mapping : {};
-    this.reserved = new Set(state.reserved);
-    [this.names, this.why] = [state.names, state.why];
-    const shown = JSON.stringify([state.pilot, state.sticks, state.names, state.why]);
-    if (shown === this.shown) return; // a stick may be held
-    this.shown = shown;
+    this.reservedKeys = new Set(state.reserved);
+    [this.names, this.reason] = [state.names, state.why];
+    const layout = JSON.stringify([state.pilot, state.sticks, state.names, state.why]);
+    if (layout === this.layout) return; // a stick may be held
+    this.layout = layout;
     const sticks = SIDES.map((side, i) => this.stick(side, 2 * i, state.sticks.slice(2 * i, 2 * i + 2)));
-    const parts = [...sticks.filter((part) => part !== null), this.why ? make("p", this.why, "why") : this.line()];
+    const parts = [...sticks.filter((part) => part !== null), this.reason ? make("p", this.reason, "why") : this.line()];
     element("pilot").replaceChildren(...parts.filter((part) => part !== null));
     element("pilot").hidden = !state.pilot;
   }
 
-  /** Whether a letter is the pilot's, so that the page's own needs Shift; the same for all vehicles. */
-  has(key: string): boolean {
-    return this.isOn && this.reserved.has(key);
+  /** Return true if a letter is the pilot's: the page's own key then needs Shift. */
+  isReserved(key: string): boolean {
+    return this.isOn && this.reservedKeys.has(key);
   }
 
-  takes(event: KeyboardEvent): boolean {
+  takeKey(event: KeyboardEvent): boolean {
     const key = event.key.toLowerCase();
-    if (event.shiftKey || !this.has(key)) return false;
+    if (event.shiftKey || !this.isReserved(key)) return false;
     event.preventDefault();
-    if (!(key in this.mapping)) return true; // this vehicle has nothing that it moves
-    this.held.add(key);
-    this.look();
+    if (!(key in this.mapping)) return true; // it has no effect on this vehicle
+    this.pressedKeys.add(key);
+    this.poll();
     this.hideLine();
     return true;
   }
 
-  help(): { keys: string; does: string }[] {
+  help(): { keys: string; action: string }[] {
     const pairs = this.pairs();
-    if (!pairs.length) return [{ keys: "–", does: this.why || "nobody pilots this simulation" }];
-    const rows = pairs.map(({ axes, more, less }) => ({
-      keys: `${more || "–"}  ${less || "–"}`, does: `${this.named(axes)} +, −`,
+    if (!pairs.length) return [{ keys: "–", action: this.reason || "this simulation has no pilot" }];
+    const rows = pairs.map(({ axes, plusKeys, minusKeys }) => ({
+      keys: `${plusKeys || "–"}  ${minusKeys || "–"}`, action: `${this.namesOf(axes)} +, −`,
     }));
-    return [...rows, { keys: "Shift", does: "with a letter: the page's own key" }];
+    return [...rows, { keys: "Shift", action: "with a letter: the page's own key" }];
   }
 
-  /** What keys move, each with the keys for more and for less of it. */
-  private pairs(): { axes: string; more: string; less: string }[] {
+  /** Return the axes with the keys of their positive and negative direction. */
+  private pairs(): { axes: string; plusKeys: string; minusKeys: string }[] {
     const pairs = new Map<string, string[]>();
-    for (const [key, does] of Object.entries(this.mapping)) {
-      if (!does.trim()) continue;
-      const [axes, way] = unsigned(does);
+    for (const [key, targets] of Object.entries(this.mapping)) {
+      if (!targets.trim()) continue;
+      const [axes, way] = splitSign(targets);
       const pair = pairs.get(axes) ?? ["", ""];
       pair[way] += (pair[way] && ", ") + key;
       pairs.set(axes, pair);
     }
-    return [...pairs].map(([axes, [more, less]]) => ({ axes, more, less }));
+    return [...pairs].map(([axes, [plusKeys, minusKeys]]) => ({ axes, plusKeys, minusKeys }));
   }
 
-  /** Axes, with the names of joints and thrusters as in the files. */
-  private named(axes: string): string {
+  /** Return axes with the names of joints and thrusters in the files. */
+  private namesOf(axes: string): string {
     return axes.split(" ").map((axis) => {
       const name = this.names[axis.replace("-", "")];
       return name ? axis.replace(/[a-z]+\d*/, name) : axis;
     }).join(" ");
   }
 
-  /** The keys in a line, until somebody has begun to pilot. */
+  /** Return the line of keys, which is shown until the first input. */
   private line(): HTMLElement | null {
     const pairs = this.pairs();
     if (!pairs.length) return null;
     const line = make("div", "", "keyline");
-    for (const { axes, more, less } of pairs) {
+    for (const { axes, plusKeys, minusKeys } of pairs) {
       const part = make("span");
-      const words = WORDS[axes]?.join(" / ") ?? this.named(axes);
-      for (const key of [more, less]) if (key) part.append(make("kbd", key.toUpperCase()));
+      const words = AXIS_WORDS[axes]?.join(" / ") ?? this.namesOf(axes);
+      for (const key of [plusKeys, minusKeys]) if (key) part.append(make("kbd", key.toUpperCase()));
       part.append(` ${words}`);
       line.append(part);
     }
@@ -139,40 +139,40 @@ export class Pilot {
     const line = element("pilot").querySelector(".keyline");
     if (line && !line.classList.contains("leaves")) {
       line.classList.add("leaves");
-      setTimeout(() => line.remove(), QUIET);
+      setTimeout(() => line.remove(), KEYLINE_TIME);
     }
   }
 
   private input(): Input {
-    const pad = navigator.getGamepads?.().find((each) => each !== null);
+    const pad = navigator.getGamepads?.().find((gamepad) => gamepad !== null);
     return {
-      keys: [...this.held].sort(),
-      axes: pad ? pad.axes.map(rounded) : [],
-      buttons: pad ? pad.buttons.map(({ value }) => rounded(value)) : [],
-      sticks: this.sticks.map(rounded),
+      keys: [...this.pressedKeys].sort(),
+      axes: pad ? pad.axes.map(roundValue) : [],
+      buttons: pad ? pad.buttons.map(({ value }) => roundValue(value)) : [],
+      sticks: this.sticks.map(roundValue),
     };
   }
 
-  private look(): void {
+  private poll(): void {
     if (!this.isOn) return;
     const input = this.input();
     const text = JSON.stringify(input);
     const now = performance.now();
-    const rests = !input.keys.length && ![...input.axes, ...input.buttons, ...input.sticks].some(Boolean);
-    if (text === this.last && (rests || now - this.sent < REPEAT)) return;
-    const isNews = text !== this.last;
-    this.last = text;
-    this.sent = now;
-    this.send({ type: "input", ...input }, isNews);
+    const isAtRest = !input.keys.length && ![...input.axes, ...input.buttons, ...input.sticks].some(Boolean);
+    if (text === this.lastText && (isAtRest || now - this.sendTime < REPEAT)) return;
+    const isNew = text !== this.lastText;
+    this.lastText = text;
+    this.sendTime = now;
+    this.send({ type: "input", ...input }, isNew);
   }
 
-  /** A stick with its label; null where it moves nothing. */
-  private stick(side: string, first: number, axes: string[]): HTMLElement | null {
-    if (!axes.some((does) => does.trim())) return null;
+  /** Return a stick with its label; null if it has no effect. */
+  private stick(side: string, index: number, axes: string[]): HTMLElement | null {
+    if (!axes.some((targets) => targets.trim())) return null;
     const [box, label] = [make("div", "", `thumb ${side}`), make("div", "", "label")];
     const signs = ["↔", "↕"];
-    axes.forEach((does, i) => {
-      if (does.trim()) label.prepend(make("span", `${signs[i]} ${this.stickWords(does)}`));
+    axes.forEach((targets, i) => {
+      if (targets.trim()) label.prepend(make("span", `${signs[i]} ${this.stickWords(targets)}`));
     });
     const [pad, knob] = [make("div", "", "stick"), make("i")];
     pad.title = label.innerText;
@@ -180,10 +180,10 @@ export class Pilot {
     box.append(label, pad);
     const set = (x: number, y: number): void => {
       const length = Math.max(1, Math.hypot(x, y));
-      this.sticks[first] = x / length;
-      this.sticks[first + 1] = y / length;
+      this.sticks[index] = x / length;
+      this.sticks[index + 1] = y / length;
       knob.style.transform = `translate(${(35 * x) / length}px, ${(-35 * y) / length}px)`;
-      this.look();
+      this.poll();
     };
     const move = (event: PointerEvent): void => {
       if (!pad.hasPointerCapture(event.pointerId)) return;
@@ -200,20 +200,20 @@ export class Pilot {
     return box;
   }
 
-  private stickWords(does: string): string {
-    const [axes] = unsigned(does);
-    return ON_STICKS[axes] ?? WORDS[axes]?.join(" / ") ?? this.named(axes);
+  private stickWords(targets: string): string {
+    const [axes] = splitSign(targets);
+    return STICK_WORDS[axes] ?? AXIS_WORDS[axes]?.join(" / ") ?? this.namesOf(axes);
   }
 }
 
-/** What a key moves, for more of the first axis; and 0 if it does that, 1 if the opposite. */
-function unsigned(does: string): [string, 0 | 1] {
-  const targets = does.trim().split(/\s+/);
-  const flips = targets[0].startsWith("-");
-  const axes = targets.map((each) => (each.startsWith("-") !== flips ? "-" : "") + each.replace(/^[+-]+/, ""));
+/** Return the axes of a key for a positive first axis, and 0 if the key is positive, 1 if not. */
+function splitSign(targets: string): [string, 0 | 1] {
+  const parts = targets.trim().split(/\s+/);
+  const flips = parts[0].startsWith("-");
+  const axes = parts.map((part) => (part.startsWith("-") !== flips ? "-" : "") + part.replace(/^[+-]+/, ""));
   return [axes.join(" "), flips ? 1 : 0];
 }
 
-function rounded(value: number): number {
+function roundValue(value: number): number {
   return Math.round(value * 1000) / 1000;
 }

@@ -1,53 +1,53 @@
-// Heaps of sand, and what a dredge takes of them, as uwsim.simulation.scenery.sand has it.
+// Heaps of sand, and the removals by a dredge, as in uwsim.simulation.scenery.sand.
 import type { Heap } from "./head";
 
-/** A place at which sand was taken, from a frame on. */
-export interface Dig {
+/** A removal of sand at a place, from a frame on. */
+export interface Removal {
   frame: number;
   heap: number;
-  /** From the heap's corner [m]; null: all its sand is put back. */
+  /** The place from the heap's corner [m]; null: all its sand is restored. */
   place: [number, number, number] | null;
 }
 
 export class Sand {
   readonly heights: Float32Array<ArrayBuffer>;
-  private readonly untouched: Float32Array;
-  private dug: Dig[] = [];
-  private told: Float32Array | null = null;
+  private readonly initialHeights: Float32Array;
+  private removals: Removal[] = [];
+  private lastHeights: Float32Array | null = null;
 
   constructor(
     private readonly heap: Heap,
-    /** Of the mesh, x y z each. */
+    /** The positions of the mesh's vertices, x y z each. */
     private readonly positions: Float32Array,
   ) {
-    this.untouched = Float32Array.from(
+    this.initialHeights = Float32Array.from(
       { length: positions.length / 3 }, (_, i) => positions[3 * i + 2] - heap.corner[2],
     );
-    this.heights = this.untouched.slice();
+    this.heights = this.initialHeights.slice();
   }
 
-  /** Set the heights of its columns; returns whether they are others. */
+  /** Set the heights of its columns; return true if they have changed. */
   set(heights: Float32Array): boolean {
-    if (heights === this.told) return false;
-    this.told = heights;
+    if (heights === this.lastHeights) return false;
+    this.lastHeights = heights;
     this.heights.set(heights.subarray(0, this.heights.length));
     return true;
   }
 
-  /** Make it what digs, in order, make of it; returns whether that changed it. */
-  show(digs: Dig[]): boolean {
-    const isOn = digs.length >= this.dug.length && this.dug.every((dig, i) => dig === digs[i]);
-    if (isOn && digs.length === this.dug.length) return false;
-    if (!isOn) this.heights.set(this.untouched);
-    for (const { place } of isOn ? digs.slice(this.dug.length) : digs) {
-      if (place) this.take(place);
-      else this.heights.set(this.untouched);
+  /** Apply removals, in order; return true if they changed the heap. */
+  show(digs: Removal[]): boolean {
+    const isContinuation = digs.length >= this.removals.length && this.removals.every((dig, i) => dig === digs[i]);
+    if (isContinuation && digs.length === this.removals.length) return false;
+    if (!isContinuation) this.heights.set(this.initialHeights);
+    for (const { place } of isContinuation ? digs.slice(this.removals.length) : digs) {
+      if (place) this.remove(place);
+      else this.heights.set(this.initialHeights);
     }
-    this.dug = digs;
+    this.removals = digs;
     return true;
   }
 
-  /** Where its vertices are, and how its surface is turned: 32767 is 1. */
+  /** Return the positions and normals of its vertices: 32767 is 1. */
   surface(): { positions: Float32Array<ArrayBuffer>; normals: Int16Array<ArrayBuffer> } {
     const { heap, heights } = this;
     const [nx, ny] = heap.columns;
@@ -69,7 +69,7 @@ export class Sand {
     return { positions, normals };
   }
 
-  private take([x, y, z]: [number, number, number]): void {
+  private remove([x, y, z]: [number, number, number]): void {
     const { heap, heights } = this;
     const [nx, ny] = heap.columns;
     const reach = heap.reach ** 2;
@@ -81,8 +81,8 @@ export class Sand {
     for (let i = low; i <= high; ++i)
       for (let j = first; j <= last; ++j) {
         const k = i * ny + j;
-        const away = (i * heap.cell - x) ** 2 + (j * heap.cell - y) ** 2 + (heights[k] - z) ** 2;
-        if (away < reach) heights[k] = Math.max(0, heights[k] - heap.bite);
+        const distance = (i * heap.cell - x) ** 2 + (j * heap.cell - y) ** 2 + (heights[k] - z) ** 2;
+        if (distance < reach) heights[k] = Math.max(0, heights[k] - heap.bite);
       }
   }
 }

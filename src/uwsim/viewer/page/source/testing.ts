@@ -1,4 +1,4 @@
-// What tests, and the curious in the browser's console, may ask the page.
+// The interface of the page for tests and for the browser's console.
 import type { Controls } from "./controls";
 import { valueAt } from "./curves";
 import { indexAt } from "./panels";
@@ -12,20 +12,20 @@ export function expose(page: Controls): void {
       go: (index: number) => page.go(index),
       time: () => page.time,
       level: () => indexAt(player, page.time),
-      /** Name of each measure, and its value at the cursor. */
+      /** The value of each measure at the cursor, by its name. */
       curves: () => Object.fromEntries(player.curves.map((c) => [c.name, valueAt(c, page.time)])),
       /** World from body, 4 x 4, row by row. */
       body: (name: string) => Array.from(picture.models.body(name)),
-      /** What programs have spawned, now. */
+      /** The markers at the displayed time. */
       markers: () => player.markers(page.time),
-      /** Heights of the columns of a heap of sand [m]. */
+      /** The heights of the columns of a heap of sand [m]. */
       sand: (number: number) => Array.from(picture.models.heights(number)),
       /** A camera's image in its own size, RGBA, base64. */
       image: (name: string, water = {}) => {
-        const camera = page.pack.head.cameras.find((each) => each.name === name)!;
+        const camera = page.pack.head.cameras.find((candidate) => candidate.name === name)!;
         const moment = player.moment(page.time);
         picture.models.place(moment.poses);
-        const place = picture.models.mounted(camera);
+        const place = picture.models.worldFromMount(camera);
         const pixels = picture.image(camera, place, player, moment, page.switches, water, false, camera.grey);
         let text = "";
         for (let i = 0; i < pixels.length; i += 8192)

@@ -1,13 +1,13 @@
-// What a map needs: north, and a scale.
+// The north arrow and the scale of a map.
 import type { Lens } from "../geometry";
 
-const LONGEST = 130; // scale [px]
+const MAX_SCALE_LENGTH = 130; // [px]
 const LEFT = 18; // edge of both [px]
 
 /** Draw both into the upper left of a view from above, `depth` metres below the eye. */
 export function drawCompass(context: CanvasRenderingContext2D, lens: Lens, depth: number, top: number): void {
   const [x, y] = [LEFT + 10, top + 22];
-  const metres = roundedDown((LONGEST * depth) / lens.fx);
+  const metres = roundedDown((MAX_SCALE_LENGTH * depth) / lens.fx);
   const length = (metres * lens.fx) / depth;
   context.save();
   context.setLineDash([]);
@@ -36,9 +36,9 @@ export function drawCompass(context: CanvasRenderingContext2D, lens: Lens, depth
   context.restore();
 }
 
-/** The greatest of 1, 2 and 5 times a power of ten that is not above a number. */
+/** Return the greatest of 1, 2 and 5 times a power of ten that is not above a number. */
 function roundedDown(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value));
-  const digit = [5, 2, 1].find((each) => each * power <= value * (1 + 1e-9)) ?? 1;
+  const digit = [5, 2, 1].find((candidate) => candidate * power <= value * (1 + 1e-9)) ?? 1;
   return Number((digit * power).toPrecision(1));
 }

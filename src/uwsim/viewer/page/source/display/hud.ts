@@ -4,8 +4,8 @@ import { element, make } from "../panels";
 import type { Moment, Player, Samples } from "../player";
 import { titleOf, type Quantities, type Quantity } from "./quantities";
 
-const PERIOD = 100; // between two displays [ms]
-const AT_FIRST = ["depth", "speed"]; // curves of a page that has no others
+const DISPLAY_PERIOD = 100; // between two displays [ms]
+const INITIAL_CURVES = ["depth", "speed"]; // of a page without measures
 const UNITS: Record<string, string> = { deg: "°", "1": "×" };
 
 interface Cell {
@@ -15,13 +15,13 @@ interface Cell {
 
 export class Hud {
   private readonly cells = new Map<string, Cell>();
-  private readonly chosen = new Set<string>();
+  private readonly selection = new Set<string>();
   private readonly curves: Curves;
-  private hasChosen = false; // by hand, or from the first on
-  private drawn = 0;
+  private hasSelection = false; // by the user, or initially
+  private displayTime = 0;
   private isLate = false;
-  private last: [Moment, number, boolean] | null = null;
-  private shown: Quantity[] = [];
+  private lastState: [Moment, number, boolean] | null = null;
+  private values: Quantity[] = [];
 
   constructor(
     private readonly quantities: Quantities,
@@ -34,45 +34,45 @@ export class Hud {
 
   /** Show a moment; `vehicle` is the number of the vehicle. */
   show(moment: Moment, vehicle: number, isOn: boolean): void {
-    this.last = [moment, vehicle, isOn];
+    this.lastState = [moment, vehicle, isOn];
     const now = performance.now();
-    const isDue = now - this.drawn >= PERIOD || !this.player.isLive;
+    const isDue = now - this.displayTime >= DISPLAY_PERIOD || !this.player.isLive;
     if (isDue) {
-      this.drawn = now;
-      this.shown = this.quantities.at(moment, this.player, vehicle);
-      if (this.player.isLive) this.quantities.keep(moment.time, this.shown);
-      this.shown.forEach((each) => this.fill(each));
+      this.displayTime = now;
+      this.values = this.quantities.compute(moment, this.player, vehicle);
+      if (this.player.isLive) this.quantities.store(moment.time, this.values);
+      this.values.forEach((quantity) => this.fill(quantity));
     }
     else if (!this.isLate) {
-      this.isLate = true; // what was not shown now is shown soon, even if nothing more comes
+      this.isLate = true; // show it later, even if no other state follows
       setTimeout(() => {
         this.isLate = false;
-        this.show(...this.last!);
-      }, PERIOD);
+        this.show(...this.lastState!);
+      }, DISPLAY_PERIOD);
     }
-    element("hud").hidden = !isOn || !this.shown.length;
-    if (!this.hasChosen && this.shown.length) this.chooseFirst();
-    const curves = this.chosenCurves();
+    element("hud").hidden = !isOn || !this.values.length;
+    if (!this.hasSelection && this.values.length) this.selectInitial();
+    const curves = this.selectedCurves();
     element("state-box").hidden = !curves.length;
     if (curves.length) this.curves.show(moment.time, curves);
   }
 
-  /** Draw the curves again, in the colours of now. */
+  /** Draw the curves again, in the present colours. */
   repaint(): void {
     this.curves.redraw();
   }
 
-  /** Without measures the curves of a few quantities are there from the beginning. */
-  private chooseFirst(): void {
-    this.hasChosen = true;
+  /** Select the initial curves, if there are no measures. */
+  private selectInitial(): void {
+    this.hasSelection = true;
     if (this.player.isLive && !this.player.curves.length && !this.player.levels.length)
-      AT_FIRST.forEach((name) => this.chosen.add(name));
+      INITIAL_CURVES.forEach((name) => this.selection.add(name));
     this.mark();
   }
 
-  private chosenCurves(): Samples[] {
-    const chosen = this.shown.filter(({ name }) => this.chosen.has(name));
-    return chosen.map((each) => this.quantities.history(each, this.player));
+  private selectedCurves(): Samples[] {
+    const quantities = this.values.filter(({ name }) => this.selection.has(name));
+    return quantities.map((quantity) => this.quantities.history(quantity, this.player));
   }
 
   private fill({ name, unit, value }: Quantity): void {
@@ -86,8 +86,8 @@ export class Hud {
     button.append(make("span", titleOf(name)), value);
     button.title = `${titleOf(name)}: show or hide its curve`;
     button.addEventListener("click", () => {
-      if (!this.chosen.delete(name)) this.chosen.add(name);
-      this.hasChosen = true;
+      if (!this.selection.delete(name)) this.selection.add(name);
+      this.hasSelection = true;
       this.mark();
       this.redraw();
     });
@@ -100,11 +100,11 @@ export class Hud {
 
   private mark(): void {
     for (const [name, { button }] of this.cells)
-      button.setAttribute("aria-pressed", String(this.chosen.has(name)));
+      button.setAttribute("aria-pressed", String(this.selection.has(name)));
   }
 }
 
-/** A value with as many digits as its unit needs. */
+/** Return a value with as many digits as its unit needs. */
 export function textOf(value: number | null, unit: string): string {
   if (value === null) return "–";
   const digits = { deg: 1, m: 2, "m/s": 2, N: 1, "%": 0 }[unit] ?? 2;

@@ -1,13 +1,13 @@
-// The state of a vehicle in numbers, and their history: from its motion, and what a simulation sends.
+// The state of a vehicle in numbers, and their history: from its motion and a simulation's readings.
 import type { Head } from "../head";
 import { fromPose, origin, plus, type Matrix } from "../geometry";
 import type { Moment, Player, Samples } from "../player";
 import type { Rays } from "./rays";
 
-const DEEPEST = 200; // below the vehicle that its altitude is looked for [m]
-const RATE = 5; // of the history [Hz]
-const LONGEST = 6000; // samples of a history
-const LONGEST_REPLAYED = 1200; // samples of a curve of a replay
+const MAX_ALTITUDE = 200; // the length of the ray down from the vehicle [m]
+const HISTORY_RATE = 5; // [Hz]
+const MAX_SAMPLES = 6000; // samples of a history
+const MAX_REPLAY_SAMPLES = 1200; // samples of a curve of a replay
 const DEGREES = 180 / Math.PI;
 
 /** A number with its name, as `depth`, `joint/Slew` or `force/wrist`. */
@@ -22,7 +22,7 @@ export type Reading = [name: string, unit: string, value: number | null];
 export class Quantities {
   private readonly histories = new Map<string, Samples>();
   private readings: Reading[] = []; // of a running simulation, the newest
-  private kept = -Infinity;
+  private storeTime = -Infinity;
   private trial = -1;
   private vehicle = 0;
 
@@ -31,52 +31,52 @@ export class Quantities {
     private readonly rays: Rays,
   ) {}
 
-  /** Take what a simulation says of the vehicle besides its motion; returns whether it is news. */
-  hear(readings: Reading[]): boolean {
+  /** Set the readings of the vehicle; return true if they have changed. */
+  setReadings(readings: Reading[]): boolean {
     const isNews = JSON.stringify(readings) !== JSON.stringify(this.readings);
     this.readings = readings;
     return isNews;
   }
 
-  /** All of a moment; of vehicle number `vehicle`. */
-  at(moment: Moment, player: Player, vehicle: number): Quantity[] {
+  /** Return all quantities of a moment, of vehicle number `vehicle`. */
+  compute(moment: Moment, player: Player, vehicle: number): Quantity[] {
     this.vehicle = vehicle;
-    const sent = this.readings.map(([name, unit, value]) => ({ name, unit, value }));
-    return [...this.ofMotion(moment, player), ...sent];
+    const readings = this.readings.map(([name, unit, value]) => ({ name, unit, value }));
+    return [...this.motionQuantities(moment, player), ...readings];
   }
 
   /** Add the quantities of a moment to the histories, a few times a second. */
-  keep(time: number, quantities: Quantity[]): void {
-    if (time < this.kept) this.histories.clear();
-    if (time >= this.kept && time < this.kept + 1 / RATE) return;
-    this.kept = time;
+  store(time: number, quantities: Quantity[]): void {
+    if (time < this.storeTime) this.histories.clear();
+    if (time >= this.storeTime && time < this.storeTime + 1 / HISTORY_RATE) return;
+    this.storeTime = time;
     for (const { name, unit, value } of quantities) {
       const history = this.historyOf(name, unit);
       history.times.push(time);
       history.values.push(value);
-      if (history.times.length <= LONGEST) continue;
-      history.times.splice(0, LONGEST / 2);
-      history.values.splice(0, LONGEST / 2);
+      if (history.times.length <= MAX_SAMPLES) continue;
+      history.times.splice(0, MAX_SAMPLES / 2);
+      history.values.splice(0, MAX_SAMPLES / 2);
     }
   }
 
-  /** The curve of a quantity; of a replay that of the whole trial. */
+  /** Return the curve of a quantity; in a replay, that of the whole trial. */
   history({ name, unit }: Quantity, player: Player): Samples {
     if (player.isLive) return this.historyOf(name, unit);
     if (player.trial !== this.trial) this.histories.clear();
     this.trial = player.trial;
-    const known = this.histories.get(name);
-    if (known) return known;
-    const made = this.historyOf(name, unit);
+    const storedHistory = this.histories.get(name);
+    if (storedHistory) return storedHistory;
+    const history = this.historyOf(name, unit);
     const length = player.end - player.start;
-    const n = Math.max(2, Math.min(LONGEST_REPLAYED, Math.ceil(length * RATE)));
+    const n = Math.max(2, Math.min(MAX_REPLAY_SAMPLES, Math.ceil(length * HISTORY_RATE)));
     for (let i = 0; i < n; ++i) {
       const time = player.start + (length * i) / (n - 1);
-      const all = this.ofMotion(player.moment(time), player, name);
-      made.times.push(time);
-      made.values.push(all.find((each) => each.name === name)?.value ?? null);
+      const quantities = this.motionQuantities(player.moment(time), player, name);
+      history.times.push(time);
+      history.values.push(quantities.find((quantity) => quantity.name === name)?.value ?? null);
     }
-    return made;
+    return history;
   }
 
   private historyOf(name: string, unit: string): Samples {
@@ -85,51 +85,51 @@ export class Quantities {
     return history;
   }
 
-  /** What follows from poses and currents; `only`: the one that is needed. */
-  private ofMotion(moment: Moment, player: Player, only = ""): Quantity[] {
+  /** Compute quantities from poses and currents; `onlyName` is the one that is needed. */
+  private motionQuantities(moment: Moment, player: Player, onlyName = ""): Quantity[] {
     const vehicle = this.head.vehicles[this.vehicle];
     if (!vehicle) return [];
-    const base = placeOf(this.head, moment, vehicle.body);
+    const base = poseOf(this.head, moment, vehicle.body);
     const [x, y, z] = origin(base);
-    const way = this.wayUp(vehicle.body);
+    const sign = this.zAxisSign(vehicle.body);
     const heading = Math.atan2(base[0], base[4]) * DEGREES; // W: x east, y north
-    const found: Quantity[] = [
+    const quantities: Quantity[] = [
       { name: "depth", unit: "m", value: this.head.water.surface_height - z },
       { name: "heading", unit: "deg", value: (Math.round(10 * (heading + 360)) / 10) % 360 },
-      { name: "roll", unit: "deg", value: Math.atan2(way * base[9], way * base[10]) * DEGREES },
+      { name: "roll", unit: "deg", value: Math.atan2(sign * base[9], sign * base[10]) * DEGREES },
       { name: "pitch", unit: "deg", value: Math.asin(Math.max(-1, Math.min(1, base[8]))) * DEGREES },
       { name: "speed", unit: "m/s", value: player.speed(vehicle.body, moment.time) },
     ];
-    if (!only || only === "altitude")
-      found.splice(1, 0, { name: "altitude", unit: "m", value: this.altitude([x, y, z], vehicle.name, moment) });
+    if (!onlyName || onlyName === "altitude")
+      quantities.splice(1, 0, { name: "altitude", unit: "m", value: this.altitude([x, y, z], vehicle.name, moment) });
     const flow = ["x", "y", "z"].map((axis) => moment.signal(`water/${vehicle.name}/${axis}`) ?? 0);
     const current = Math.hypot(...flow);
-    if (current >= 5e-3 || only) found.push({ name: "current", unit: "m/s", value: current });
-    return found;
+    if (current >= 5e-3 || onlyName) quantities.push({ name: "current", unit: "m/s", value: current });
+    return quantities;
   }
 
-  /** 1 where the vehicle's z axis points up when it lies level, -1 where down. */
-  private wayUp(body: string): number {
-    const first = this.head.bodies.find(({ name }) => name === body);
-    return first && fromPose(first.pose)[10] < 0 ? -1 : 1;
+  /** Return 1 if the z axis of the level vehicle points up, -1 if down. */
+  private zAxisSign(body: string): number {
+    const initialBody = this.head.bodies.find(({ name }) => name === body);
+    return initialBody && fromPose(initialBody.pose)[10] < 0 ? -1 : 1;
   }
 
-  private altitude(at: number[], vehicle: string, moment: Moment): number | null {
-    const below = plus(at, [0, 0, -DEEPEST]);
-    const place = (body: string): Matrix => placeOf(this.head, moment, body);
-    const share = this.rays.cast(at, below, place, (body) => body.vehicle === vehicle);
-    return share < 1 ? share * DEEPEST : null;
+  private altitude(position: number[], vehicle: string, moment: Moment): number | null {
+    const bottom = plus(position, [0, 0, -MAX_ALTITUDE]);
+    const place = (body: string): Matrix => poseOf(this.head, moment, body);
+    const share = this.rays.cast(position, bottom, place, (body) => body.vehicle === vehicle);
+    return share < 1 ? share * MAX_ALTITUDE : null;
   }
 }
 
-function placeOf(head: Head, moment: Moment, body: string): Matrix {
-  const first = head.bodies.find(({ name }) => name === body);
-  return moment.poses.get(body) ?? fromPose(first?.pose ?? [0, 0, 0, 1, 0, 0, 0]);
+function poseOf(head: Head, moment: Moment, body: string): Matrix {
+  const initialBody = head.bodies.find(({ name }) => name === body);
+  return moment.poses.get(body) ?? fromPose(initialBody?.pose ?? [0, 0, 0, 1, 0, 0, 0]);
 }
 
-/** What a quantity is called on the page: of `joint/Slew` and the like what the file calls it. */
+/** Return the title of a quantity on the page: of `joint/Slew` and others, the name in the file. */
 export function titleOf(name: string): string {
-  const [kind, own] = [name.split("/")[0], name.slice(name.indexOf("/") + 1)];
-  if (own === name || kind === "joint") return own;
-  return own.toLowerCase().includes(kind) ? own : `${own} ${kind}`;
+  const [kind, title] = [name.split("/")[0], name.slice(name.indexOf("/") + 1)];
+  if (title === name || kind === "joint") return title;
+  return title.toLowerCase().includes(kind) ? title : `${title} ${kind}`;
 }

@@ -1,21 +1,21 @@
-// The buttons at the top: from where one looks, and what is shown.
+// The buttons at the top: views and switches.
 import type { Controls, Switch } from "../controls";
 import { element, make } from "../panels";
 import type { Mode } from "../views";
 
 const VIEWS: Record<Mode, [name: string, title: string]> = {
-  orbit: ["Orbit", "Around the vehicle (o)"],
+  orbit: ["Orbit", "Orbit around the vehicle (o)"],
   chase: ["Chase", "From behind the vehicle (b)"],
-  camera: ["Camera", "As a camera sees it (v)"],
+  camera: ["Camera", "Image of a camera (v)"],
   map: ["Map", "From above, north up (m)"],
   file: ["File", "From the <camera> of the scene file (p)"],
 };
 const SWITCHES: Record<Exclude<Switch, "labels">, [name: string, title: string]> = {
-  clear: ["Clear water", "Without fog, as an observer would like it (x)"],
+  clear: ["Clear water", "Water without fog (x)"],
   state: ["State", "Depth, heading, joints and more; a click on a number draws its curve (z)"],
   pictures: ["Cameras", "Images of the cameras (c)"],
   frames: ["Frames", "Coordinate frames with their names (f)"],
-  trails: ["Trails", "Where bodies have been (t)"],
+  trails: ["Trails", "Trails of bodies (t)"],
   sonars: ["Sonars", "Beams and fans (s)"],
 };
 
@@ -38,7 +38,7 @@ export function addViews(page: Controls, modes: Mode[], cameras: string[]): void
   });
 }
 
-/** Add a button for each thing that may be shown or hidden, of those that the scene has. */
+/** Add a button for each switch that applies to the scene. */
 export function addSwitches(page: Controls): void {
   const { sensors, cameras, vehicles } = page.pack.head;
   const counts: Record<string, number> = {
@@ -54,7 +54,7 @@ export function addSwitches(page: Controls): void {
   }
 }
 
-/** Mark what is on. */
+/** Mark the active view and switches. */
 export function markToolbar({ views, switches, pack }: Controls): void {
   for (const button of element("modes").querySelectorAll("button"))
     button.setAttribute("aria-checked", String(button.dataset.mode === views.mode));

@@ -1,10 +1,10 @@
-// Topics of a running simulation on request: the values of the newest message, and their curves.
+// Requested topics of a running simulation: the values of the newest message, and their curves.
 import { Curves } from "../curves";
 import { element, make } from "../panels";
 import type { Samples } from "../player";
 
-const LONGEST = 3000; // samples of a curve
-const MOST = 16; // topics at once, as the server has it
+const MAX_SAMPLES = 3000; // samples of a curve
+const MAX_TOPICS = 16; // topics at once, the limit of the server
 
 export interface TopicMessage {
   type: "topic";
@@ -18,8 +18,8 @@ export class Topics {
   private readonly cards = new Map<string, Card>();
   private types: Record<string, string> = {};
 
-  /** `ask` tells the simulation which topics are wanted. */
-  constructor(private readonly ask: (names: string[]) => void) {
+  /** `request` sends the requested topics to the simulation. */
+  constructor(private readonly request: (names: string[]) => void) {
     const choice = element<HTMLSelectElement>("topic");
     choice.addEventListener("change", () => {
       this.add(choice.value);
@@ -27,7 +27,7 @@ export class Topics {
     });
   }
 
-  /** Take the names and types of all topics. */
+  /** Set the names and types of all topics. */
   list(topics: [name: string, type: string][]): void {
     this.types = Object.fromEntries(topics);
     const choice = element<HTMLSelectElement>("topic");
@@ -36,11 +36,11 @@ export class Topics {
     element("topics-box").hidden = !topics.length;
   }
 
-  hear(message: TopicMessage): void {
-    this.cards.get(message.name)?.hear(message);
+  showMessage(message: TopicMessage): void {
+    this.cards.get(message.name)?.showMessage(message);
   }
 
-  /** Draw the curves of all topics that are shown. */
+  /** Draw the curves of all shown topics. */
   show(time: number): void {
     for (const card of this.cards.values()) card.show(time);
   }
@@ -50,14 +50,14 @@ export class Topics {
   }
 
   add(name: string): void {
-    if (!name || this.cards.has(name) || this.cards.size >= MOST) return;
+    if (!name || this.cards.has(name) || this.cards.size >= MAX_TOPICS) return;
     const card = new Card(name, this.types[name] ?? "", () => {
       this.cards.delete(name);
-      this.ask([...this.cards.keys()]);
+      this.request([...this.cards.keys()]);
     });
     this.cards.set(name, card);
     element("topics").append(card.box);
-    this.ask([...this.cards.keys()]);
+    this.request([...this.cards.keys()]);
   }
 }
 
@@ -66,9 +66,9 @@ class Card {
   readonly curves: Curves;
   private readonly rows = new Map<string, { row: HTMLElement; value: HTMLElement }>();
   private readonly samples = new Map<string, Samples>();
-  private readonly chosen = new Set<string>();
+  private readonly selection = new Set<string>();
   private readonly table = make("div", "", "fields");
-  private readonly note = make("p", "No message yet. A topic that no program reads may be silent.", "none");
+  private readonly note = make("p", "No message yet. A topic without a subscriber may have none.", "none");
 
   constructor(name: string, type: string, close: () => void) {
     const [head, button, plots] = [make("h3"), make("button", "×"), make("div")];
@@ -85,13 +85,13 @@ class Card {
     this.curves = new Curves(plots, () => {});
   }
 
-  hear({ time, fields, is_cut }: TopicMessage): void {
+  showMessage({ time, fields, is_cut }: TopicMessage): void {
     this.note.textContent = is_cut ? "The first fields of the message:" : "";
     this.note.hidden = !is_cut;
     for (const [path, value] of fields) {
       const isFirst = this.samples.size === 0;
-      if (typeof value === "number") this.keep(path, time, value);
-      if (isFirst && this.samples.size) this.chosen.add(path);
+      if (typeof value === "number") this.store(path, time, value);
+      if (isFirst && this.samples.size) this.selection.add(path);
       const row = this.rows.get(path) ?? this.row(path, typeof value === "number");
       row.value.textContent = typeof value === "number" ? String(Number(value.toPrecision(6))) : (value ?? "–");
     }
@@ -99,19 +99,19 @@ class Card {
   }
 
   show(time: number): void {
-    const chosen = [...this.samples].filter(([path]) => this.chosen.has(path));
-    this.curves.show(time, chosen.map(([, samples]) => samples));
+    const entries = [...this.samples].filter(([path]) => this.selection.has(path));
+    this.curves.show(time, entries.map(([, samples]) => samples));
   }
 
-  private keep(path: string, time: number, value: number): void {
+  private store(path: string, time: number, value: number): void {
     let samples = this.samples.get(path);
     if (!samples) this.samples.set(path, (samples = { name: path, unit: "", times: [], values: [] }));
     if (time <= (samples.times.at(-1) ?? -1)) return;
     samples.times.push(time);
     samples.values.push(value);
-    if (samples.times.length <= LONGEST) return;
-    samples.times.splice(0, LONGEST / 2);
-    samples.values.splice(0, LONGEST / 2);
+    if (samples.times.length <= MAX_SAMPLES) return;
+    samples.times.splice(0, MAX_SAMPLES / 2);
+    samples.values.splice(0, MAX_SAMPLES / 2);
   }
 
   private row(path: string, isNumber: boolean): { row: HTMLElement; value: HTMLElement } {
@@ -120,18 +120,18 @@ class Card {
     if (isNumber) {
       row.title = "Show or hide its curve";
       row.addEventListener("click", () => {
-        if (!this.chosen.delete(path)) this.chosen.add(path);
+        if (!this.selection.delete(path)) this.selection.add(path);
         this.mark();
       });
     }
     this.table.append(row);
-    const made = { row, value };
-    this.rows.set(path, made);
-    return made;
+    const cells = { row, value };
+    this.rows.set(path, cells);
+    return cells;
   }
 
   private mark(): void {
     for (const [path, { row }] of this.rows)
-      if (row instanceof HTMLButtonElement) row.setAttribute("aria-pressed", String(this.chosen.has(path)));
+      if (row instanceof HTMLButtonElement) row.setAttribute("aria-pressed", String(this.selection.has(path)));
   }
 }

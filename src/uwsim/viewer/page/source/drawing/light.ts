@@ -6,17 +6,17 @@ import {
 import type { Piece } from "../models";
 import { Programs } from "./shaders";
 import type { Slots } from "./slots";
-import { fit, inView, TO_TEXTURE } from "./visibility";
+import { fit, findVisible, TO_TEXTURE } from "./visibility";
 
-const SMALL = 512;
-const LARGE = 1024;
+const SMALL_MAP = 512;
+const LARGE_MAP = 1024;
 const FINE_TEXEL = 0.008;
 const TILE = 512;
 const MAX_HALF_ANGLE = (80 * Math.PI) / 180;
 const LAMP_MARGIN = 1.02;
-const LONGEST_SIDE = 1024;
+const MAX_SIDE = 1024;
 
-export interface ShiningLamp {
+export interface ActiveLamp {
   lamp: Lamp;
   place: Matrix;
 }
@@ -49,7 +49,7 @@ export class DepthMap {
     this.begin(0, 0, width, height);
   }
 
-  /** Clear a part of it, and draw there from now on. */
+  /** Clear a part of the map, and draw there from now on. */
   begin(x: number, y: number, width: number, height: number): void {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.buffer);
@@ -63,7 +63,7 @@ export class DepthMap {
   }
 }
 
-/** Draws the depth of casters, and keeps what the shaders need of the maps. */
+/** The depth maps of shadow casters, and the numbers that the shaders need of them. */
 export class Shadows {
   private readonly suns: Record<number, DepthMap>;
   sunMap: DepthMap;
@@ -79,16 +79,17 @@ export class Shadows {
     private readonly programs: Programs,
     private readonly slots: Slots,
   ) {
-    this.suns = { [SMALL]: new DepthMap(gl, SMALL, SMALL), [LARGE]: new DepthMap(gl, LARGE, LARGE) };
-    this.sunMap = this.suns[SMALL];
+    const maps = [SMALL_MAP, LARGE_MAP].map((size) => [size, new DepthMap(gl, size, size)]);
+    this.suns = Object.fromEntries(maps) as Record<number, DepthMap>;
+    this.sunMap = this.suns[SMALL_MAP];
   }
 
   castSun(casters: Piece[], sun: number[], version: number): void {
-    const key = `${version} ${sun} ${casters.map((p) => `${p.instance.number}.${p.first}`)}`;
+    const key = `${version} ${sun} ${casters.map((p) => `${p.instance.number}.${p.firstIndex}`)}`;
     if (key === this.sunKey) return;
     this.sunKey = key;
     const [clip, edge] = fit(casters, sun);
-    const size = edge / SMALL <= FINE_TEXEL ? SMALL : LARGE;
+    const size = edge / SMALL_MAP <= FINE_TEXEL ? SMALL_MAP : LARGE_MAP;
     this.sunMap = this.suns[size];
     this.textureFromWorld = product(TO_TEXTURE, clip);
     this.lift = (1.5 * edge) / size;
@@ -96,7 +97,7 @@ export class Shadows {
     this.draw(casters, clip);
   }
 
-  castLamps(lamps: ShiningLamp[], pieces: Piece[], version: number): void {
+  castLamps(lamps: ActiveLamp[], pieces: Piece[], version: number): void {
     this.lampMaps ??= new DepthMap(this.gl, 2 * TILE, 2 * TILE);
     lamps.forEach(({ lamp, place }, tile) => {
       const key = lamp.shadow ? `${version} ${lamp.half_angle} ${place}` : "none";
@@ -115,7 +116,7 @@ export class Shadows {
 
   private castFrom(place: Matrix, lens: Lens, pieces: Piece[]): void {
     const clip = clipFromCamera(lens, true);
-    const casters = inView(pieces, { worldFromCamera: place, clip, lens });
+    const casters = findVisible(pieces, { worldFromCamera: place, clip, lens });
     this.draw(casters.filter(isOpaque), product(clip, inverse(place)), true);
   }
 
@@ -143,7 +144,7 @@ function lampLens(lamp: Lamp): Lens {
 }
 
 export function projectorLens(projector: Projector, columns: number, rows: number): Lens {
-  const scale = LONGEST_SIDE / Math.max(rows, columns);
+  const scale = MAX_SIDE / Math.max(rows, columns);
   const width = Math.max(1, Math.round(scale * columns));
   const height = Math.max(1, Math.round(scale * rows));
   const half = Math.tan(projector.fovy / 2);
@@ -153,8 +154,8 @@ export function projectorLens(projector: Projector, columns: number, rows: numbe
   };
 }
 
-/** The block Lamps, for four lamps. */
-export function lampBlock(lamps: ShiningLamp[], worldFromCamera: Matrix): Float32Array<ArrayBuffer> {
+/** Return the uniform block Lamps, for four lamps. */
+export function lampBlock(lamps: ActiveLamp[], worldFromCamera: Matrix): Float32Array<ArrayBuffer> {
   const block = new Float32Array(4 * 16 + 3 * 16);
   const cameraFromWorld = inverse(worldFromCamera);
   lamps.forEach(({ lamp, place }, tile) => {
@@ -163,18 +164,18 @@ export function lampBlock(lamps: ShiningLamp[], worldFromCamera: Matrix): Float3
     const map = product(tileFromClip, clipFromCamera(lampLens(lamp), true));
     block.set(columns(product(product(map, inverse(place)), worldFromCamera)), 16 * tile);
     const cameraFromLamp = product(cameraFromWorld, place);
-    const outer = Math.cos(lamp.half_angle);
-    const inner = Math.cos((1 - lamp.softness) * lamp.half_angle);
+    const cosOuter = Math.cos(lamp.half_angle);
+    const cosInner = Math.cos((1 - lamp.softness) * lamp.half_angle);
     const texel = (2 * LAMP_MARGIN * Math.tan(lamp.half_angle)) / TILE;
     const m = cameraFromLamp;
-    block.set([...origin(m), outer], 64 + 4 * tile);
-    block.set([m[2], m[6], m[10], 1 / Math.max(inner - outer, 1e-5)], 80 + 4 * tile);
+    block.set([...origin(m), cosOuter], 64 + 4 * tile);
+    block.set([m[2], m[6], m[10], 1 / Math.max(cosInner - cosOuter, 1e-5)], 80 + 4 * tile);
     block.set([...lamp.colour.map((c) => c * lamp.intensity), 1.5 * texel], 96 + 4 * tile);
   });
   return block;
 }
 
-/** The block Projector. */
+/** Return the uniform block Projector. */
 export function projectorBlock(
   projector: Projector, place: Matrix, lens: Lens, worldFromCamera: Matrix,
 ): Float32Array<ArrayBuffer> {

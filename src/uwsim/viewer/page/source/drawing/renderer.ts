@@ -1,33 +1,33 @@
 // Draws a scene through its water as uwsim.rendering.renderer does, with the same shaders.
 import type { Head, Water } from "../head";
 import {
-  clipFromCamera, columns, inverse, matrix, origin, product, turnedBack, unit, type Lens, type Matrix,
+  clipFromCamera, columns, inverse, matrix, origin, product, rotateBack, unit, type Lens, type Matrix,
 } from "../geometry";
 import {
-  isOpaque, lampBlock, projectorBlock, projectorLens, Shadows, type ShiningLamp,
+  isOpaque, lampBlock, projectorBlock, projectorLens, Shadows, type ActiveLamp,
 } from "./light";
 import type { Models, Piece } from "../models";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
 import { Slots } from "./slots";
-import { inView, needsNoCopies, reaching, type Eye } from "./visibility";
+import { findVisible, needsNoMipmaps, reachingCasters, type Eye } from "./visibility";
 
 const MAX_CASTER_RADIUS = 5;
 const MAX_LAMPS = 4;
 
-/** Whether the processor draws, and no graphics processor. */
+/** Return true if the CPU draws, and no GPU. */
 export function isSoftware(gl: WebGL2RenderingContext): boolean {
   const name = gl.getExtension("WEBGL_debug_renderer_info");
   const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
   return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
 }
 
-/** What an image depends on besides the poses. */
-export interface Look {
+/** The state that determines an image, besides the poses. */
+export interface RenderState {
   worldFromCamera: Matrix;
   lens: Lens;
   water: Water;
-  lamps: ShiningLamp[];
-  /** Above the water there is air, and ghosts are seen: the view of an observer. */
+  lamps: ActiveLamp[];
+  /** The view of an observer: it has air above the water, and ghosts are visible. */
   observer: boolean;
   /** The image is that of a grey camera. */
   grey?: boolean;
@@ -39,7 +39,7 @@ export class Renderer {
   private readonly slots: Slots;
   private readonly shadows: Shadows;
   private readonly blocks: Record<string, WebGLBuffer> = {};
-  private readonly close: WebGLSampler[];
+  private readonly samplers: WebGLSampler[];
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -50,7 +50,7 @@ export class Renderer {
     this.programs = new Programs(gl);
     this.slots = new Slots(gl, models);
     this.shadows = new Shadows(gl, this.programs, this.slots);
-    this.close = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
+    this.samplers = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
       const sampler = gl.createSampler();
       gl.samplerParameteri(sampler, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
       gl.samplerParameteri(sampler, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
@@ -61,26 +61,26 @@ export class Renderer {
   }
 
   /** Draw into a part of a framebuffer (null: the canvas), x and y from its lower left [px]. */
-  draw(look: Look, target: WebGLFramebuffer | null, place: [number, number], isFlipped = false): void {
+  draw(state: RenderState, target: WebGLFramebuffer | null, place: [number, number], isFlipped = false): void {
     const { gl, models } = this;
-    const { worldFromCamera, lens, water } = look;
+    const { worldFromCamera, lens, water } = state;
     const clip = clipFromCamera(lens, isFlipped);
     const eye: Eye = { worldFromCamera, clip, lens };
     const pieces = models.instances
-      .filter((each) => look.observer || !each.visual.hidden)
-      .flatMap((each) => each.pieces);
-    const seen = inView(pieces, eye);
+      .filter((piece) => state.observer || !piece.visual.hidden)
+      .flatMap((piece) => piece.pieces);
+    const visiblePieces = findVisible(pieces, eye);
     const switches: Switches = { COLOUR: 0 };
     if (water.fog === 0) switches.NO_FOG = 1;
-    else if (water.clip && !look.observer) switches.FOG_CLIP = 1;
-    if (look.grey) switches.GREY = 1;
-    if (look.observer) Object.assign(switches, { AIR: 1, POLISHED: 1 });
-    if (look.observer && !this.isSoftware) switches.SOFT = 1;
+    else if (water.clip && !state.observer) switches.FOG_CLIP = 1;
+    if (state.grey) switches.GREY = 1;
+    if (state.observer) Object.assign(switches, { AIR: 1, POLISHED: 1 });
+    if (state.observer && !this.isSoftware) switches.SOFT = 1;
     const sun = unit(this.head.suns[water.sun].direction);
-    const shaded = water.shadows && this.castSun(pieces, seen, sun, eye);
-    if (shaded) switches.SHADOWS = 1;
-    this.shine(look, pieces, switches);
-    this.fillFrame(look, clip, sun);
+    const hasShadows = water.shadows && this.castSun(pieces, visiblePieces, sun, eye);
+    if (hasShadows) switches.SHADOWS = 1;
+    this.lightScene(state, pieces, switches);
+    this.fillFrame(state, clip, sun);
     this.slots.fill(inverse(worldFromCamera), rotationOf(worldFromCamera));
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(place[0], place[1], lens.width, lens.height);
@@ -91,12 +91,12 @@ export class Renderer {
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LEQUAL);
     gl.disable(gl.BLEND);
-    for (const piece of seen.filter(isOpaque)) this.drawPiece(piece, eye, switches, isFlipped);
-    this.drawBackground(look.grey ? { COLOUR: 0, GREY: 1 } : { COLOUR: 0 });
+    for (const piece of visiblePieces.filter(isOpaque)) this.drawPiece(piece, eye, switches, isFlipped);
+    this.drawBackground(state.grey ? { COLOUR: 0, GREY: 1 } : { COLOUR: 0 });
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.depthMask(false);
-    for (const piece of seen.filter((each) => !isOpaque(each)).reverse()) {
+    for (const piece of visiblePieces.filter((piece) => !isOpaque(piece)).reverse()) {
       const opacity = Math.round(255 * piece.instance.visual.opacity);
       if (opacity > 0) this.drawPiece(piece, eye, { ...switches, OPACITY: opacity }, isFlipped);
     }
@@ -106,33 +106,33 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  private castSun(pieces: Piece[], seen: Piece[], sun: number[], eye: Eye): boolean {
-    const possible = pieces.filter(
-      (each) => isOpaque(each) && this.models.radius(each.instance) <= MAX_CASTER_RADIUS,
+  private castSun(pieces: Piece[], visiblePieces: Piece[], sun: number[], eye: Eye): boolean {
+    const candidates = pieces.filter(
+      (piece) => isOpaque(piece) && this.models.radius(piece.instance) <= MAX_CASTER_RADIUS,
     );
-    const casters = reaching(possible, seen, sun, eye);
+    const casters = reachingCasters(candidates, visiblePieces, sun, eye);
     if (casters.length) this.shadows.castSun(casters, sun, this.models.version);
     this.bind(UNITS.shadow_map, this.shadows.sunMap.texture);
     return casters.length > 0;
   }
 
-  private shine(look: Look, pieces: Piece[], switches: Switches): void {
-    const lamps = look.lamps.slice(0, MAX_LAMPS);
+  private lightScene(state: RenderState, pieces: Piece[], switches: Switches): void {
+    const lamps = state.lamps.slice(0, MAX_LAMPS);
     if (lamps.length) {
       switches.LAMPS = lamps.length;
       this.shadows.castLamps(lamps, pieces, this.models.version);
       this.bind(UNITS.lamp_maps, this.shadows.lampMaps!.texture);
-      this.fill("Lamps", lampBlock(lamps, look.worldFromCamera));
+      this.fill("Lamps", lampBlock(lamps, state.worldFromCamera));
     }
     const { projector } = this.head;
     if (!projector) return;
     switches.PROJECTOR = 1;
     const { width, height } = this.head.textures[projector.pattern];
-    const [place, lens] = [this.models.mounted(projector), projectorLens(projector, width, height)];
+    const [place, lens] = [this.models.worldFromMount(projector), projectorLens(projector, width, height)];
     this.shadows.castProjector(place, lens, pieces);
     this.bind(UNITS.projector_map, this.shadows.projectorMap!.texture);
     this.bind(UNITS.projector_pattern, this.models.patterns[0]);
-    this.fill("Projector", projectorBlock(projector, place, lens, look.worldFromCamera));
+    this.fill("Projector", projectorBlock(projector, place, lens, state.worldFromCamera));
   }
 
   private drawPiece(piece: Piece, eye: Eye, switches: Switches, isFlipped: boolean): void {
@@ -140,7 +140,7 @@ export class Renderer {
     const { texture, repeats } = piece.instance;
     if (texture) {
       this.bind(UNITS.base_map, texture);
-      gl.bindSampler(UNITS.base_map, needsNoCopies(piece, eye) ? this.close[Number(repeats)] : null);
+      gl.bindSampler(UNITS.base_map, needsNoMipmaps(piece, eye) ? this.samplers[Number(repeats)] : null);
     }
     gl.useProgram(this.programs.get("surface", texture ? { ...switches, TEXTURED: 1 } : switches));
     this.slots.drawPiece(piece, isFlipped);
@@ -155,22 +155,22 @@ export class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  private fillFrame({ worldFromCamera: m, lens, water }: Look, clip: Matrix, sun: number[]): void {
+  private fillFrame({ worldFromCamera: m, lens, water }: RenderState, clip: Matrix, sun: number[]): void {
     const { near, far } = lens;
-    const { ambient, specular, suns } = this.head;
+    const { ambient: ambientLight, specular, suns } = this.head;
     const rate = water.light_rate;
-    const scattered = water.follows_light === false ? 1 : rate;
+    const waterRate = water.follows_light === false ? 1 : rate;
     const [water_colour, fog_colour] = [water.colour, water.fog_colour].map((colour) =>
-      colour.map((c) => scattered * c),
+      colour.map((c) => waterRate * c),
     );
     const far_colour = water.fog > 0 ? fog_colour : water_colour;
     this.fill("Frame", Float32Array.from([
       ...columns(clip),
       ...columns(product(this.shadows.textureFromWorld, m)),
       m[8], m[9], m[10], origin(m)[2] - water.surface_height,
-      ...turnedBack(m, sun), this.shadows.lift,
+      ...rotateBack(m, sun), this.shadows.lift,
       ...suns[water.sun].colour.map((c) => rate * c), 0,
-      rate * ambient, rate * specular, 0, 0,
+      rate * ambientLight, rate * specular, 0, 0,
       ...water_colour, 0,
       ...water.attenuation, 0,
       ...fog_colour, water.fog ** 2,

@@ -1,4 +1,4 @@
-// The renderer's own shader files, compiled for WebGL2; uwsim.rendering.program does the same.
+// The shader files of the renderer, compiled for WebGL2, as in uwsim.rendering.program.
 import backgroundFragment from "../../../../rendering/shaders/background.frag.glsl";
 import backgroundVertex from "../../../../rendering/shaders/background.vert.glsl";
 import frame from "../../../../rendering/shaders/frame.glsl";
@@ -45,9 +45,9 @@ precision highp int;
 precision highp sampler2D;
 precision highp sampler2DShadow;
 `;
-/** Binding of each uniform block. */
+/** The binding of each uniform block. */
 export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3 };
-/** Texture unit of each sampler. */
+/** The texture unit of each sampler. */
 export const UNITS: Record<string, number> = {
   base_map: 0,
   shadow_map: 1,
@@ -55,32 +55,30 @@ export const UNITS: Record<string, number> = {
   projector_map: 3,
   projector_pattern: 4,
 };
-/** Location of each attribute. */
+/** The location of each attribute. */
 export const ATTRIBUTES: Record<string, number> = { vertex: 0, vertex_normal: 1, uv: 2, tint: 3 };
 
 export type Switches = Record<string, number>;
 
 export class Programs {
-  private readonly known = new Map<string, WebGLProgram>();
+  private readonly programs = new Map<string, WebGLProgram>();
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
   get(effect: string, switches: Switches): WebGLProgram {
     const key = effect + JSON.stringify(switches);
-    const known = this.known.get(key);
-    if (known) return known;
-    const made = build(this.gl, effect, switches);
-    this.known.set(key, made);
-    return made;
+    let program = this.programs.get(key);
+    if (!program) this.programs.set(key, (program = build(this.gl, effect, switches)));
+    return program;
   }
 }
 
-function source(file: string, seen: Set<string>): string {
-  if (seen.has(file)) return "";
-  seen.add(file);
+function source(file: string, includes: Set<string>): string {
+  if (includes.has(file)) return "";
+  includes.add(file);
   const text = FILES[file];
   if (text === undefined) throw new Error(`no shader file ${file}`);
-  return text.replace(/^#include "([\w.]+)"$/gm, (_, name: string) => source(name, seen));
+  return text.replace(/^#include "([\w.]+)"$/gm, (_, name: string) => source(name, includes));
 }
 
 function build(gl: WebGL2RenderingContext, effect: string, switches: Switches): WebGLProgram {
@@ -98,7 +96,7 @@ function build(gl: WebGL2RenderingContext, effect: string, switches: Switches): 
   for (const [name, place] of Object.entries(ATTRIBUTES)) gl.bindAttribLocation(program, place, name);
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
-    const logs = (gl.getAttachedShaders(program) ?? []).map((each) => gl.getShaderInfoLog(each));
+    const logs = (gl.getAttachedShaders(program) ?? []).map((shader) => gl.getShaderInfoLog(shader));
     throw new Error(`${effect}: ${gl.getProgramInfoLog(program)} ${logs.join(" ")}`);
   }
   gl.useProgram(program);

@@ -1,4 +1,4 @@
-// Where the instances of a scene lie, as the shaders read it.
+// The poses of the instances of a scene, in the uniform blocks of the shaders.
 import { columns, product, type Matrix } from "../geometry";
 import type { Models, Piece } from "../models";
 import { BLOCKS } from "./shaders";
@@ -19,23 +19,23 @@ export class Slots {
   }
 
   fill(cameraFromWorld: Matrix, rotation?: Matrix): void {
-    this.models.instances.forEach((each, i) => {
-      const at = (STRIDE / 4) * i;
-      this.values.set(columns(product(cameraFromWorld, each.worldFromMesh)), at);
-      if (rotation) this.values.set(columns(product(rotation, each.normals)), at + 16);
+    this.models.instances.forEach((instance, i) => {
+      const offset = (STRIDE / 4) * i;
+      this.values.set(columns(product(cameraFromWorld, instance.worldFromMesh)), offset);
+      if (rotation) this.values.set(columns(product(rotation, instance.normals)), offset + 16);
     });
     this.gl.bindBuffer(this.gl.UNIFORM_BUFFER, this.buffer);
     this.gl.bufferData(this.gl.UNIFORM_BUFFER, this.values, this.gl.STREAM_DRAW);
   }
 
-  drawPiece({ instance, first, count }: Piece, isFlipped: boolean): void {
+  drawPiece({ instance, firstIndex, count }: Piece, isFlipped: boolean): void {
     const gl = this.gl;
     if (instance.visual.two_sided) gl.disable(gl.CULL_FACE);
     else gl.enable(gl.CULL_FACE);
     gl.frontFace(instance.isMirrored !== isFlipped ? gl.CW : gl.CCW);
     gl.bindBufferRange(gl.UNIFORM_BUFFER, BLOCKS.Instance, this.buffer, STRIDE * instance.number, 160);
     gl.bindVertexArray(instance.array);
-    const [kind, size] = instance.wide ? [gl.UNSIGNED_INT, 4] : [gl.UNSIGNED_SHORT, 2];
-    gl.drawElements(gl.TRIANGLES, count, kind, size * first);
+    const [kind, size] = instance.hasWideIndices ? [gl.UNSIGNED_INT, 4] : [gl.UNSIGNED_SHORT, 2];
+    gl.drawElements(gl.TRIANGLES, count, kind, size * firstIndex);
   }
 }

@@ -1,7 +1,7 @@
-// What a camera sees and what casts a shadow on it, as uwsim.rendering.instance, sun_shadow and
-// minification decide: the same pieces, the same maps.
+// The pieces that a camera sees and those that cast a shadow on them, as in
+// uwsim.rendering.instance, sun_shadow and minification.
 import {
-  cross, dot, matrix, origin, plus, transform, turnedBack, unit, inverse, type Lens, type Matrix,
+  cross, dot, matrix, origin, plus, transform, rotateBack, unit, inverse, type Lens, type Matrix,
 } from "../geometry";
 import type { Piece } from "../models";
 
@@ -17,7 +17,7 @@ const MAX_TEXELS = Math.SQRT2;
 const TO_TEXTURE = matrix([0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
 export { TO_TEXTURE };
 
-/** The six planes of the visible volume in the camera's frame, n . p + d >= 0 inside. */
+/** Return the six planes of the frustum in the camera's frame, n . p + d >= 0 inside. */
 function frustum(clip: Matrix): number[][] {
   const rows = [0, 4, 8, 12].map((i) => [clip[i], clip[i + 1], clip[i + 2], clip[i + 3]]);
   const planes = [1, -1].flatMap((sign) =>
@@ -29,28 +29,28 @@ function frustum(clip: Matrix): number[][] {
   });
 }
 
-/** Pieces whose bounds reach into the frustum, near ones first. */
-export function inView(pieces: Piece[], eye: Eye): Piece[] {
+/** Return the pieces whose bounds reach into the frustum, near ones first. */
+export function findVisible(pieces: Piece[], eye: Eye): Piece[] {
   const planes = frustum(eye.clip);
   const cameraFromWorld = inverse(eye.worldFromCamera);
-  const seen: [number, Piece][] = [];
+  const visiblePieces: [number, Piece][] = [];
   for (const piece of pieces) {
     const centre = transform(cameraFromWorld, piece.centre);
     if (!planes.every((p) => dot(p, centre) + p[3] + piece.radius > 0)) continue;
     const corners = piece.corners.map((corner) => transform(cameraFromWorld, corner));
     if (!planes.every((p) => corners.some((corner) => dot(p, corner) + p[3] > 0))) continue;
-    seen.push([Math.hypot(...centre) + piece.radius, piece]);
+    visiblePieces.push([Math.hypot(...centre) + piece.radius, piece]);
   }
-  return seen.sort((a, b) => a[0] - b[0]).map(([, piece]) => piece);
+  return visiblePieces.sort((a, b) => a[0] - b[0]).map(([, piece]) => piece);
 }
 
-/** Which of the casters may cast a shadow on any of the pieces that are seen. */
-export function reaching(casters: Piece[], seen: Piece[], sun: number[], eye: Eye): Piece[] {
-  const frame = along(sun);
+/** Return the casters that may cast a shadow on a visible piece. */
+export function reachingCasters(casters: Piece[], entries: Piece[], sun: number[], eye: Eye): Piece[] {
+  const frame = shadowAxes(sun);
   const place = origin(eye.worldFromCamera);
   const back = [eye.worldFromCamera[2], eye.worldFromCamera[6], eye.worldFromCamera[10]];
   const rays = cornerRays(eye);
-  const lit = seen.map((piece) => {
+  const litBoxes = entries.map((piece) => {
     const depths = piece.corners.map((corner) => dot(plus(place, corner, -1), back));
     const ends = [Math.max(0, Math.min(...depths)), Math.max(0, Math.max(...depths))];
     const slice = ends.flatMap((end) => rays.map((ray) => plus(place, ray, end)));
@@ -58,16 +58,16 @@ export function reaching(casters: Piece[], seen: Piece[], sun: number[], eye: Ey
     return box.map(([low, high], i) => [Math.max(low, cut[i][0]), Math.min(high, cut[i][1])]);
   });
   return casters.filter((caster) => {
-    const own = bounds(caster.corners, frame);
-    return lit.some(
+    const casterBox = bounds(caster.corners, frame);
+    return litBoxes.some(
       (box) =>
-        [0, 1].every((i) => own[i][0] <= box[i][1] + MARGIN && own[i][1] >= box[i][0] - MARGIN) &&
-        own[2][1] >= box[2][0] - MARGIN,
+        [0, 1].every((i) => casterBox[i][0] <= box[i][1] + MARGIN && casterBox[i][1] >= box[i][0] - MARGIN) &&
+        casterBox[2][1] >= box[2][0] - MARGIN,
     );
   });
 }
 
-function along(sun: number[]): number[][] {
+function shadowAxes(sun: number[]): number[][] {
   if (sun[2] < LOW_SUN) return [...axesOf(sun), sun];
   return [[1, 0, -sun[0] / sun[2]], [0, 1, -sun[1] / sun[2]], sun];
 }
@@ -79,7 +79,7 @@ function bounds(points: number[][], frame: number[][]): [number, number][] {
   });
 }
 
-/** Towards the corners of the image, 1 m deep, in W. */
+/** Return the rays to the corners of the image, 1 m deep, in W. */
 function cornerRays({ clip, worldFromCamera: m }: Eye): number[][] {
   const corners = [[-1, -1], [-1, 1], [1, -1], [1, 1]];
   return corners.map(([u, v]) => {
@@ -91,11 +91,11 @@ function cornerRays({ clip, worldFromCamera: m }: Eye): number[][] {
 
 function axesOf(sun: number[]): [number[], number[]] {
   const down = [-sun[0], -sun[1], -sun[2]];
-  const aside = unit(cross(down, Math.abs(sun[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
-  return [aside, cross(aside, down)];
+  const sideAxis = unit(cross(down, Math.abs(sun[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
+  return [sideAxis, cross(sideAxis, down)];
 }
 
-/** The sun's orthographic camera round all casters, and the edge of its view [m]. */
+/** Return the sun's orthographic camera round all casters, and the edge of its view [m]. */
 export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
   const axes = [...axesOf(sun), [-sun[0], -sun[1], -sun[2]]];
   const low = [Infinity, Infinity, Infinity];
@@ -106,7 +106,7 @@ export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
       high[i] = Math.max(high[i], dot(axis, centre) + radius);
     });
   const half = Math.max(high[0] - low[0], high[1] - low[1]) / 2;
-  const reach = 20; // [m] below the casters where shadows still fall
+  const reach = 20; // of shadows below the casters [m]
   const scale = [1 / half, 1 / half, 2 / (high[2] + reach - low[2])];
   const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (high[2] + reach + low[2]) / 2];
   const rows = axes.flatMap((axis, i) => [
@@ -115,18 +115,18 @@ export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
   return [matrix([...rows, 0, 0, 0, 1]), 2 * half];
 }
 
-/** Whether a piece looks right without the smaller copies of its texture. */
-export function needsNoCopies(piece: Piece, eye: Eye): boolean {
+/** Return true if a piece needs no mipmaps of its texture at this distance. */
+export function needsNoMipmaps(piece: Piece, eye: Eye): boolean {
   if (!(piece.density > 0) || dot(piece.normal, piece.normal) === 0) return false;
   const cameraFromWorld = inverse(eye.worldFromCamera);
   const points = piece.corners.map((corner) => transform(cameraFromWorld, corner));
-  const facing = turnedBack(eye.worldFromCamera, piece.normal);
+  const normal = rotateBack(eye.worldFromCamera, piece.normal);
   const depths = points.map((point) => -point[2]);
   if (Math.min(...depths) <= 0) return false;
-  const away = Math.min(...points.map((point) => Math.abs(dot(facing, point))));
-  const farthest = Math.max(...points.map((point) => Math.hypot(...point)));
-  const leaning = Math.hypot(facing[0], facing[1]);
+  const distance = Math.min(...points.map((point) => Math.abs(dot(normal, point))));
+  const maxDistance = Math.max(...points.map((point) => Math.hypot(...point)));
+  const tilt = Math.hypot(normal[0], normal[1]);
   const focal = Math.min(eye.lens.fx, eye.lens.fy);
-  const footprint = (Math.max(...depths) / focal) * (1 + (leaning * farthest) / away);
+  const footprint = (Math.max(...depths) / focal) * (1 + (tilt * maxDistance) / distance);
   return piece.density * footprint <= MAX_TEXELS;
 }
